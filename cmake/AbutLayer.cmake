@@ -1,0 +1,97 @@
+# abut_layer(<name> SOURCES ... HEADERS ... [DEPENDS layers...] [PUBLIC targets...] [PRIVATE targets...])
+#
+# One library a layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
+# relative to the layer's folder. HEADERS become a file set that is installed under include/abut/<name> and whose members
+# are compiled on their own by the target all_verify_interface_header_sets. DEPENDS are lower layers. PRIVATE are the back
+# ends, which no user ever sees; cmake/AbutDependencies.cmake finds their packages.
+#
+# abut_install_package() once, after the layers: what find_package(abut) reads.
+
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(abut_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/abut)
+
+add_library(abut_compile_options INTERFACE)
+target_compile_features(abut_compile_options INTERFACE cxx_std_20)
+# Same bits everywhere a compiler is free to choose: no contraction of a*b+c, no reassociation.
+# No interposition: calls between functions of one shared library are inlined as in a static one.
+target_compile_options(abut_compile_options INTERFACE
+  -ffp-contract=off -fno-fast-math -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow
+  $<$<BOOL:${ABUT_WERROR}>:-Werror>
+  $<$<BOOL:${ABUT_NATIVE}>:-march=native>)
+if(ABUT_SANITIZE)
+  target_compile_options(abut_compile_options INTERFACE -fsanitize=${ABUT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(abut_compile_options INTERFACE -fsanitize=${ABUT_SANITIZE})
+endif()
+
+function(abut_layer name)
+  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;DEPENDS;PUBLIC;PRIVATE")
+  set(target abut_${name})
+  add_library(${target} ${layer_SOURCES})
+  add_library(abut::${name} ALIAS ${target})
+
+  # Through the link include/abut, so that a header is found as "abut/<layer>/<name>.hpp" here and where it is installed.
+  set(headers "")
+  foreach(header IN LISTS layer_HEADERS)
+    cmake_path(ABSOLUTE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut/${name})
+    list(APPEND headers ${header})
+  endforeach()
+  target_sources(${target} PUBLIC FILE_SET HEADERS
+    BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers})
+
+  list(TRANSFORM layer_DEPENDS PREPEND abut:: OUTPUT_VARIABLE lower_layers)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_link_libraries(${target}
+    PUBLIC ${lower_layers} ${layer_PUBLIC}
+    PRIVATE $<BUILD_INTERFACE:abut_compile_options> ${layer_PRIVATE})
+  if(NOT ABUT_SANITIZE)
+    target_link_options(${target} PRIVATE -Wl,--no-undefined)  # found here, not where a user links
+  endif()
+  # Eigen's allocations must not depend on the -march of whoever includes a header.
+  target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
+
+  abut_install_layer(${name} "${layer_DEPENDS}" "${layer_PUBLIC}" "${layer_PRIVATE}")
+  set_property(GLOBAL APPEND PROPERTY abut_layers ${name})
+  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${headers})
+endfunction()
+
+# The library, its headers, its targets and a list of what has to be found before them. A shared library brings its back
+# ends along; one that links a static library has to find them.
+function(abut_install_layer name lower_layers public_targets private_targets)
+  install(TARGETS abut_${name} EXPORT abut_${name} FILE_SET HEADERS)
+  install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake)
+
+  set(needed ${public_targets})
+  get_target_property(type abut_${name} TYPE)
+  if(type STREQUAL STATIC_LIBRARY)
+    list(APPEND needed ${private_targets})
+  endif()
+  set(lines "")
+  foreach(target IN LISTS needed)
+    get_property(package GLOBAL PROPERTY abut_package_of_${target})
+    if(NOT package)
+      message(FATAL_ERROR "abut_layer(${name}): no package is known to bring '${target}'. Add it to cmake/AbutDependencies.cmake.")
+    endif()
+    string(REPLACE ";" " " package "${package}")
+    list(APPEND lines "find_dependency(${package})\n")
+  endforeach()
+  list(REMOVE_DUPLICATES lines)
+  list(JOIN lines "" lines)
+  set(file ${PROJECT_BINARY_DIR}/package/abut-${name}-dependencies.cmake)
+  file(WRITE ${file} "set(abut_${name}_lower_layers ${lower_layers})\n${lines}")
+  install(FILES ${file} DESTINATION ${abut_package_dir})
+endfunction()
+
+function(abut_install_package)
+  get_property(abut_layers GLOBAL PROPERTY abut_layers)
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in
+    ${PROJECT_BINARY_DIR}/package/abutConfig.cmake INSTALL_DESTINATION ${abut_package_dir})
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/package/abutConfig.cmake ${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake DESTINATION ${abut_package_dir})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC)
+endfunction()

@@ -1,0 +1,117 @@
+#include "abut/contact/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "abut/contact/pairs.hpp"
+
+namespace abut::contact {
+namespace {
+
+/// Largest sine of the angle between a face and the plane of a pair it takes part in. Between deformable faces the pair
+/// normal halves the angle that facing allows; against a rigid face it is that face's own normal.
+double largest_tilt_sine(double facing_cosine, bool against_rigid) {
+    const double angle = std::acos(-facing_cosine);
+    return std::sin(against_rigid ? angle : 0.5 * angle);
+}
+
+template <int Dim>
+double circumradius(const SurfaceView<Dim>& surface, std::int32_t face) {
+    double radius = 0.0;
+    for (const std::int32_t v : surface.vertices_of(face))
+        radius = std::max(radius, (surface.vertices[v] - surface.centroid[face]).norm());
+    return radius;
+}
+
+struct BodyFaces {
+    std::int32_t body;
+    std::vector<std::int32_t> faces;
+};
+
+template <int Dim>
+std::vector<BodyFaces> faces_by_body(const SurfaceView<Dim>& surface) {
+    std::vector<BodyFaces> bodies;
+    for (std::int32_t face = 0; face < surface.size(); ++face) {
+        const std::int32_t body = surface.body[face];
+        auto place = std::lower_bound(bodies.begin(), bodies.end(), body, [](const BodyFaces& b, std::int32_t id) { return b.body < id; });
+        if (place == bodies.end() || place->body != body) place = bodies.insert(place, {body, {}});
+        place->faces.push_back(face);
+    }
+    return bodies;
+}
+
+template <int Dim>
+class CandidateFinder {
+public:
+    CandidateFinder(const SurfaceView<Dim>& surface, const ContactOptions& options, std::vector<geometry::Box<Dim>> boxes)
+        : surface_(surface), options_(options), boxes_(std::move(boxes)), bodies_(faces_by_body(surface)) {}
+
+    std::vector<geometry::IndexPair> find() {
+        std::vector<std::vector<geometry::Box<Dim>>> body_boxes;
+        for (const BodyFaces& body : bodies_) body_boxes.push_back(select(body.faces));
+        for (std::size_t a = 0; a < bodies_.size(); ++a) {
+            if (options_.self_contact)
+                keep_facing(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a]), a, a);
+            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
+                keep_facing(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a], body_boxes[b]), a, b);
+        }
+        std::sort(found_.begin(), found_.end());
+        return std::move(found_);
+    }
+
+private:
+    std::vector<geometry::Box<Dim>> select(const std::vector<std::int32_t>& faces) const {
+        std::vector<geometry::Box<Dim>> selected;
+        selected.reserve(faces.size());
+        for (const std::int32_t face : faces) selected.push_back(boxes_[face]);
+        return selected;
+    }
+
+    void keep_facing(const std::vector<geometry::IndexPair>& overlapping, std::size_t a, std::size_t b) {
+        for (const auto& [i, j] : overlapping) {
+            const auto [face_1, face_2] = std::minmax(bodies_[a].faces[i], bodies_[b].faces[j]);
+            if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) continue;
+            if (are_facing(surface_, face_1, face_2, options_.facing_cosine)) found_.push_back({face_1, face_2});
+        }
+    }
+
+    const SurfaceView<Dim>& surface_;
+    const ContactOptions& options_;
+    std::vector<geometry::Box<Dim>> boxes_;
+    std::vector<BodyFaces> bodies_;
+    std::vector<geometry::IndexPair> found_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<geometry::Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
+                                            std::span<const Vector<Dim>> u_1, double facing_cosine, double skin) {
+    bool any_rigid = false;
+    for (std::int32_t face = 0; face < surface.size(); ++face) any_rigid = any_rigid || surface.is_rigid(face);
+    const double tilt = largest_tilt_sine(facing_cosine, any_rigid);
+
+    std::vector<geometry::Box<Dim>> boxes(static_cast<std::size_t>(surface.size()));
+    for (std::int32_t face = 0; face < surface.size(); ++face) {
+        for (const std::int32_t v : surface.vertices_of(face)) {
+            boxes[face].extend(surface.vertices[v] + u_0[face]);
+            boxes[face].extend(surface.vertices[v] + u_1[face]);
+        }
+        const double reach = surface.is_rigid(face) ? 0.0 : 2.0 * surface.depth[face] + circumradius(surface, face) * tilt;
+        boxes[face] = boxes[face].grown(reach + 0.5 * skin);
+    }
+    return boxes;
+}
+
+template <int Dim>
+std::vector<geometry::IndexPair> find_candidates(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
+                                                 std::span<const Vector<Dim>> u_1, const ContactOptions& options, double skin) {
+    return CandidateFinder<Dim>(surface, options, swept_boxes(surface, u_0, u_1, options.facing_cosine, skin)).find();
+}
+
+template std::vector<geometry::Box<2>> swept_boxes<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const Vector<2>>, double, double);
+template std::vector<geometry::Box<3>> swept_boxes<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const Vector<3>>, double, double);
+template std::vector<geometry::IndexPair> find_candidates<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const Vector<2>>, const ContactOptions&, double);
+template std::vector<geometry::IndexPair> find_candidates<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const Vector<3>>, const ContactOptions&, double);
+
+}  // namespace abut::contact

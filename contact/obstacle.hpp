@@ -1,0 +1,26 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "abut/contact/surface.hpp"
+
+namespace abut::contact {
+
+/// A rigid body that moves on a given path: it has no energy, so its partner takes the whole correction.
+template <int Dim>
+struct RigidObstacle {
+    std::vector<std::vector<Vector<Dim>>> faces;    ///< corners of each face, outside as in Surface::append [m]
+    std::function<Vector<Dim>(double time)> path;   ///< translation from rest at a time [m]; empty: it stands still
+};
+
+/// A square (3D) or segment (2D) of a plane, half_width in every direction about `point`, facing along `normal`.
+/// Throws std::invalid_argument for a zero normal or a half_width <= 0.
+template <int Dim>
+[[nodiscard]] RigidObstacle<Dim> plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& normal, double half_width,
+                                                std::function<Vector<Dim>(double time)> path = {});
+
+/// Appends the faces of an obstacle to a surface, as the rigid body number `body`.
+template <int Dim>
+void append(Surface<Dim>& surface, const RigidObstacle<Dim>& obstacle, std::int32_t body);
+
+}  // namespace abut::contact

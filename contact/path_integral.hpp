@@ -1,0 +1,125 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/options.hpp"
+#include "abut/contact/pairs.hpp"
+
+namespace abut::contact {
+
+/// How the face forces of a host answer to a correction: y_f = y_free,f + sum_f' Q_ff' delta_f', among the faces of the
+/// current candidate list, in its numbering (`Contact::faces`). Row f holds f itself and all faces that share an energy
+/// term with it: the other boundary faces of its cell, those of cells that share a stabilised interior face with it.
+template <int Dim>
+struct FaceCoupling {
+    std::vector<std::int32_t> offsets{0};  ///< (n + 1)
+    std::vector<std::int32_t> columns;     ///< increasing in each row
+    std::vector<Matrix<Dim>> blocks;       ///< Q_ff' [N/m]
+};
+
+/// What a host says of the listed faces at the two ends of a step; displacements and forces are linear in between.
+template <int Dim>
+struct FacePath {
+    std::span<const Vector<Dim>> displacement_0;  ///< û_f at the start (n) [m]
+    std::span<const Vector<Dim>> displacement_1;  ///< û_f at the end (n) [m]
+    std::span<const Vector<Dim>> force_0;         ///< y_free,f = dV/dũ_f at ũ = û, less |f| t_f, at the start (n) [N]
+    std::span<const Vector<Dim>> force_1;         ///< the same at the end (n) [N]
+};
+
+/// A pair on the part of the step where it is active, with all that varies as polynomials of a local parameter in [0, 1].
+template <int Dim>
+struct PathPiece {
+    double begin;  ///< tau
+    double end;    ///< tau
+    std::array<double, 3> area;        ///< coefficients of A
+    std::array<double, 3> depth;       ///< coefficients of min(g, 0)
+    std::array<PlaneVector<Dim>, 3> shift_derivative;  ///< coefficients of dA/ds
+};
+
+/// Where a pair force is cut into subintervals.
+enum class Cuts {
+    coupled,  ///< at the events of all pairs that its face forces depend on: exact, and local
+    global,   ///< at the events of all pairs of the scene: the reference that `coupled` is tested against
+};
+
+/// Integrates the modified reconstruction and the pair forces along one straight step, exactly: each pair is cut where its
+/// own formula changes, each pair force where the formula of any pair coupled to it does. METHOD.md, section 4.
+///
+/// An instance keeps its work arrays from step to step; after a few steps it allocates nothing.
+template <int Dim>
+class PathIntegral {
+public:
+    explicit PathIntegral(const ContactOptions& options);
+
+    /// Fills the results below for one step. `local_face` maps a face of the surface to its place in the path.
+    void integrate(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
+                   const FaceCoupling<Dim>& coupling, const FacePath<Dim>& path, Cuts cuts = Cuts::coupled);
+
+    /// Mean over the step of delta_f = ũ_f - û_f (n) [m].
+    [[nodiscard]] std::span<const Vector<Dim>> mean_correction() const { return mean_correction_; }
+    /// Mean over the step of the pair forces' part of dV/dû_f (n) [N]; on a rigid face: minus the force on the obstacle.
+    [[nodiscard]] std::span<const Vector<Dim>> mean_force() const { return mean_force_; }
+    /// Mean over the step of the normal force -sum beta A of each face (n) [N], > 0 in compression.
+    [[nodiscard]] std::span<const double> mean_normal_force() const { return mean_normal_force_; }
+    /// Pairs that were active at some time of the step: their indices in the pair list, increasing.
+    [[nodiscard]] std::span<const std::int32_t> active_pairs() const { return active_; }
+    [[nodiscard]] std::int64_t events() const { return n_events_; }
+    /// Largest |g|/D of an active pair at the ends of the step, and which pair (-1: none).
+    [[nodiscard]] double compression() const { return compression_; }
+    [[nodiscard]] std::int32_t most_compressed() const { return most_compressed_; }
+
+private:
+    struct Term {            // one face of an active pair, as seen from a coupled face
+        std::int32_t active; // place in active_
+        double weight;       // delta_f += weight h n_12, h = A min(g, 0)
+    };
+
+    struct Motion {  // of a pair along the step
+        PairPosition<Dim> at_0;
+        PairPosition<Dim> at_1;
+        bool overlap_moves;
+
+        [[nodiscard]] double gap(double tau) const { return at_0.gap + tau * (at_1.gap - at_0.gap); }
+        [[nodiscard]] PlaneVector<Dim> shift(double tau) const {
+            return overlap_moves ? PlaneVector<Dim>(at_0.shift + tau * (at_1.shift - at_0.shift)) : at_0.shift;
+        }
+        [[nodiscard]] bool overlap_changes() const { return overlap_moves && at_0.shift != at_1.shift; }
+    };
+
+    void find_active(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
+                     const FacePath<Dim>& path);
+    void append_pieces(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const PairPosition<Dim>& at_0, const PairPosition<Dim>& at_1);
+    void append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin, double end, int n,
+                      const std::array<double, 3>& node);
+    void link_faces(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face, std::size_t n_faces);
+    void add_mean_corrections(const PairList<Dim>& pairs);
+    void add_pair_force(std::int32_t active, const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
+                        const FaceCoupling<Dim>& coupling, const FacePath<Dim>& path, Cuts cuts);
+    void collect_coupled(std::int32_t active, const SurfaceView<Dim>& surface, const PairList<Dim>& pairs,
+                         std::span<const std::int32_t> local_face, const FaceCoupling<Dim>& coupling);
+    void collect_cuts(double begin, double end, Cuts cuts);
+
+    ContactOptions options_;
+    std::vector<std::int32_t> active_;
+    std::vector<PathPiece<Dim>> pieces_;
+    std::vector<std::int32_t> piece_offsets_;        // (n_active + 1)
+    std::vector<double> cuts_;                       // events of each active pair inside the step, sorted
+    std::vector<std::int32_t> cut_offsets_;          // (n_active + 1)
+    std::vector<std::int32_t> term_offsets_;         // (n + 1)
+    std::vector<Term> terms_;
+    std::vector<Vector<Dim>> mean_correction_;
+    std::vector<Vector<Dim>> mean_force_;
+    std::vector<double> mean_normal_force_;
+    std::int64_t n_events_ = 0;
+    double compression_ = 0.0;
+    std::int32_t most_compressed_ = -1;
+
+    std::vector<double> events_;                     // work arrays
+    std::vector<std::pair<std::int32_t, double>> coupled_;  // (active pair, what its h adds to beta)
+    std::vector<double> nodes_;
+    std::vector<double> mean_measure_;
+};
+
+}  // namespace abut::contact

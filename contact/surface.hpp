@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/geometry/vector.hpp"
+
+namespace abut::contact {
+
+/// The boundary of the bodies at rest, as views of a host's own arrays: all that contact knows of a solid.
+/// Faces are flat and convex; each translates with its displacement. n is the number of faces.
+template <int Dim>
+struct SurfaceView {
+    std::span<const Vector<Dim>> vertices;         ///< [m]
+    std::span<const std::int32_t> face_offsets;    ///< (n + 1), into face_vertices
+    std::span<const std::int32_t> face_vertices;   ///< counter-clockwise seen from outside (3D); any order (2D)
+    std::span<const Vector<Dim>> centroid;         ///< x_f (n) [m]
+    std::span<const Vector<Dim>> normal;           ///< n_f (n), unit, out of the body
+    std::span<const double> area;                  ///< |f| (n) [m^(Dim-1)]
+    std::span<const double> depth;                 ///< d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
+    std::span<const double> stiffness;             ///< k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
+    std::span<const std::int32_t> body;            ///< (n) faces of one body do not touch each other unless self-contact is asked for
+
+    [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
+    [[nodiscard]] std::span<const std::int32_t> vertices_of(std::int32_t face) const {
+        return face_vertices.subspan(static_cast<std::size_t>(face_offsets[face]),
+                                     static_cast<std::size_t>(face_offsets[face + 1] - face_offsets[face]));
+    }
+    [[nodiscard]] bool is_rigid(std::int32_t face) const;
+};
+
+/// A surface that owns its arrays.
+template <int Dim>
+struct Surface {
+    std::vector<Vector<Dim>> vertices;
+    std::vector<std::int32_t> face_offsets{0};
+    std::vector<std::int32_t> face_vertices;
+    std::vector<Vector<Dim>> centroid;
+    std::vector<Vector<Dim>> normal;
+    std::vector<double> area;
+    std::vector<double> depth;
+    std::vector<double> stiffness;
+    std::vector<std::int32_t> body;
+
+    [[nodiscard]] SurfaceView<Dim> view() const;
+    [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
+    /// Appends one face from its corners: counter-clockwise seen from outside (3D), or with the outside on the right of
+    /// the way from the first to the second (2D). Measures follow from the corners.
+    void append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness, std::int32_t face_body);
+};
+
+/// Throws std::invalid_argument naming the face, the value, the limit and the remedy: array sizes that disagree, an index
+/// out of range, NaN, zero area, a normal that is not unit, a face that is not flat (1e-10 of its size) or not convex,
+/// more than geometry::max_polygon_vertices corners, negative depth or stiffness.
+template <int Dim>
+void check(const SurfaceView<Dim>& surface);
+
+}  // namespace abut::contact

@@ -1,0 +1,119 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "abut/contact/path_integral.hpp"
+#include "abut/dynamics/boundary_reconstruction.hpp"
+
+namespace abut::dynamics {
+
+/// What boundary conditions give at a time.
+template <int Dim>
+struct BoundaryLoad {
+    std::vector<Vector<Dim>> displacement;  ///< B u_D + L t, the part of û that does not come from the cells (n_boundary) [m]
+    std::vector<Vector<Dim>> traction;      ///< |f| t_f (n_boundary) [N]
+};
+
+/// Changes of some boundary faces: what contact adds. Empty where there is no contact.
+template <int Dim>
+struct FaceCorrections {
+    std::span<const std::int32_t> faces;          ///< places in Mesh::boundary_faces, increasing (n)
+    std::span<const Vector<Dim>> displacement;    ///< delta_f = ũ_f - û_f (n) [m]
+    std::span<const Vector<Dim>> force;           ///< dV/dû_f of the pairs (n) [N]; may be empty
+};
+
+/// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
+template <int Dim>
+struct Region {
+    std::vector<std::int32_t> faces;            ///< boundary faces whose û and y are wanted, as places in Mesh::boundary_faces
+    std::vector<std::int32_t> cells;            ///< cells whose force is wanted
+    std::vector<std::int32_t> loaded_cells;     ///< all below: what is evaluated on the way, increasing
+    std::vector<std::int32_t> reconstructed;
+    std::vector<std::int32_t> reconstructed_boundary;
+    std::vector<std::int32_t> gradient_cells;
+    std::vector<std::int32_t> jump_faces;
+    std::vector<std::int32_t> stress_cells;
+    std::vector<std::int32_t> force_faces;
+};
+
+/// Cell-centred Galerkin operators of a mesh, without a matrix. METHOD.md, section 2.
+///
+///     u_f by the stencils -> G_c -> jumps k [u]_f -> stress S_c -> face forces y_f -> dV/du_c = jumps + R^T y
+///
+/// Every result is a sum in a fixed order: the bits do not depend on the number of threads. Not safe to use from two
+/// threads at once: the work arrays are shared by all calls.
+template <int Dim>
+class Ccg {
+public:
+    /// One material a body. Throws as `check(Material)`, `sort_to_faces` and `select_stencils` do.
+    Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions);
+    ~Ccg();
+    Ccg(Ccg&&) noexcept;
+    Ccg& operator=(Ccg&&) noexcept;
+
+    [[nodiscard]] std::int32_t n_cells() const;
+    [[nodiscard]] std::int32_t n_boundary() const;
+
+    /// u_D and t at their times, brought to the boundary faces; empty where no condition is given.
+    [[nodiscard]] BoundaryLoad<Dim> load_at(double displacement_time, double traction_time) const;
+    /// The same with u_D = 0 and t = 0.
+    [[nodiscard]] BoundaryLoad<Dim> load_free() const;
+    [[nodiscard]] bool load_varies() const;
+    /// Projectors onto the prescribed directions of the boundary faces (n_boundary).
+    [[nodiscard]] std::span<const Matrix<Dim>> prescribed() const;
+    /// Whether some face of the cell has a prescribed displacement.
+    [[nodiscard]] bool has_prescribed_face(std::int32_t cell) const;
+
+    /// û on all boundary faces for the cell displacements u (n_cells) [m].
+    void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement);
+
+    /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the forces of `corrections` are taken along.
+    void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                  std::span<Vector<Dim>> result);
+    /// y_f - |f| t_f + pair force of every boundary face [N], as of the last call of `gradient`.
+    [[nodiscard]] Vector<Dim> boundary_force(std::int32_t boundary_face) const;
+
+    /// V(u, û + delta) less the work of tractions [J].
+    [[nodiscard]] double potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections);
+
+    /// What `evaluate_faces` needs for these boundary faces (places in Mesh::boundary_faces).
+    [[nodiscard]] Region<Dim> region_of_faces(std::span<const std::int32_t> faces) const;
+    /// What `evaluate_cells` needs for these cells.
+    [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
+    /// û and y - |f| t of the region's faces, without contact.
+    void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                        std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force);
+    /// dV/du_c of the region's cells, as `gradient` gives it.
+    void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
+
+    /// Q_ff' among these boundary faces (places in Mesh::boundary_faces). METHOD.md, section 4.
+    [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const std::int32_t> faces) const;
+
+    /// A cheap bound on how far any boundary face has moved from one state to another [m].
+    [[nodiscard]] double motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                                      std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const;
+    /// The same, not a bound but the largest motion itself [m].
+    [[nodiscard]] double largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                                        std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const;
+
+    /// G_c and sigma_c of the last call of `gradient` or `potential` [-], [Pa].
+    [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
+    [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
+
+    [[nodiscard]] const StencilReport& stencil_report() const;
+    [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;
+    [[nodiscard]] std::span<const FaceStencil<Dim>> stencils() const;  ///< by face; a boundary face has weight 0 throughout
+    /// Normal stiffness (lambda + 2 mu) |f|/|c| of a boundary half-cell [Pa/m].
+    [[nodiscard]] double normal_stiffness(std::int32_t boundary_face) const;
+    /// Cells on whose displacement û of this boundary face depends.
+    [[nodiscard]] std::span<const std::int32_t> cells_of(std::int32_t boundary_face) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace abut::dynamics

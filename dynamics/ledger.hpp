@@ -1,0 +1,85 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/solid.hpp"
+
+namespace abut::dynamics {
+
+/// Components of angular momentum: one in 2D, three in 3D.
+template <int Dim>
+inline constexpr int n_rotations = Dim == 2 ? 1 : 3;
+
+/// The state of a run at one step. Energies come together, since H~ alone does not prove a good solution (METHOD.md,
+/// section 4): H~ with H, the parasitic mode and the number of events.
+template <int Dim>
+struct LedgerEntry {
+    std::int64_t step;
+    double time;                    ///< [s]
+    double pseudo_energy;           ///< H~ = 1/2 p^- . M^-1 p^+ + V [J]
+    double energy;                  ///< H = 1/2 p . M^-1 p + V with p = (p^- + p^+)/2 [J]
+    double kinetic;                 ///< 1/2 p . M^-1 p [J]
+    double potential;               ///< V, less the work of constant loads [J]
+    double work;                    ///< done from outside so far [J]
+    Vector<Dim> linear_momentum;    ///< [kg m/s]
+    Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign> angular_momentum;  ///< about the origin [kg m^2/s]
+    double parasitic;               ///< largest |e_c| / m_c [m/s]
+    std::int64_t active_pairs;      ///< in the last step
+    std::int64_t events;            ///< so far
+};
+
+/// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
+template <int Dim>
+[[nodiscard]] std::vector<std::string> ledger_columns();
+/// The entry as numbers in the order of `ledger_columns`.
+template <int Dim>
+[[nodiscard]] std::vector<double> ledger_values(const LedgerEntry<Dim>& entry);
+
+/// Measures the present state; costs about two force evaluations.
+template <int Dim>
+[[nodiscard]] LedgerEntry<Dim> measure(Memm<Solid<Dim>>& integrator, Solid<Dim>& solid);
+
+/// Largest deviations of a run from its first entry.
+template <int Dim>
+class Ledger {
+public:
+    void record(const LedgerEntry<Dim>& entry);
+
+    [[nodiscard]] const std::vector<LedgerEntry<Dim>>& entries() const { return entries_; }
+    /// max |H~ - H~0 - work| [J]
+    [[nodiscard]] double pseudo_energy_drift() const { return pseudo_energy_drift_; }
+    /// max (H - H~) [J]
+    [[nodiscard]] double energy_excess() const { return energy_excess_; }
+    [[nodiscard]] double parasitic() const { return parasitic_; }
+    [[nodiscard]] double momentum_drift() const { return momentum_drift_; }
+    [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
+    /// Largest H of the run [J]: what drifts of loaded runs are quoted on.
+    [[nodiscard]] double largest_energy() const { return largest_energy_; }
+
+private:
+    std::vector<LedgerEntry<Dim>> entries_;
+    double pseudo_energy_drift_ = 0.0;
+    double energy_excess_ = 0.0;
+    double parasitic_ = 0.0;
+    double momentum_drift_ = 0.0;
+    double angular_momentum_drift_ = 0.0;
+    double largest_energy_ = 0.0;
+};
+
+/// Mass and mean velocity of a body.
+template <int Dim>
+struct BodyMotion {
+    double mass;             ///< [kg]
+    Vector<Dim> velocity;    ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
+};
+template <int Dim>
+[[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const Memm<Solid<Dim>>& integrator, const Solid<Dim>& solid);
+
+/// Momenta of bodies that move as a whole, one velocity a body [m/s].
+template <int Dim>
+[[nodiscard]] std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity);
+
+}  // namespace abut::dynamics

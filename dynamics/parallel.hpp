@@ -1,0 +1,53 @@
+#pragma once
+// Private to the sources of this layer.
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace abut::dynamics {
+
+inline constexpr std::ptrdiff_t parallel_grain = 1024;
+
+/// Calls body(begin, end) on parts of [0, n), concurrently when n is worth it. What is computed for one index must not
+/// depend on the parts.
+template <class Body>
+void parallel_ranges(std::ptrdiff_t n, const Body& body) {
+    if (n <= 2 * parallel_grain) {
+        body(std::ptrdiff_t{0}, n);
+        return;
+    }
+    oneapi::tbb::parallel_for(
+        oneapi::tbb::blocked_range<std::ptrdiff_t>(0, n, parallel_grain),
+        [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range) { body(range.begin(), range.end()); },
+        oneapi::tbb::static_partitioner{});
+}
+
+template <class Body>
+void parallel_each(std::ptrdiff_t n, const Body& body) {
+    parallel_ranges(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (std::ptrdiff_t i = begin; i < end; ++i) body(i);
+    });
+}
+
+/// Sum of term(i) over [0, n): blocks of fixed size, then the blocks in order, so that the bits depend on n alone.
+template <class Value, class Term>
+Value ordered_sum(std::ptrdiff_t n, const Value& zero, const Term& term) {
+    const std::ptrdiff_t n_blocks = (n + parallel_grain - 1) / parallel_grain;
+    std::vector<Value> sums(static_cast<std::size_t>(n_blocks), zero);
+    const auto add_block = [&](std::ptrdiff_t block) {
+        const std::ptrdiff_t end = std::min(n, (block + 1) * parallel_grain);
+        for (std::ptrdiff_t i = block * parallel_grain; i < end; ++i) sums[static_cast<std::size_t>(block)] += term(i);
+    };
+    if (n_blocks <= 2)
+        for (std::ptrdiff_t block = 0; block < n_blocks; ++block) add_block(block);
+    else
+        oneapi::tbb::parallel_for(std::ptrdiff_t{0}, n_blocks, add_block);
+    Value total = zero;
+    for (const Value& sum : sums) total += sum;
+    return total;
+}
+
+}  // namespace abut::dynamics

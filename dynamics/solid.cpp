@@ -1,0 +1,414 @@
+#include "abut/dynamics/solid.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "abut/dynamics/parallel.hpp"
+
+namespace abut::dynamics {
+namespace {
+
+class Stopwatch {
+public:
+    explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}
+    ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& total_;
+    Clock::time_point start_;
+};
+
+template <int Dim>
+const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+    const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
+    if (options.materials.size() != n_bodies)
+        throw std::invalid_argument(mesh.name + ": " + std::to_string(options.materials.size()) + " materials are given for " +
+                                    std::to_string(n_bodies) + " bodies. Give one a body.");
+    for (std::size_t body = 0; body < n_bodies; ++body) check(options.materials[body], static_cast<int>(body));
+    if (!options.acceleration.empty() && options.acceleration.size() != n_bodies)
+        throw std::invalid_argument(mesh.name + ": " + std::to_string(options.acceleration.size()) + " accelerations are given for " +
+                                    std::to_string(n_bodies) + " bodies. Give one a body, or none.");
+    return options;
+}
+
+/// Sets of numbers 0 .. n-1 that grow together.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+    std::int32_t find(std::int32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::int32_t a, std::int32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::int32_t> parent_;
+};
+
+void sort_unique(std::vector<std::int32_t>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+template <int Dim>
+void average(const BoundaryLoad<Dim>& a, const BoundaryLoad<Dim>& b, BoundaryLoad<Dim>& mean) {
+    mean = b;
+    for (std::size_t i = 0; i < mean.displacement.size(); ++i) mean.displacement[i] = 0.5 * (a.displacement[i] + b.displacement[i]);
+}
+
+}  // namespace
+
+template <int Dim>
+Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
+    : mesh_(mesh), options_(checked(mesh, options)), ccg_(mesh, options_.materials, options_.boundary) {
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const double mass = options_.materials[mesh.cell_body[c]].density * mesh.cell_measure[c];
+        cell_mass_.push_back(mass);
+        inverse_mass_.insert(inverse_mass_.end(), Dim, 1.0 / mass);
+    }
+    if (!options_.acceleration.empty() || options_.body_load) {
+        for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+            Vector<Dim> force = Vector<Dim>::Zero();
+            if (!options_.acceleration.empty()) force += cell_mass_[c] * options_.acceleration[mesh.cell_body[c]];
+            if (options_.body_load) force += mesh.cell_measure[c] * options_.body_load(mesh.cell_centroid[c]);
+            body_force_.push_back(force);
+        }
+    }
+    load_ = ccg_.load_at(0.0, 0.0);
+    load_start_ = load_;
+    if (options_.contact) build_surface();
+}
+
+template <int Dim>
+void Solid<Dim>::build_surface() {
+    const auto& prescribed = ccg_.prescribed();
+    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b) {
+        if (!prescribed[b].isZero(0.0)) {
+            ++left_out_;
+            continue;
+        }
+        const std::int32_t face = mesh_.boundary_faces[b];
+        const std::int32_t cell = mesh_.face_cells[face][0];
+        std::vector<Vector<Dim>> corners;
+        for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
+        const double depth = (mesh_.face_centroid[face] - mesh_.cell_centroid[cell]).dot(mesh_.face_normal[face]);
+        surface_.append(corners, depth, ccg_.normal_stiffness(b), mesh_.cell_body[cell]);
+        surface_boundary_.push_back(b);
+    }
+    for (std::size_t i = 0; i < options_.obstacles.size(); ++i)
+        append(surface_, options_.obstacles[i], mesh_.n_bodies() + static_cast<std::int32_t>(i));
+    obstacle_force_.assign(options_.obstacles.size(), Vector<Dim>::Zero());
+    contact_.emplace(surface_.view(), *options_.contact);
+}
+
+template <int Dim>
+contact::ContactReport Solid<Dim>::contact_report() const {
+    return contact_ ? contact_->report() : contact::ContactReport{};
+}
+
+template <int Dim>
+void Solid<Dim>::to_force(std::span<Vector<Dim>> gradient) const {
+    const bool loaded = !body_force_.empty();
+    parallel_each(static_cast<std::ptrdiff_t>(gradient.size()), [&](std::ptrdiff_t c) {
+        gradient[c] = loaded ? Vector<Dim>(body_force_[c] - gradient[c]) : Vector<Dim>(-gradient[c]);
+    });
+}
+
+template <int Dim>
+FaceCorrections<Dim> Solid<Dim>::corrections() const {
+    if (!contact_ || contact_->result().active_pairs().empty()) return {};
+    const std::size_t n = local_boundary_.size();
+    return {local_boundary_, contact_->result().mean_correction().first(n), contact_->result().mean_force().first(n)};
+}
+
+template <int Dim>
+void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
+    const auto u = as_vectors<Dim>(q);
+    evaluate_contact(u);
+    ccg_.gradient(u, load_, corrections(), as_vectors<Dim>(force));
+    to_force(as_vectors<Dim>(force));
+}
+
+template <int Dim>
+double Solid<Dim>::potential(std::span<const double> q) {
+    const auto u = as_vectors<Dim>(q);
+    evaluate_contact(u);
+    double energy = ccg_.potential(u, load_, corrections());
+    if (!body_force_.empty())
+        energy -= ordered_sum(static_cast<std::ptrdiff_t>(u.size()), 0.0, [&](std::ptrdiff_t c) { return body_force_[c].dot(u[c]); });
+    return energy;
+}
+
+template <int Dim>
+void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> product) {
+    ccg_.gradient(as_vectors<Dim>(q), ccg_.load_free(), {}, as_vectors<Dim>(product));
+}
+
+template <int Dim>
+void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt, std::span<double> force) {
+    const auto u_0 = as_vectors<Dim>(q_0);
+    const auto u_1 = as_vectors<Dim>(q_1);
+    follow_loads(u_0, time, dt);
+    if (contact_) follow_contact(u_0, u_1, time, dt);
+
+    const Stopwatch watch(times_.bulk);
+    midpoint_.resize(u_0.size());
+    parallel_each(static_cast<std::ptrdiff_t>(u_0.size()), [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (u_0[c] + u_1[c]); });
+    const auto gradient = as_vectors<Dim>(force);
+    if (ccg_.load_varies()) {
+        BoundaryLoad<Dim> mean;
+        average(load_start_, load_, mean);
+        ccg_.gradient(midpoint_, mean, corrections(), gradient);
+    } else {
+        ccg_.gradient(midpoint_, load_, corrections(), gradient);
+    }
+    add_work();
+    to_force(gradient);
+    time_ = time + dt;
+}
+
+/// Tractions are constant within a step: where one changes, the jump of the potential is work from outside.
+template <int Dim>
+void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
+    if (!ccg_.load_varies()) return;
+    BoundaryLoad<Dim> changed = ccg_.load_at(time, time);
+    if (changed.traction != load_.traction) {
+        const std::span<const double> q(q_0.data()->data(), q_0.size() * Dim);
+        const double before = potential(q);
+        load_ = std::move(changed);
+        if (contact_) evaluate_faces(q_0, load_, time, u_0_, y_0_);
+        work_ += potential(q) - before;
+    }
+    load_start_ = load_;
+    load_ = ccg_.load_at(time + dt, time);
+}
+
+template <int Dim>
+void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+    follow_list(q_0, q_1, time, dt);
+    const Stopwatch watch(times_.contact);
+    active_pairs_.clear();
+    if (contact_->faces().empty()) return;
+    evaluate_faces(q_1, load_, time + dt, u_1_, y_1_);
+    contact_->integrate({u_0_, u_1_, y_0_, y_1_});
+    const auto active = contact_->result().active_pairs();
+    active_pairs_.assign(active.begin(), active.end());
+}
+
+/// Makes the candidate list anew when some face may have moved too far since the last search. A cheap bound is asked
+/// first, and the exact motion only when the bound cannot tell; the bound then starts again from there.
+template <int Dim>
+void Solid<Dim>::follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+    const Stopwatch watch(times_.search);
+    if (searched_.u.empty()) return search(q_0, q_1, time, dt);
+    const double obstacles = obstacle_motion(time + dt);
+    if (contact_->covers(obstacles + measured_motion_ + ccg_.motion_bound(measured_.u, measured_.load, q_1, load_))) return;
+    measured_motion_ = ccg_.largest_motion(searched_.u, searched_.load, q_1, load_);
+    measured_.u.assign(q_1.begin(), q_1.end());
+    measured_.load = load_;
+    if (!contact_->covers(obstacles + measured_motion_)) search(q_0, q_1, time, dt);
+}
+
+template <int Dim>
+void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+    std::vector<Vector<Dim>> all(static_cast<std::size_t>(ccg_.n_boundary()));
+    const auto surface_displacement = [&](std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double at) {
+        ccg_.boundary_displacement(q, load, all);
+        std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
+        for (std::size_t i = 0; i < surface_boundary_.size(); ++i) displacement[i] = all[surface_boundary_[i]];
+        fill_rigid(displacement, at);
+        return displacement;
+    };
+    const auto u_0 = surface_displacement(q_0, load_start_, time);
+    const auto u_1 = surface_displacement(q_1, load_, time + dt);
+    contact_->search(u_0, u_1, [&](std::span<const std::int32_t> faces) {
+        local_boundary_.clear();
+        for (const std::int32_t face : faces)
+            if (!surface_.view().is_rigid(face)) local_boundary_.push_back(surface_boundary_[face]);
+        region_ = ccg_.region_of_faces(local_boundary_);
+        contact::FaceCoupling<Dim> coupling = ccg_.coupling(local_boundary_);
+        coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
+        return coupling;
+    });
+    searched_.u.assign(q_0.begin(), q_0.end());
+    searched_.load = load_start_;
+    searched_time_ = time;
+    measured_ = searched_;
+    measured_motion_ = 0.0;
+    evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
+}
+
+/// How far an obstacle has moved since the last search [m].
+template <int Dim>
+double Solid<Dim>::obstacle_motion(double time) const {
+    double largest = 0.0;
+    for (const auto& obstacle : options_.obstacles)
+        if (obstacle.path) largest = std::max(largest, (obstacle.path(time) - obstacle.path(searched_time_)).norm());
+    return largest;
+}
+
+/// Sets the displacement of the obstacles' faces, which come last.
+template <int Dim>
+void Solid<Dim>::fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const {
+    std::size_t face = surface_boundary_.size();
+    for (const auto& obstacle : options_.obstacles) {
+        const Vector<Dim> moved = obstacle.path ? obstacle.path(time) : Vector<Dim>(Vector<Dim>::Zero());
+        for (std::size_t i = 0; i < obstacle.faces.size(); ++i) displacement[face++] = moved;
+    }
+}
+
+template <int Dim>
+void Solid<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
+                                std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force) {
+    const auto faces = contact_->faces();
+    displacement.resize(faces.size());
+    force.resize(faces.size());
+    ccg_.evaluate_faces(region_, q, load, displacement, force);
+    for (std::size_t i = local_boundary_.size(); i < faces.size(); ++i) {
+        const auto& path = options_.obstacles[static_cast<std::size_t>(surface_.body[faces[i]] - mesh_.n_bodies())].path;
+        displacement[i] = path ? path(time) : Vector<Dim>(Vector<Dim>::Zero());
+        force[i].setZero();
+    }
+}
+
+/// Contact of one state with the present loads.
+template <int Dim>
+void Solid<Dim>::evaluate_contact(std::span<const Vector<Dim>> q) {
+    if (!contact_) return;
+    if (searched_.u.empty()) {
+        const Stopwatch watch(times_.search);
+        search(q, q, time_, 0.0);
+    }
+    if (contact_->faces().empty()) return;
+    evaluate_faces(q, load_, time_, u_1_, y_1_);
+    contact_->evaluate(u_1_, y_1_);
+}
+
+template <int Dim>
+void Solid<Dim>::add_work() {
+    if (ccg_.load_varies())
+        for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
+            work_ += ccg_.boundary_force(b).dot(load_.displacement[b] - load_start_.displacement[b]);
+    std::swap(u_0_, u_1_);
+    std::swap(y_0_, y_1_);
+    if (options_.obstacles.empty() || !contact_) return;
+    std::fill(obstacle_force_.begin(), obstacle_force_.end(), Vector<Dim>::Zero());
+    if (active_pairs_.empty()) return;
+    const auto faces = contact_->faces();
+    for (std::size_t i = local_boundary_.size(); i < faces.size(); ++i) {
+        const Vector<Dim> gradient = contact_->result().mean_force()[i];
+        obstacle_force_[static_cast<std::size_t>(surface_.body[faces[i]] - mesh_.n_bodies())] -= gradient;
+        work_ += gradient.dot(u_0_[i] - u_1_[i]);  // swapped: u_0_ is now the end of the step
+    }
+}
+
+template <int Dim>
+Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const {
+    return obstacle_force_.at(obstacle);
+}
+
+template <int Dim>
+typename Solid<Dim>::ContactField Solid<Dim>::contact_field(std::span<const double> q) {
+    ContactField field{std::vector<double>(static_cast<std::size_t>(ccg_.n_boundary()), 0.0),
+                       std::vector<double>(static_cast<std::size_t>(ccg_.n_boundary()), std::numeric_limits<double>::infinity())};
+    if (!contact_) return field;
+    evaluate_contact(as_vectors<Dim>(q));
+    for (std::size_t i = 0; i < local_boundary_.size(); ++i)
+        if (!contact_->result().active_pairs().empty())
+            field.pressure[local_boundary_[i]] = contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[local_boundary_[i]]];
+    const auto lower_gap = [&](std::int32_t face, double gap) {
+        if (surface_.view().is_rigid(face)) return;
+        double& smallest = field.gap[surface_boundary_[face]];
+        smallest = std::min(smallest, gap);
+    };
+    for (const auto& pair : contact_->pairs().pairs()) {
+        const auto at = contact_->pairs().position(contact_->surface(), pair, u_1_[contact_->local(pair.face_1)], u_1_[contact_->local(pair.face_2)]);
+        if (!pair.admitted || contact_->pairs().shared_area(pair, at.shift, options_.contact->area).area == 0.0) continue;
+        lower_gap(pair.face_1, at.gap);
+        lower_gap(pair.face_2, at.gap);
+    }
+    return field;
+}
+
+template <int Dim>
+std::vector<ContactPatch> Solid<Dim>::contact_patches() const {
+    if (active_pairs_.empty()) return {};
+    std::vector<std::int32_t> touching;  // deformable faces of active pairs, as places in the candidate list's faces
+    const auto is_deformable = [&](std::int32_t f) { return f < static_cast<std::int32_t>(local_boundary_.size()); };
+    const auto for_each_pair = [&](auto&& visit) {
+        for (const std::int32_t p : active_pairs_) {
+            const auto& pair = contact_->pairs().pairs()[p];
+            visit(contact_->local(pair.face_1), contact_->local(pair.face_2));
+        }
+    };
+    for_each_pair([&](std::int32_t f_1, std::int32_t f_2) {
+        for (const std::int32_t f : {f_1, f_2})
+            if (is_deformable(f)) touching.push_back(f);
+    });
+    sort_unique(touching);
+    std::vector<std::int32_t> cells;
+    for (const std::int32_t f : touching) {
+        const auto of_face = ccg_.cells_of(local_boundary_[f]);
+        cells.insert(cells.end(), of_face.begin(), of_face.end());
+    }
+    sort_unique(cells);
+    const auto place = [](const std::vector<std::int32_t>& sorted, std::int32_t value) {
+        return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+    };
+
+    // Join the cells of each face, and the two faces of each pair.
+    DisjointSets sets(cells.size());
+    const auto node_of = [&](std::int32_t f) { return place(cells, ccg_.cells_of(local_boundary_[f]).front()); };
+    for (const std::int32_t f : touching)
+        for (const std::int32_t c : ccg_.cells_of(local_boundary_[f])) sets.join(node_of(f), place(cells, c));
+    for_each_pair([&](std::int32_t f_1, std::int32_t f_2) {
+        if (is_deformable(f_1) && is_deformable(f_2)) sets.join(node_of(f_1), node_of(f_2));
+    });
+
+    std::vector<ContactPatch> patches;
+    std::vector<std::int32_t> patch_of_root(cells.size(), -1);
+    const auto patch_of = [&](std::int32_t node) -> ContactPatch& {
+        std::int32_t& patch = patch_of_root[sets.find(node)];
+        if (patch < 0) {
+            patch = static_cast<std::int32_t>(patches.size());
+            patches.emplace_back();
+        }
+        return patches[patch];
+    };
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        ContactPatch& patch = patch_of(static_cast<std::int32_t>(i));
+        patch.cells.push_back(cells[i]);
+        patch.held = patch.held || ccg_.has_prescribed_face(cells[i]);
+    }
+    for_each_pair([&](std::int32_t f_1, std::int32_t f_2) {
+        if (is_deformable(f_1) && !is_deformable(f_2)) patch_of(node_of(f_1)).held = true;
+        if (is_deformable(f_2) && !is_deformable(f_1)) patch_of(node_of(f_2)).held = true;
+    });
+    return patches;
+}
+
+template <int Dim>
+void Solid<Dim>::force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force) {
+    if (!std::equal(cells.begin(), cells.end(), patch_region_.cells.begin(), patch_region_.cells.end()))
+        patch_region_ = ccg_.region_of_cells(cells);
+    evaluate_contact(as_vectors<Dim>(q));
+    ccg_.evaluate_cells(patch_region_, as_vectors<Dim>(q), load_, corrections(), force);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        force[i] = body_force_.empty() ? Vector<Dim>(-force[i]) : Vector<Dim>(body_force_[cells[i]] - force[i]);
+}
+
+template class Solid<2>;
+template class Solid<3>;
+
+}  // namespace abut::dynamics

@@ -1,0 +1,137 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "abut/contact/contact.hpp"
+#include "abut/contact/obstacle.hpp"
+#include "abut/dynamics/ccg.hpp"
+#include "abut/dynamics/system.hpp"
+
+namespace abut::dynamics {
+
+/// What a scene holds beside its mesh.
+template <int Dim>
+struct SolidOptions {
+    std::vector<Material> materials;                                      ///< one a body
+    BoundaryConditions<Dim> boundary;
+    std::vector<Vector<Dim>> acceleration;                                ///< of gravity, one a body [m/s^2]; empty: none
+    std::function<Vector<Dim>(const Vector<Dim>& position)> body_load;    ///< force density [N/m^3], constant in time; empty: none
+    std::optional<contact::ContactOptions> contact;                       ///< empty: bodies pass through each other, at no cost
+    std::vector<contact::RigidObstacle<Dim>> obstacles;                   ///< felt only with contact
+};
+
+/// Where the time of a run went [s].
+struct SolidTimes {
+    double bulk = 0.0;
+    double contact = 0.0;
+    double search = 0.0;
+};
+
+/// Cells that touched something in the last step and so may carry the parasitic mode of the scheme.
+struct ContactPatch {
+    std::vector<std::int32_t> cells;  ///< increasing
+    bool held = false;                ///< touches an obstacle or a prescribed boundary: its momentum is not its own
+};
+
+/// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System.
+///
+/// Faces with a prescribed displacement (whole or in part) take no part in contact; `contact_faces_left_out` counts them.
+template <int Dim>
+class Solid {
+public:
+    /// The mesh must outlive the solid. Throws std::invalid_argument or std::runtime_error with place, value, limit and remedy.
+    Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options);
+    Solid(const Solid&) = delete;
+    Solid& operator=(const Solid&) = delete;
+
+    [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
+    [[nodiscard]] std::span<const double> inverse_mass() const { return inverse_mass_; }
+    [[nodiscard]] std::span<const double> cell_mass() const { return cell_mass_; }
+
+    /// Displacements q are cell by cell, shape (n_cells, Dim) [m].
+    void force(std::span<const double> q, std::span<double> force);
+    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way. METHOD.md, section 4.
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt, std::span<double> force);
+    /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
+    [[nodiscard]] double potential(std::span<const double> q);
+    /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
+    [[nodiscard]] double work() const { return work_; }
+    /// The linear part alone, without loads and contact: K q [N]; for the stable step.
+    void stiffness_product(std::span<const double> q, std::span<double> product);
+
+    /// Parts of the bodies that were in contact during the last step; bodies joined by a pair are in one patch.
+    [[nodiscard]] std::vector<ContactPatch> contact_patches() const;
+    /// F(q) on some cells only (n, Dim) [N]; the cost is proportional to their number.
+    void force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
+
+    /// Contact pressure [Pa] and smallest gap [m] of each boundary face in state q, in the order of Mesh::boundary_faces;
+    /// a face without a candidate partner has pressure 0 and gap infinity.
+    struct ContactField {
+        std::vector<double> pressure;
+        std::vector<double> gap;
+    };
+    [[nodiscard]] ContactField contact_field(std::span<const double> q);
+
+    /// Mean force of the last step on an obstacle [N].
+    [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
+
+    [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
+    [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
+    [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
+    [[nodiscard]] contact::ContactReport contact_report() const;
+    [[nodiscard]] const contact::Contact<Dim>* contact() const { return contact_ ? &*contact_ : nullptr; }
+    [[nodiscard]] std::int64_t contact_faces_left_out() const { return left_out_; }
+    [[nodiscard]] const SolidTimes& times() const { return times_; }
+
+private:
+    void build_surface();
+    void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
+    void follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const;
+    void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time, std::vector<Vector<Dim>>& displacement,
+                        std::vector<Vector<Dim>>& force);
+    void evaluate_contact(std::span<const Vector<Dim>> q);
+    [[nodiscard]] FaceCorrections<Dim> corrections() const;
+    void add_work();
+    void to_force(std::span<Vector<Dim>> gradient) const;
+    [[nodiscard]] double obstacle_motion(double time) const;
+
+    const mesh::Mesh<Dim>& mesh_;
+    SolidOptions<Dim> options_;
+    Ccg<Dim> ccg_;
+    std::vector<double> cell_mass_;
+    std::vector<double> inverse_mass_;
+    std::vector<Vector<Dim>> body_force_;               // by cell; empty without loads
+    double work_ = 0.0;
+    double time_ = 0.0;                                 // of the last state that `mean_force` ended in
+    BoundaryLoad<Dim> load_;                            // at that state
+    BoundaryLoad<Dim> load_start_;                      // at the start of the current step
+
+    contact::Surface<Dim> surface_;
+    std::vector<std::int32_t> surface_boundary_;        // place in boundary_faces of each deformable surface face
+    std::int64_t left_out_ = 0;
+    std::optional<contact::Contact<Dim>> contact_;
+    struct Reference {
+        std::vector<Vector<Dim>> u;                     // cell displacements
+        BoundaryLoad<Dim> load;
+    };
+    Reference searched_;                                // state at the last search
+    double searched_time_ = 0.0;
+    Reference measured_;                                // state at which the motion since the search was last measured
+    double measured_motion_ = 0.0;
+    Region<Dim> region_;                                // of the faces in the candidate list
+    std::vector<std::int32_t> local_boundary_;          // their places in boundary_faces (deformable faces come first)
+    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;    // path of the listed faces
+    std::vector<Vector<Dim>> midpoint_;
+    std::vector<std::int32_t> active_pairs_;            // of the last step
+    std::vector<Vector<Dim>> obstacle_force_;
+    Region<Dim> patch_region_;
+    SolidTimes times_;
+};
+
+}  // namespace abut::dynamics

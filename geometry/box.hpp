@@ -1,0 +1,42 @@
+#pragma once
+#include <limits>
+#include <span>
+
+#include "abut/geometry/vector.hpp"
+
+namespace abut::geometry {
+
+/// Closed axis-aligned box. A default box is empty: it overlaps nothing, and `extend` makes it hold a point.
+template <int Dim>
+struct Box {
+    Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::infinity());
+    Vector<Dim> upper = Vector<Dim>::Constant(-std::numeric_limits<double>::infinity());
+
+    void extend(const Vector<Dim>& point) {
+        lower = lower.cwiseMin(point);
+        upper = upper.cwiseMax(point);
+    }
+    void extend(const Box& other) {
+        lower = lower.cwiseMin(other.lower);
+        upper = upper.cwiseMax(other.upper);
+    }
+    /// The box moved outwards by `margin` >= 0 [m] on every side.
+    [[nodiscard]] Box grown(double margin) const {
+        return {Vector<Dim>(lower.array() - margin), Vector<Dim>(upper.array() + margin)};
+    }
+    [[nodiscard]] bool empty() const { return (lower.array() > upper.array()).any(); }
+    /// Closed test: boxes that share only a face, an edge or a point do overlap.
+    [[nodiscard]] bool overlaps(const Box& other) const {
+        return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
+    }
+};
+
+/// The smallest box around all of `boxes`; empty for an empty range.
+template <int Dim>
+[[nodiscard]] Box<Dim> bounding_box(std::span<const Box<Dim>> boxes) {
+    Box<Dim> all;
+    for (const Box<Dim>& box : boxes) all.extend(box);
+    return all;
+}
+
+}  // namespace abut::geometry

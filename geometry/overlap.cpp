@@ -1,0 +1,182 @@
+#include "abut/geometry/overlap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "abut/geometry/overlap_kernels.hpp"
+
+namespace abut::geometry {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// An edge of the clipped polygon starts at each corner. It comes from an edge of one of the two faces.
+struct Corner {
+    PlaneVector<3> point;
+    int edge;
+    bool of_face_2;
+};
+
+// Clipping by one line adds one corner to a convex polygon. The rest is for polygons that rounding made slightly
+// non-convex; should even that not do, the exact method takes over.
+struct Clipped {
+    std::array<Corner, 3 * max_polygon_vertices> corners;
+    int size = 0;
+    bool full = false;
+
+    void add(const PlaneVector<3>& point, int edge, bool of_face_2) {
+        if (size == static_cast<int>(corners.size())) {
+            full = true;
+            return;
+        }
+        corners[size++] = {point, edge, of_face_2};
+    }
+};
+
+// A convex polygon in coordinates relative to the first vertex of face 1: what is large and common cancels before
+// anything is multiplied.
+struct Polygon {
+    std::array<PlaneVector<3>, max_polygon_vertices> vertices;
+    int size;
+
+    Polygon(ProjectedFace<3> face, const PlaneVector<3>& origin, const PlaneVector<3>& shift) : size(static_cast<int>(face.size())) {
+        for (int i = 0; i < size; ++i) vertices[i] = (face[i] - origin) + shift;
+    }
+    const PlaneVector<3>& end(int i) const { return vertices[i + 1 == size ? 0 : i + 1]; }
+    PlaneVector<3> edge(int i) const { return end(i) - vertices[i]; }
+    double extent() const {
+        double largest = 0.0;
+        for (int i = 0; i < size; ++i) largest = std::max({largest, std::abs(vertices[i].x()), std::abs(vertices[i].y())});
+        return largest;
+    }
+    std::span<const PlaneVector<3>> view() const { return {vertices.data(), static_cast<std::size_t>(size)}; }
+};
+
+double size_of(const Polygon& polygon) {
+    double largest = 0.0;
+    for (int i = 1; i < polygon.size; ++i) largest = std::max(largest, (polygon.vertices[i] - polygon.vertices[0]).cwiseAbs().maxCoeff());
+    return largest;
+}
+
+// Sutherland-Hodgman: keeps what lies left of edge `line` of face 1. Returns the largest height above that line,
+// in units of (length of the edge) x (distance).
+double clip(const Clipped& in, const PlaneVector<3>& start, const PlaneVector<3>& direction, int line, Clipped& out) {
+    out.size = 0;
+    double highest = -std::numeric_limits<double>::infinity();
+    double height = cross(direction, in.corners[0].point - start);
+    for (int k = 0; k < in.size; ++k) {
+        const Corner& corner = in.corners[k];
+        const Corner& next = in.corners[k + 1 == in.size ? 0 : k + 1];
+        const double next_height = cross(direction, next.point - start);
+        highest = std::max(highest, height);
+        if (height >= 0.0) out.add(corner.point, corner.edge, corner.of_face_2);
+        if ((height >= 0.0) != (next_height >= 0.0)) {
+            const PlaneVector<3> crossing = corner.point + height / (height - next_height) * (next.point - corner.point);
+            if (height >= 0.0)
+                out.add(crossing, line, false);
+            else
+                out.add(crossing, corner.edge, corner.of_face_2);
+        }
+        height = next_height;
+    }
+    return highest;
+}
+
+double area_of(const Clipped& polygon) {
+    double twice = 0.0;
+    for (int k = 1; k + 1 < polygon.size; ++k)
+        twice += cross(polygon.corners[k].point - polygon.corners[0].point, polygon.corners[k + 1].point - polygon.corners[0].point);
+    return 0.5 * twice;
+}
+
+// Whether edges i of 1 and j of 2 run the same way along one line: both ends of either are within `distance` of the other's line.
+bool coincide(const Polygon& polygon_1, int i, const Polygon& polygon_2, int j, double distance) {
+    const PlaneVector<3> edge_1 = polygon_1.edge(i), edge_2 = polygon_2.edge(j);
+    const double longest = edge_1.cwiseAbs().sum() + edge_2.cwiseAbs().sum();
+    if (std::abs(cross(edge_1, edge_2)) > 2.0 * distance * longest || edge_1.dot(edge_2) <= 0.0) return false;
+    const auto lies_on = [distance](const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& start, const PlaneVector<3>& line) {
+        const double limit = distance * line.norm();
+        return std::abs(cross(line, a - start)) <= limit && std::abs(cross(line, b - start)) <= limit;
+    };
+    return lies_on(polygon_2.vertices[j], polygon_2.end(j), polygon_1.vertices[i], edge_1) ||
+           lies_on(polygon_1.vertices[i], polygon_1.end(i), polygon_2.vertices[j], edge_2);
+}
+
+bool lies_on_an_edge_of_the_other(const Corner& corner, const Polygon& polygon_1, const Polygon& polygon_2, double distance) {
+    const int n = corner.of_face_2 ? polygon_1.size : polygon_2.size;
+    for (int k = 0; k < n; ++k)
+        if (corner.of_face_2 ? coincide(polygon_1, k, polygon_2, corner.edge, distance)
+                             : coincide(polygon_1, corner.edge, polygon_2, k, distance))
+            return true;
+    return false;
+}
+
+// Every part of the boundary of the overlap is there once, labelled with one of the faces: where edges of both coincide
+// rounding picks the label, so either label counts half.
+PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygon_1, const Polygon& polygon_2, double distance) {
+    PlaneVector<3> along = PlaneVector<3>::Zero();
+    for (int k = 0; k < overlap.size; ++k) {
+        const Corner& corner = overlap.corners[k];
+        const PlaneVector<3> piece = overlap.corners[k + 1 == overlap.size ? 0 : k + 1].point - corner.point;
+        if (lies_on_an_edge_of_the_other(corner, polygon_1, polygon_2, distance))
+            along += 0.5 * piece;
+        else if (corner.of_face_2)
+            along += piece;
+    }
+    return {along.y(), -along.x()};
+}
+
+SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+    const Polygon polygon_1(face_1, face_1[0], PlaneVector<3>::Zero());
+    const Polygon polygon_2(face_2, face_1[0], shift);
+    const double extent = std::max(polygon_1.extent(), polygon_2.extent());
+    const double distance_error = 16 * epsilon * extent;
+
+    std::array<Clipped, 2> buffers;
+    Clipped *overlap = &buffers[0], *clipped = &buffers[1];
+    for (int j = 0; j < polygon_2.size; ++j) overlap->add(polygon_2.vertices[j], j, true);
+    for (int i = 0; i < polygon_1.size && overlap->size > 0; ++i) {
+        const PlaneVector<3> edge = polygon_1.edge(i);
+        const double highest = clip(*overlap, polygon_1.vertices[i], edge, i, *clipped);
+        if (highest < -distance_error * edge.cwiseAbs().sum()) return {};
+        std::swap(overlap, clipped);
+    }
+    if (buffers[0].full || buffers[1].full) return exact_shared_area(face_1, face_2, shift);
+
+    const double area = area_of(*overlap);
+    const double area_error = distance_error * extent * (polygon_1.size + polygon_2.size);
+    if (area <= area_error && !interiors_meet(polygon_1.view(), polygon_2.view())) return {};
+    const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
+    return {std::max(area, std::numeric_limits<double>::min()), shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
+}
+
+// 1 where the end of segment 2 cuts segment 1, 0 where segment 1 ends first, half where both end together.
+double weight_of_end(double room, double tolerance) { return std::abs(room) <= tolerance ? 0.5 : (room > 0.0 ? 1.0 : 0.0); }
+
+SharedArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
+    const double length_1 = face_1[1].x() - face_1[0].x();
+    const double lower_2 = (face_2[0].x() - face_1[0].x()) + shift.x();
+    const double upper_2 = (face_2[1].x() - face_1[0].x()) + shift.x();
+    const double area = std::min(length_1, upper_2) - std::max(0.0, lower_2);
+    if (area <= 0.0) return {};
+    const double tolerance = coincidence_tolerance * std::max(length_1, upper_2 - lower_2);
+    const double derivative = weight_of_end(length_1 - upper_2, tolerance) - weight_of_end(lower_2, tolerance);
+    return {area, PlaneVector<2>(derivative)};
+}
+
+}  // namespace
+
+template <int Dim>
+SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift, AreaMethod method) {
+    assert(face_1.size() >= Dim && face_1.size() <= max_polygon_vertices);
+    assert(face_2.size() >= Dim && face_2.size() <= max_polygon_vertices);
+    return method == AreaMethod::fast ? fast_shared_area(face_1, face_2, shift) : exact_shared_area(face_1, face_2, shift);
+}
+
+template SharedArea<2> shared_area<2>(ProjectedFace<2>, ProjectedFace<2>, const PlaneVector<2>&, AreaMethod);
+template SharedArea<3> shared_area<3>(ProjectedFace<3>, ProjectedFace<3>, const PlaneVector<3>&, AreaMethod);
+
+}  // namespace abut::geometry

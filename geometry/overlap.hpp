@@ -1,0 +1,43 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "abut/geometry/vector.hpp"
+
+namespace abut::geometry {
+
+/// How the area that two faces share is computed.
+enum class AreaMethod {
+    fast,   ///< double arithmetic; whether the faces overlap at all is decided exactly where doubles cannot tell
+    exact,  ///< CGAL exact constructions, rounded to double at the end: the reference
+};
+
+/// A face seen along the normal of a pair: its vertices in the plane orthogonal to that normal. 3D: a convex polygon,
+/// counter-clockwise, 3 to `max_polygon_vertices` vertices. 2D: a segment, two numbers in increasing order.
+template <int Dim>
+using ProjectedFace = std::span<const PlaneVector<Dim>>;
+
+inline constexpr int max_polygon_vertices = 16;
+
+/// The patch two projected faces share, the second one shifted by s.
+template <int Dim>
+struct SharedArea {
+    double area = 0.0;                                          ///< A_12 [m^(Dim-1)], 0 when they only touch or are apart
+    PlaneVector<Dim> shift_derivative = PlaneVector<Dim>::Zero();  ///< dA/ds [m^(Dim-2)]
+};
+
+/// A_12(s) and its derivative. dA/ds is the sum over the edges of face 2 inside face 1 of (length) (outward in-plane
+/// normal); an edge of 2 that lies on an edge of 1 (within 1e-12 of the face size, matching meshes) counts half.
+/// Zero area gives a zero derivative. METHOD.md, section 3.
+template <int Dim>
+[[nodiscard]] SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift,
+                                          AreaMethod method = AreaMethod::fast);
+
+/// Appends to `events` the parameters tau in (0, 1) at which A_12 may change its formula while the shift goes straight from
+/// `shift_0` to `shift_1`: a vertex of one face crosses an edge of the other. Unsorted, with duplicates possible. Between
+/// two neighbouring events A_12 is a polynomial of degree Dim - 1 in tau. An edge parallel to the motion gives none.
+template <int Dim>
+void append_overlap_events(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift_0,
+                           const PlaneVector<Dim>& shift_1, std::vector<double>& events);
+
+}  // namespace abut::geometry

@@ -1,0 +1,46 @@
+#include "abut/mesh/connected_bodies.hpp"
+
+#include <numeric>
+#include <unordered_map>
+
+namespace abut::mesh {
+namespace {
+
+/// Representative of a vertex in a forest of parents, paths halved on the way.
+std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t vertex) {
+    while (parent[static_cast<std::size_t>(vertex)] != vertex) {
+        auto& up = parent[static_cast<std::size_t>(vertex)];
+        up = parent[static_cast<std::size_t>(up)];
+        vertex = up;
+    }
+    return vertex;
+}
+
+}  // namespace
+
+template <int Dim>
+void name_connected_bodies(CellSoup<Dim>& soup) {
+    std::vector<std::int32_t> parent(soup.vertices.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto n_cells = soup.cell_vertices.size();
+    for (std::int32_t cell = 0; cell < n_cells; ++cell) {
+        if (soup.cell_body[static_cast<std::size_t>(cell)] >= 0) continue;
+        const auto vertices = soup.cell_vertices[cell];
+        for (const std::int32_t vertex : vertices.subspan(1))
+            parent[static_cast<std::size_t>(root(parent, vertex))] = root(parent, vertices[0]);
+    }
+    std::unordered_map<std::int32_t, std::int32_t> body_of_root;
+    for (std::int32_t cell = 0; cell < n_cells; ++cell) {
+        auto& body = soup.cell_body[static_cast<std::size_t>(cell)];
+        if (body >= 0) continue;
+        const auto next = static_cast<std::int32_t>(soup.body_names.size());
+        const auto [entry, is_new] = body_of_root.emplace(root(parent, soup.cell_vertices[cell][0]), next);
+        body = entry->second;
+        if (is_new) soup.body_names.push_back(std::string("body_") + std::to_string(body_of_root.size()));
+    }
+}
+
+template void name_connected_bodies<2>(CellSoup<2>&);
+template void name_connected_bodies<3>(CellSoup<3>&);
+
+}  // namespace abut::mesh

@@ -1,0 +1,11 @@
+#pragma once
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::mesh {
+
+/// Gives every connected component (cells linked by common vertices) of the cells whose body is -1 a body of its own,
+/// "body_1", "body_2", ... in the order of their first cells.
+template <int Dim>
+void name_connected_bodies(CellSoup<Dim>& soup);
+
+}  // namespace abut::mesh

@@ -1,0 +1,242 @@
+#include "abut/mesh/mesh.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "abut/mesh/measures.hpp"
+#include "abut/mesh/quality.hpp"
+#include "abut/mesh/reorder.hpp"
+#include "abut/mesh/split.hpp"
+#include "abut/mesh/topology.hpp"
+
+namespace abut::mesh {
+namespace {
+
+void fill_labels(std::vector<std::int64_t>& labels, std::size_t n) {
+    if (!labels.empty()) return;
+    labels.resize(n);
+    std::iota(labels.begin(), labels.end(), std::int64_t{0});
+}
+
+template <class Value>
+std::vector<Value> permuted(const std::vector<Value>& values, std::span<const std::int32_t> old_index) {
+    std::vector<Value> result;
+    result.reserve(old_index.size());
+    for (const std::int32_t i : old_index) result.push_back(values[static_cast<std::size_t>(i)]);
+    return result;
+}
+
+template <int Dim>
+[[noreturn]] void throw_not_boundary(const CellSoup<Dim>& soup, const typename CellSoup<Dim>::NamedFace& face) {
+    const auto lost = std::find(face.vertices.begin(), face.vertices.end(), -1) != face.vertices.end();
+    const auto which = lost ? std::string("with a vertex that no cell has") : vertex_list(face.vertices, soup.vertex_label);
+    throw MeshError(soup.name + ": face " + which + " of group '" + soup.group_names[static_cast<std::size_t>(face.group)] +
+                    "' is not a boundary face of any cell. Name faces of the outer surface only, with the vertices of the cells behind them.");
+}
+
+template <int Dim>
+std::vector<BoundaryGroup> boundary_groups(const CellSoup<Dim>& soup, const Faces& faces) {
+    std::vector<BoundaryGroup> groups;
+    for (const std::string& name : soup.group_names) groups.push_back({name, {}});
+    if (soup.named_faces.empty()) return groups;
+    const BoundaryFaceFinder finder(faces.face_vertices, faces.face_cells);
+    for (const auto& named : soup.named_faces) {
+        const std::int32_t face = finder.find(named.vertices);
+        if (face < 0) throw_not_boundary(soup, named);
+        groups[static_cast<std::size_t>(named.group)].faces.push_back(face);
+    }
+    for (BoundaryGroup& group : groups) {
+        std::sort(group.faces.begin(), group.faces.end());
+        group.faces.erase(std::unique(group.faces.begin(), group.faces.end()), group.faces.end());
+    }
+    return groups;
+}
+
+std::vector<std::int32_t> faces_of_one_cell(const std::vector<std::array<std::int32_t, 2>>& face_cells) {
+    std::vector<std::int32_t> faces;
+    for (std::size_t face = 0; face < face_cells.size(); ++face)
+        if (face_cells[face][1] < 0) faces.push_back(static_cast<std::int32_t>(face));
+    return faces;
+}
+
+/// A mesh out of a soup that is checked and in its final order.
+template <int Dim>
+Mesh<Dim> assemble(CellSoup<Dim> soup, Faces faces, CellMeasures<Dim> cells) {
+    Mesh<Dim> mesh;
+    mesh.groups = boundary_groups(soup, faces);
+    mesh.name = std::move(soup.name);
+    mesh.vertices = std::move(soup.vertices);
+    mesh.cell_shape = std::move(soup.cell_shape);
+    mesh.cell_vertices = std::move(soup.cell_vertices);
+    mesh.cell_body = std::move(soup.cell_body);
+    mesh.body_names = std::move(soup.body_names);
+    mesh.cell_label = std::move(soup.cell_label);
+    mesh.vertex_label = std::move(soup.vertex_label);
+    mesh.cell_measure = std::move(cells.measure);
+    mesh.cell_centroid = std::move(cells.centroid);
+    mesh.cell_faces = std::move(faces.cell_faces);
+    mesh.face_vertices = std::move(faces.face_vertices);
+    mesh.face_cells = std::move(faces.face_cells);
+    mesh.boundary_faces = faces_of_one_cell(mesh.face_cells);
+    measure_faces(mesh);
+    return mesh;
+}
+
+template <class Value>
+void append(std::vector<Value>& to, const std::vector<Value>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+void append_shifted(std::vector<std::int32_t>& to, const std::vector<std::int32_t>& from, std::int32_t shift) {
+    for (const std::int32_t value : from) to.push_back(value + shift);
+}
+
+void append_shifted(Rows& to, const Rows& from, std::int32_t shift) {
+    const auto start = static_cast<std::int32_t>(to.values.size());
+    append_shifted(to.values, from.values, shift);
+    for (std::size_t row = 1; row < from.offsets.size(); ++row) to.offsets.push_back(from.offsets[row] + start);
+}
+
+/// Everything but names and groups.
+template <int Dim>
+void append_cells_and_faces(Mesh<Dim>& to, const Mesh<Dim>& from) {
+    const std::int32_t cells = to.n_cells(), faces = to.n_faces(), bodies = to.n_bodies();
+    append_shifted(to.cell_vertices, from.cell_vertices, static_cast<std::int32_t>(to.vertices.size()));
+    append_shifted(to.face_vertices, from.face_vertices, static_cast<std::int32_t>(to.vertices.size()));
+    append_shifted(to.cell_faces, from.cell_faces, faces);
+    append_shifted(to.cell_body, from.cell_body, bodies);
+    append_shifted(to.boundary_faces, from.boundary_faces, faces);
+    for (const auto& pair : from.face_cells) to.face_cells.push_back({pair[0] + cells, pair[1] < 0 ? -1 : pair[1] + cells});
+    append(to.vertices, from.vertices);
+    append(to.cell_shape, from.cell_shape);
+    append(to.cell_measure, from.cell_measure);
+    append(to.cell_centroid, from.cell_centroid);
+    append(to.face_measure, from.face_measure);
+    append(to.face_centroid, from.face_centroid);
+    append(to.face_normal, from.face_normal);
+    append(to.cell_label, from.cell_label);
+    append(to.vertex_label, from.vertex_label);
+}
+
+void append_report(BuildReport& to, const BuildReport& from, std::int32_t n_cells_before) {
+    to.n_unused_vertices += from.n_unused_vertices;
+    to.n_ignored_elements += from.n_ignored_elements;
+    to.n_non_planar_faces += from.n_non_planar_faces;
+    to.n_cut_cells += from.n_cut_cells;
+    if (from.worst_planarity <= to.worst_planarity && to.worst_face_cell >= 0) return;
+    to.worst_planarity = from.worst_planarity;
+    to.worst_face_cell = from.worst_face_cell < 0 ? -1 : from.worst_face_cell + n_cells_before;
+}
+
+/// One prefix a mesh: its name, with "_1", "_2", ... behind it where several have the same name.
+template <int Dim>
+std::vector<std::string> prefixes(std::span<const Mesh<Dim>> meshes) {
+    std::map<std::string, int> total, seen;
+    for (const auto& mesh : meshes) ++total[mesh.name];
+    std::vector<std::string> result;
+    for (const auto& mesh : meshes)
+        result.push_back(mesh.name + (total[mesh.name] > 1 ? std::string("_") + std::to_string(++seen[mesh.name]) : std::string()));
+    return result;
+}
+
+/// names[i] are those of mesh i; those that occur in another mesh too get the prefix of their mesh in front.
+void make_unique(std::vector<std::vector<std::string>>& names, const std::vector<std::string>& prefix) {
+    std::map<std::string, int> total;
+    for (const auto& of_mesh : names)
+        for (const std::string& name : of_mesh) ++total[name];
+    for (std::size_t i = 0; i < names.size(); ++i)
+        for (std::string& name : names[i])
+            if (total[name] > 1) name = prefix[i] + "." + name;
+}
+
+template <int Dim>
+void append_names(Mesh<Dim>& result, std::span<const Mesh<Dim>> meshes) {
+    std::vector<std::vector<std::string>> bodies, groups;
+    for (const auto& mesh : meshes) {
+        bodies.push_back(mesh.body_names);
+        groups.emplace_back();
+        for (const BoundaryGroup& group : mesh.groups) groups.back().push_back(group.name);
+    }
+    const auto prefix = prefixes(meshes);
+    make_unique(bodies, prefix);
+    make_unique(groups, prefix);
+    std::int32_t faces = 0;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        append(result.body_names, bodies[i]);
+        for (std::size_t k = 0; k < groups[i].size(); ++k) {
+            result.groups.push_back({groups[i][k], {}});
+            append_shifted(result.groups.back().faces, meshes[i].groups[k].faces, faces);
+        }
+        faces += meshes[i].n_faces();
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+const BoundaryGroup& Mesh<Dim>::group(const std::string& group_name) const {
+    std::string known;
+    for (const BoundaryGroup& candidate : groups) {
+        if (candidate.name == group_name) return candidate;
+        known += (known.empty() ? "'" : ", '") + candidate.name + "'";
+    }
+    throw std::invalid_argument(name + ": there is no boundary group '" + group_name + "'. The mesh has " +
+                                (known.empty() ? "none: name surfaces as physical groups." : known + "."));
+}
+
+template <int Dim>
+Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
+    if (soup.cell_shape.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 6))
+        throw MeshError(soup.name + ": " + std::to_string(soup.cell_shape.size()) + " cells, at most " +
+                        std::to_string(std::numeric_limits<std::int32_t>::max() / 6) + " are allowed. Coarsen the mesh.");
+    fill_labels(soup.cell_label, soup.cell_shape.size());
+    fill_labels(soup.vertex_label, soup.vertices.size());
+    check_soup(soup);
+
+    BuildReport report;
+    report.n_ignored_elements = soup.n_ignored_elements;
+    handle_non_planar_faces(soup, options, report);
+    auto cells = measure_cells(soup);
+    check_cells<Dim>(soup, cells.measure);
+
+    const auto order = cell_order<Dim>(soup, cells.centroid, options.reorder);
+    report.n_unused_vertices = static_cast<std::int32_t>(soup.vertices.size());
+    soup = renumbered<Dim>(soup, order, options.reorder);
+    report.n_unused_vertices -= static_cast<std::int32_t>(soup.vertices.size());
+    cells = {permuted(cells.measure, order), permuted(cells.centroid, order)};
+
+    Faces faces = find_faces(soup);
+    Mesh<Dim> mesh = assemble(std::move(soup), std::move(faces), std::move(cells));
+    mesh.report = report;
+    check_faces(mesh, options);
+    return mesh;
+}
+
+template <int Dim>
+Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes) {
+    Mesh<Dim> result;
+    append_names(result, meshes);
+    std::vector<std::string> names;
+    std::swap(names, result.body_names);  // bodies are counted while the meshes come in
+    for (const auto& mesh : meshes) {
+        append_report(result.report, mesh.report, result.n_cells());
+        append_cells_and_faces(result, mesh);
+        append(result.body_names, mesh.body_names);
+        result.name += (result.name.empty() ? "" : "+") + mesh.name;
+    }
+    result.body_names = std::move(names);
+    return result;
+}
+
+template struct Mesh<2>;
+template struct Mesh<3>;
+template Mesh<2> build_mesh<2>(CellSoup<2>, const MeshOptions&);
+template Mesh<3> build_mesh<3>(CellSoup<3>, const MeshOptions&);
+template Mesh<2> combine<2>(std::span<const Mesh<2>>);
+template Mesh<3> combine<3>(std::span<const Mesh<3>>);
+
+}  // namespace abut::mesh

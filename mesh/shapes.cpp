@@ -1,0 +1,190 @@
+#include "abut/mesh/shapes.hpp"
+
+#include <Eigen/Geometry>
+#include <gmsh.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "abut/mesh/gmsh_session.hpp"
+#include "abut/mesh/messages.hpp"
+#include "abut/mesh/quality.hpp"
+
+namespace abut::mesh {
+namespace {
+
+constexpr double golden_angle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
+/// Above this many expected tetrahedra Gmsh's HXT takes over from its Delaunay mesher, which would take minutes.
+constexpr double many_tetrahedra = 5e4;
+constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1, hxt_3d = 10;
+
+void check_positive(const std::string& name, const char* what, double value) {
+    if (value > 0.0 && std::isfinite(value)) return;
+    throw MeshError(name + ": " + what + " is " + number(value) + " m, a finite length above 0 is needed. Change the option.");
+}
+
+template <class Options>
+void check_common(const Options& options) {
+    check_positive(options.name, "size", options.size);
+    if (options.variant < 0)
+        throw MeshError(options.name + ": variant is " + std::to_string(options.variant) + ", 0 or more is needed. Change the option.");
+    if (!options.refinement) return;
+    check_positive(options.name, "refinement.size", options.refinement->size);
+    check_positive(options.name, "refinement.distance", options.refinement->distance);
+}
+
+/// Wanted cell size as a function of place.
+template <int Dim>
+struct SizeField {
+    double size;
+    std::optional<Refinement<Dim>> refinement;
+
+    [[nodiscard]] double operator()(const Vector<Dim>& x) const {
+        if (!refinement) return size;
+        const double way = std::min(1.0, (x - refinement->point).norm() / refinement->distance);
+        return refinement->size + way * (size - refinement->size);
+    }
+};
+
+template <int Dim>
+void set_size(const SizeField<Dim>& field) {
+    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+    gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
+    gmsh::model::mesh::setSizeCallback([field](int, int, double x, double y, double z) {
+        Vector<3> point(x, y, z);
+        return field(point.head<Dim>());
+    });
+}
+
+void choose_algorithms(double volume, double size) {
+    const double tetrahedra = 6.0 * std::numbers::sqrt2 * volume / (size * size * size);
+    gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
+    gmsh::option::setNumber("Mesh.Algorithm3D", tetrahedra > many_tetrahedra ? hxt_3d : delaunay_3d);
+    gmsh::option::setNumber("Mesh.Optimize", 1);
+}
+
+/// Name of the boundary group that the surface (3D) or curve (2D) with this centre of mass belongs to.
+using NameOfSide = std::function<std::string(const Vector<3>& centre)>;
+
+template <int Dim>
+void name_parts(int tag, const std::string& body_name, const NameOfSide& name_of_side) {
+    gmsh::model::setPhysicalName(Dim, gmsh::model::addPhysicalGroup(Dim, {tag}), body_name);
+    gmsh::vectorpair sides;
+    gmsh::model::getBoundary({{Dim, tag}}, sides, false, false);
+    std::vector<std::pair<std::string, std::vector<int>>> groups;
+    for (const auto& [dimension, side] : sides) {
+        Vector<3> centre;
+        gmsh::model::occ::getCenterOfMass(dimension, side, centre[0], centre[1], centre[2]);
+        const std::string name = name_of_side(centre);
+        if (groups.empty() || std::none_of(groups.begin(), groups.end(), [&](auto& g) { return g.first == name; })) groups.push_back({name, {}});
+        for (auto& group : groups)
+            if (group.first == name) group.second.push_back(side);
+    }
+    for (const auto& [name, tags] : groups) gmsh::model::setPhysicalName(Dim - 1, gmsh::model::addPhysicalGroup(Dim - 1, tags), name);
+}
+
+/// Meshes the part that `add_part` adds to an empty OpenCASCADE model; it returns the tag of its volume (surface in 2D).
+template <int Dim>
+CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, const std::function<int()>& add_part, const NameOfSide& name_of_side) {
+    const GmshSession session;
+    CellSoup<Dim> soup;
+    session.run(name, "meshing failed", "Change size or refinement.", [&] {
+        const int tag = add_part();
+        gmsh::model::occ::synchronize();
+        name_parts<Dim>(tag, name, name_of_side);
+        double volume = 0.0;
+        gmsh::model::occ::getMass(Dim, tag, volume);
+        choose_algorithms(volume, field.size);
+        set_size(field);
+        gmsh::model::mesh::generate(Dim);
+        soup = soup_of_gmsh_model<Dim>(name);
+    });
+    soup.n_ignored_elements = 0;  // points and edges of our own model, not something a user gave
+    soup.vertex_label.clear();
+    soup.cell_label.clear();
+    return soup;
+}
+
+/// Meshes the part in the frame in which it is not turned yet, around the origin, then turns and moves the vertices.
+template <int Dim>
+Mesh<Dim> turned_part(const std::string& name, const Vector<Dim>& centre, const Matrix<Dim>& turn, SizeField<Dim> field,
+                      const std::function<int()>& add_part, const NameOfSide& name_of_side, const MeshOptions& mesh_options) {
+    if (field.refinement) field.refinement->point = turn.transpose() * (field.refinement->point - centre);
+    auto soup = meshed_part<Dim>(name, field, add_part, name_of_side);
+    for (Vector<Dim>& vertex : soup.vertices) vertex = centre + turn * vertex;
+    return build_mesh(std::move(soup), mesh_options);
+}
+
+Matrix<3> turn_about(const Vector<3>& axis, int variant) {
+    return Eigen::AngleAxisd(variant * golden_angle, axis.normalized()).toRotationMatrix();
+}
+
+template <int Dim>
+std::string side_of_box(const Vector<3>& centre, const Vector<Dim>& lower, const Vector<Dim>& upper) {
+    static const std::array<std::string, 6> names = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+    std::size_t best = 0;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 2 * Dim; ++i) {
+        const double distance = std::abs(centre[i / 2] - (i % 2 == 0 ? lower : upper)[i / 2]);
+        if (distance >= smallest) continue;
+        smallest = distance;
+        best = static_cast<std::size_t>(i);
+    }
+    return names[best];
+}
+
+}  // namespace
+
+Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
+    check_common(options);
+    check_positive(options.name, "radius", options.radius);
+    const Matrix<2> turn = turn_about(Vector<3>::UnitZ(), options.variant).topLeftCorner<2, 2>();
+    return turned_part<2>(
+        options.name, options.centre, turn, {options.size, options.refinement},
+        [&] { return gmsh::model::occ::addDisk(0, 0, 0, options.radius, options.radius); },
+        [](const Vector<3>&) { return "boundary"; }, mesh_options);
+}
+
+Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options) {
+    check_common(options);
+    check_positive(options.name, "radius", options.radius);
+    check_positive(options.name, "length", options.length);
+    const double half = 0.5 * options.length;
+    const auto side = [half](const Vector<3>& at) { return at.z() < -0.5 * half ? "bottom" : at.z() > 0.5 * half ? "top" : "side"; };
+    return turned_part<3>(
+        options.name, options.centre, turn_about(Vector<3>::UnitZ(), options.variant), {options.size, options.refinement},
+        [&] { return gmsh::model::occ::addCylinder(0, 0, -half, 0, 0, options.length, options.radius); }, side, mesh_options);
+}
+
+Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
+    check_common(options);
+    check_positive(options.name, "radius", options.radius);
+    const Vector<3> skew(1.0, std::numbers::sqrt2, std::numbers::pi);
+    return turned_part<3>(
+        options.name, options.centre, turn_about(skew, options.variant), {options.size, options.refinement},
+        [&] { return gmsh::model::occ::addSphere(0, 0, 0, options.radius); }, [](const Vector<3>&) { return "boundary"; }, mesh_options);
+}
+
+template <int Dim>
+Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options) {
+    check_common(options);
+    const Vector<Dim> sides = options.upper - options.lower;
+    check_positive(options.name, "shortest side", sides.minCoeff());
+    // L / size grows by variant * L / L_min >= variant on an edge of length L.
+    const double shrink = 1.0 / (1.0 + options.variant * options.size / sides.minCoeff());
+    SizeField<Dim> field{options.size * shrink, options.refinement};
+    if (field.refinement) field.refinement->size *= shrink;
+    const Vector<Dim>& a = options.lower;
+    const auto add_part = [&] {
+        if constexpr (Dim == 2) return gmsh::model::occ::addRectangle(a[0], a[1], 0, sides[0], sides[1]);
+        else return gmsh::model::occ::addBox(a[0], a[1], a[2], sides[0], sides[1], sides[2]);
+    };
+    const auto side = [&](const Vector<3>& centre) { return side_of_box<Dim>(centre, options.lower, options.upper); };
+    return build_mesh(meshed_part<Dim>(options.name, field, add_part, side), mesh_options);
+}
+
+template Mesh<2> box<2>(const BoxOptions<2>&, const MeshOptions&);
+template Mesh<3> box<3>(const BoxOptions<3>&, const MeshOptions&);
+
+}  // namespace abut::mesh

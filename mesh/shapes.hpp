@@ -1,0 +1,83 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+
+#include "abut/mesh/mesh.hpp"
+
+/// Meshes of simple parts. The unstructured ones come from Gmsh: the same options give the same bits; calls from several
+/// threads wait for one another. All throw MeshError when a length or count is not positive, or when Gmsh fails.
+///
+/// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
+/// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the
+/// unstructured box gets a cell size that puts at least `variant` cells more on each edge. The refined place does not move.
+namespace abut::mesh {
+
+/// Smaller cells near a point: `size` [m] there, growing linearly to the part's own size over `distance` [m].
+template <int Dim>
+struct Refinement {
+    Vector<Dim> point;
+    double size;
+    double distance;
+};
+
+struct DiscOptions {
+    Vector<2> centre = Vector<2>::Zero();
+    double radius = 1.0;
+    double size = 0.1;                        ///< wanted edge length of cells [m]
+    std::optional<Refinement<2>> refinement = {};
+    int variant = 0;
+    std::string name = "disc";                ///< of mesh and body
+};
+/// Triangles. Group "boundary".
+[[nodiscard]] Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options = {});
+
+struct CylinderOptions {
+    Vector<3> centre = Vector<3>::Zero();     ///< middle of the axis, which is parallel to z
+    double radius = 1.0;
+    double length = 1.0;
+    double size = 0.1;
+    std::optional<Refinement<3>> refinement = {};
+    int variant = 0;
+    std::string name = "cylinder";
+};
+/// Tetrahedra. Groups "side", "bottom" (low z), "top".
+[[nodiscard]] Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options = {});
+
+struct SphereOptions {
+    Vector<3> centre = Vector<3>::Zero();
+    double radius = 1.0;
+    double size = 0.1;
+    std::optional<Refinement<3>> refinement = {};
+    int variant = 0;
+    std::string name = "sphere";
+};
+/// Tetrahedra. Group "boundary".
+[[nodiscard]] Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options = {});
+
+template <int Dim>
+struct BoxOptions {
+    Vector<Dim> lower = Vector<Dim>::Zero();
+    Vector<Dim> upper = Vector<Dim>::Ones();
+    double size = 0.1;
+    std::optional<Refinement<Dim>> refinement = {};
+    int variant = 0;
+    std::string name = "box";
+};
+/// Unstructured triangles (2D) or tetrahedra (3D). Groups "xmin", "xmax", "ymin", ...
+template <int Dim>
+[[nodiscard]] Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options = {});
+
+/// A box cut into counts[0] x counts[1] (x counts[2]) equal bricks, and each brick into cells of one shape: 2 triangles or
+/// 1 quadrangle; 6 tetrahedra, 1 hexahedron, 2 prisms (along z), or 6 pyramids around its centre. Groups "xmin", "xmax", ...
+/// Made without Gmsh. Boxes of equal counts match: give the two of a pair different counts.
+template <int Dim>
+[[nodiscard]] Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
+                                       const std::string& name = "box", const MeshOptions& mesh_options = {});
+
+/// A regular polygon of n_sectors >= 3 corners on the circle, cut into equal triangles around its centre: every cell is on
+/// the boundary and shares a face with the next one. The first corner is at angle `turn` [rad] from x. Group "boundary".
+[[nodiscard]] Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double turn = 0.0,
+                               const std::string& name = "disc", const MeshOptions& mesh_options = {});
+
+}  // namespace abut::mesh

@@ -1,0 +1,300 @@
+#include "abut/mesh/write_vtu.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCommand.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <array>
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
+
+#include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/file.hpp"
+#include "abut/mesh/quality.hpp"
+
+namespace abut::mesh {
+namespace {
+
+using Path = std::filesystem::path;
+
+int vtk_type(CellShape shape) {
+    constexpr std::array<int, n_cell_shapes> types = {VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+    return types[static_cast<std::size_t>(shape)];
+}
+
+/// VTK's documented wedge begins with the triangle that is counter-clockwise from outside: our second one.
+std::size_t vtk_place(CellShape shape, std::size_t i) { return shape == CellShape::prism ? (i + 3) % 6 : i; }
+
+void fill(double* tuple, double value) { tuple[0] = value; }
+template <int Dim>
+void fill(double* tuple, const Vector<Dim>& value) {
+    for (int i = 0; i < 3; ++i) tuple[i] = i < Dim ? value[i] : 0.0;
+}
+template <int Dim>
+void fill(double* tuple, const Matrix<Dim>& value) {
+    constexpr std::array<std::array<int, 2>, 6> entries = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+    for (const auto& [row, column] : entries) *tuple++ = row < Dim && column < Dim ? 0.5 * (value(row, column) + value(column, row)) : 0.0;
+}
+
+template <class Value>
+constexpr int n_components = 6;
+template <>
+constexpr int n_components<double> = 1;
+template <int Dim>
+constexpr int n_components<Vector<Dim>> = 3;
+
+void name_components(vtkDataArray& array) {
+    constexpr std::array<const char*, 6> names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+    if (array.GetNumberOfComponents() != 6) return;
+    for (int i = 0; i < 6; ++i) array.SetComponentName(i, names[static_cast<std::size_t>(i)]);
+}
+
+template <class Value>
+vtkSmartPointer<vtkDataArray> vtk_array(const std::string& name, std::span<const Value> values) {
+    auto array = vtkSmartPointer<vtkDoubleArray>::New();
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(n_components<Value>);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+    name_components(*array);
+    double* tuple = array->GetPointer(0);
+    for (const Value& value : values) {
+        fill(tuple, value);
+        tuple += n_components<Value>;
+    }
+    return array;
+}
+
+void add_field(vtkDataSetAttributes& data, vtkDataArray* array, std::size_t wanted, const char* of_what) {
+    if (static_cast<std::size_t>(array->GetNumberOfTuples()) != wanted)
+        throw std::invalid_argument(std::string("VtuSeries: field '") + array->GetName() + "' has " + std::to_string(array->GetNumberOfTuples()) +
+                                    " values, one for each of the " + std::to_string(wanted) + " " + of_what + " is needed.");
+    data.AddArray(array);
+}
+
+template <int Dim>
+void add_fields(vtkDataSetAttributes& data, const std::vector<Field<Dim>>& fields, std::size_t wanted, const char* of_what) {
+    for (const Field<Dim>& field : fields)
+        std::visit([&](const auto& values) { add_field(data, vtk_array(field.name, values), wanted, of_what); }, field.values);
+}
+
+template <class Bodies>
+void add_bodies(vtkDataSet& grid, const Bodies& bodies) {
+    vtkNew<vtkIntArray> array;
+    array->SetName("body");
+    array->SetNumberOfTuples(static_cast<vtkIdType>(bodies.size()));
+    for (std::size_t i = 0; i < bodies.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), bodies[i]);
+    grid.GetCellData()->AddArray(array);
+}
+
+template <int Dim>
+void add_point(vtkPoints& points, const Vector<Dim>& vertex) {
+    std::array<double, 3> x{};
+    fill(x.data(), vertex);
+    points.InsertNextPoint(x.data());
+}
+
+template <int Dim>
+vtkSmartPointer<vtkUnstructuredGrid> grid_of_cells(const Mesh<Dim>& mesh) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const Vector<Dim>& vertex : mesh.vertices) add_point(*points, vertex);
+    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+    grid->SetPoints(points);
+    grid->Allocate(mesh.n_cells());
+    std::array<vtkIdType, max_cell_vertices> ids{};
+    for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
+        const CellShape shape = mesh.cell_shape[static_cast<std::size_t>(cell)];
+        const auto vertices = mesh.cell_vertices[cell];
+        for (std::size_t i = 0; i < vertices.size(); ++i) ids[i] = vertices[vtk_place(shape, i)];
+        grid->InsertNextCell(vtk_type(shape), static_cast<vtkIdType>(vertices.size()), ids.data());
+    }
+    add_bodies(*grid, mesh.cell_body);
+    return grid;
+}
+
+/// The vertices of the boundary faces, in the order in which the faces name them.
+template <int Dim>
+std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh) {
+    std::vector<char> seen(mesh.vertices.size(), 0);
+    std::vector<std::int32_t> vertices;
+    for (const std::int32_t face : mesh.boundary_faces)
+        for (const std::int32_t vertex : mesh.face_vertices[face])
+            if (!std::exchange(seen[static_cast<std::size_t>(vertex)], char{1})) vertices.push_back(vertex);
+    return vertices;
+}
+
+template <int Dim>
+vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& vertices) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    std::vector<vtkIdType> number(mesh.vertices.size(), -1);
+    for (const std::int32_t vertex : vertices) {
+        number[static_cast<std::size_t>(vertex)] = points->GetNumberOfPoints();
+        add_point(*points, mesh.vertices[static_cast<std::size_t>(vertex)]);
+    }
+    vtkNew<vtkCellArray> faces;
+    std::vector<std::int32_t> bodies;
+    for (const std::int32_t face : mesh.boundary_faces) {
+        const auto corners = mesh.face_vertices[face];
+        faces->InsertNextCell(static_cast<int>(corners.size()));
+        for (const std::int32_t vertex : corners) faces->InsertCellPoint(number[static_cast<std::size_t>(vertex)]);
+        bodies.push_back(mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])]);
+    }
+    auto surface = vtkSmartPointer<vtkPolyData>::New();
+    surface->SetPoints(points);
+    if (Dim == 2) surface->SetLines(faces);
+    else surface->SetPolys(faces);
+    add_bodies(*surface, bodies);
+    return surface;
+}
+
+/// Collects what VTK would print.
+class WriterComplaints : public vtkCommand {
+public:
+    static WriterComplaints* New() { return new WriterComplaints; }
+    void Execute(vtkObject*, unsigned long, void* text) override {
+        if (text != nullptr) all += static_cast<const char*>(text);
+    }
+    std::string all;
+};
+
+template <class Writer>
+void write_grid(vtkDataObject& grid, const Path& path) {
+    const Path temporary = temporary_beside(path);
+    vtkNew<Writer> writer;
+    vtkNew<WriterComplaints> complaints;
+    writer->AddObserver(vtkCommand::ErrorEvent, complaints);
+    writer->SetInputData(&grid);
+    writer->SetFileName(temporary.c_str());
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !complaints->all.empty()) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw MeshError(path.string() + ": cannot be written. Check permissions and free space of its folder.");
+    }
+    move_into_place(temporary, path);
+}
+
+/// Mean over the cells around each vertex. Bodies share no vertex, so nothing mixes between them.
+template <int Dim>
+std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices, std::size_t n_vertices) {
+    std::vector<Vector<Dim>> mean(n_vertices, Vector<Dim>::Zero());
+    std::vector<int> count(n_vertices, 0);
+    for (std::int32_t cell = 0; cell < cell_vertices.size(); ++cell)
+        for (const std::int32_t vertex : cell_vertices[cell]) {
+            mean[static_cast<std::size_t>(vertex)] += of_cells[static_cast<std::size_t>(cell)];
+            ++count[static_cast<std::size_t>(vertex)];
+        }
+    for (std::size_t vertex = 0; vertex < n_vertices; ++vertex) mean[vertex] /= count[vertex];
+    return mean;
+}
+
+std::string frame_name(const std::string& basename, std::size_t frame, const char* extension) {
+    char number[16];
+    std::snprintf(number, sizeof number, "_%06zu", frame);
+    return basename + number + extension;
+}
+
+void write_list(const Path& directory, const std::string& basename, const char* extension, const std::vector<double>& times) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (std::size_t i = 0; i < times.size(); ++i)
+        text << "<DataSet timestep=\"" << times[i] << "\" part=\"0\" file=\"" << frame_name(basename, i, extension) << "\"/>\n";
+    text << "</Collection>\n</VTKFile>\n";
+    write_file_atomically(directory / (basename + ".pvd"), text.str());
+}
+
+}  // namespace
+
+template <int Dim>
+struct VtuSeries<Dim>::Files {
+    Path directory;
+    std::string basename;
+    std::vector<double> times{};
+    vtkSmartPointer<vtkUnstructuredGrid> cells;
+    Rows cell_vertices;
+    std::vector<std::int32_t> surface_vertices;
+    vtkSmartPointer<vtkPolyData> surface;
+
+    [[nodiscard]] std::size_t n_cells() const { return static_cast<std::size_t>(cells->GetNumberOfCells()); }
+    [[nodiscard]] std::size_t n_boundary_faces() const { return static_cast<std::size_t>(surface->GetNumberOfCells()); }
+    void add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells, vtkDataSet& of_surface) const;
+};
+
+template <int Dim>
+void VtuSeries<Dim>::Files::add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells, vtkDataSet& of_surface) const {
+    if (displacement.empty()) return;
+    add_field(*of_cells.GetCellData(), vtk_array("displacement", displacement), n_cells(), "cells");
+    const auto at_vertices = vertex_means(displacement, cell_vertices, static_cast<std::size_t>(cells->GetNumberOfPoints()));
+    of_cells.GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
+    std::vector<Vector<Dim>> on_surface;
+    for (const std::int32_t vertex : surface_vertices) on_surface.push_back(at_vertices[static_cast<std::size_t>(vertex)]);
+    of_surface.GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(on_surface)));
+}
+
+template <int Dim>
+VtuSeries<Dim>::VtuSeries(const Path& directory, const std::string& basename, const Mesh<Dim>& mesh) {
+    make_directory(directory);
+    auto vertices = surface_vertices(mesh);
+    auto surface = grid_of_surface(mesh, vertices);
+    files_.reset(new Files{directory, basename, {}, grid_of_cells(mesh), mesh.cell_vertices, std::move(vertices), surface});
+}
+
+template <int Dim>
+VtuSeries<Dim>::~VtuSeries() = default;
+template <int Dim>
+VtuSeries<Dim>::VtuSeries(VtuSeries&&) noexcept = default;
+template <int Dim>
+VtuSeries<Dim>& VtuSeries<Dim>::operator=(VtuSeries&&) noexcept = default;
+
+template <int Dim>
+int VtuSeries<Dim>::n_frames() const {
+    return static_cast<int>(files_->times.size());
+}
+
+template <int Dim>
+void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
+    vtkNew<vtkUnstructuredGrid> cells;
+    vtkNew<vtkPolyData> surface;
+    cells->ShallowCopy(files_->cells);
+    surface->ShallowCopy(files_->surface);
+    files_->add_displacement(frame.displacement, *cells, *surface);
+    add_fields(*cells->GetCellData(), frame.cell_fields, files_->n_cells(), "cells");
+    add_fields(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces");
+
+    const std::string on_surface = files_->basename + "_surface";
+    auto times = files_->times;
+    write_grid<vtkXMLUnstructuredGridWriter>(*cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"));
+    write_grid<vtkXMLPolyDataWriter>(*surface, files_->directory / frame_name(on_surface, times.size(), ".vtp"));
+    times.push_back(frame.time);
+    write_list(files_->directory, files_->basename, ".vtu", times);
+    write_list(files_->directory, on_surface, ".vtp", times);
+    files_->times = std::move(times);
+}
+
+template <int Dim>
+void write_vtu(const Mesh<Dim>& mesh, const Path& path) {
+    write_grid<vtkXMLUnstructuredGridWriter>(*grid_of_cells(mesh), path);
+}
+
+template class VtuSeries<2>;
+template class VtuSeries<3>;
+template void write_vtu<2>(const Mesh<2>&, const Path&);
+template void write_vtu<3>(const Mesh<3>&, const Path&);
+
+}  // namespace abut::mesh

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "abut/geometry/broad_phase.hpp"
+
+using namespace abut;
+using namespace abut::geometry;
+
+namespace {
+
+template <int Dim>
+using Boxes = std::vector<Box<Dim>>;
+
+constexpr std::array trees{BroadPhase::embree, BroadPhase::fcl};
+constexpr std::array all_methods{BroadPhase::embree, BroadPhase::fcl, BroadPhase::brute_force};
+
+template <int Dim>
+std::vector<IndexPair> between(BroadPhase method, const Boxes<Dim>& boxes_1, const Boxes<Dim>& boxes_2) {
+    return overlapping_pairs<Dim>(method, boxes_1, boxes_2);
+}
+template <int Dim>
+std::vector<IndexPair> within(BroadPhase method, const Boxes<Dim>& boxes) {
+    return overlapping_pairs<Dim>(method, boxes);
+}
+
+template <int Dim>
+Vector<Dim> random_vector(std::mt19937& random, double lower, double upper) {
+    std::uniform_real_distribution<double> number(lower, upper);
+    Vector<Dim> result;
+    for (double& x : result) x = number(random);
+    return result;
+}
+
+template <int Dim>
+Boxes<Dim> random_boxes(int count, unsigned seed, double largest) {
+    std::mt19937 random(seed);
+    Boxes<Dim> boxes;
+    for (int i = 0; i < count; ++i) {
+        const Vector<Dim> lower = random_vector<Dim>(random, 0.0, 1.0);
+        boxes.push_back({lower, lower + random_vector<Dim>(random, 0.0, largest)});
+    }
+    return boxes;
+}
+
+template <int Dim>
+Boxes<Dim> placed(Boxes<Dim> boxes, double scale, double offset) {
+    for (Box<Dim>& box : boxes) {
+        box.lower = (scale * box.lower).array() + offset;
+        box.upper = (scale * box.upper).array() + offset;
+    }
+    return boxes;
+}
+
+// Cubes of a grid, side by side: closed boxes touch at faces, edges and corners.
+Boxes<3> grid(int n, double cell) {
+    Boxes<3> boxes;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+            for (int k = 0; k < n; ++k) {
+                const Vector<3> lower(i, j, k);
+                boxes.push_back({cell * lower, cell * (lower + Vector<3>::Ones())});
+            }
+    return boxes;
+}
+
+template <int Dim>
+void check_against_brute_force(const Boxes<Dim>& boxes_1, const Boxes<Dim>& boxes_2) {
+    const std::vector<IndexPair> expected = between(BroadPhase::brute_force, boxes_1, boxes_2);
+    const std::vector<IndexPair> expected_within = within(BroadPhase::brute_force, boxes_1);
+    for (const BroadPhase method : trees) {
+        CAPTURE(std::string(name(method)), boxes_1.size(), boxes_2.size(), expected.size());
+        CHECK((between(method, boxes_1, boxes_2) == expected));
+        CHECK((within(method, boxes_1) == expected_within));
+    }
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("every broad phase is brute force on random boxes of every scale and place", "[broad_phase]", ((int Dim), Dim), 2, 3) {
+    const int count = GENERATE(1, 2, 7, 100, 700);
+    const double largest = GENERATE(0.0, 0.01, 0.3);
+    const Boxes<Dim> boxes_1 = random_boxes<Dim>(count, 1, largest), boxes_2 = random_boxes<Dim>(2 * count, 2, largest);
+    for (const auto& [scale, offset] : {std::pair{1.0, 0.0}, {1e-9, 0.0}, {1e9, 0.0}, {1e-3, 1e7}, {1.0, -1e6}, {1e-9, 1.0}, {1e30, 0.0}}) {
+        CAPTURE(scale, offset);
+        check_against_brute_force<Dim>(placed(boxes_1, scale, offset), placed(boxes_2, scale, offset));
+    }
+}
+
+TEST_CASE("every broad phase finds all neighbours of touching boxes", "[broad_phase]") {
+    // Pairs of cells that differ by at most 1 in every index: ((3n-2)^3 - n^3)/2.
+    const double cell = GENERATE(1.0, 0.1, 1.0 / 3.0, 1e-9, 1e9);
+    const int n = 7;
+    const Boxes<3> boxes = placed(grid(n, 1.0), cell, 0.0);
+    const std::size_t expected = (19 * 19 * 19 - n * n * n) / 2;
+    for (const BroadPhase method : all_methods) CHECK(within(method, boxes).size() == expected);
+}
+
+TEST_CASE("more than 100,000 boxes: counts known by formula", "[broad_phase]") {
+    const int n = 50;
+    const Boxes<3> boxes = grid(n, 0x1p-5);
+    const std::size_t expected = (148ull * 148 * 148 - 125000) / 2;
+    const std::vector<IndexPair> pairs = within(BroadPhase::embree, boxes);
+    CHECK(boxes.size() > 100000);
+    CHECK(pairs.size() == expected);
+    CHECK((within(BroadPhase::fcl, boxes) == pairs));
+    // Between two copies: those pairs in both orders, and every box with its own copy.
+    CHECK(between(BroadPhase::embree, boxes, boxes).size() == 2 * expected + boxes.size());
+}
+
+TEST_CASE("flat boxes, points, and identical boxes", "[broad_phase]") {
+    Boxes<3> flat = random_boxes<3>(300, 5, 0.4), points = random_boxes<3>(100, 6, 0.0);
+    for (std::size_t i = 0; i < flat.size(); ++i) {
+        const int axis = static_cast<int>(i % 3);
+        flat[i].lower[axis] = flat[i].upper[axis] = 0.5;  // planes that cut one another, many of them coplanar
+    }
+    check_against_brute_force<3>(flat, flat);
+    check_against_brute_force<3>(flat, points);
+    points.insert(points.end(), points.begin(), points.end());
+    check_against_brute_force<3>(points, points);
+    check_against_brute_force<3>(Boxes<3>(300, flat[0]), Boxes<3>(200, flat[0]));
+    check_against_brute_force<2>(Boxes<2>(50, Box<2>{{1, 1}, {1, 1}}), Boxes<2>(50, Box<2>{{1, 1}, {2, 1}}));
+}
+
+TEST_CASE("boxes that miss by one last digit do not overlap, boxes that touch do", "[broad_phase]") {
+    for (const double x : {1.0, 1e-9, 1e9, 1e7 + 1e-3, 1.0 / 3.0}) {
+        const Boxes<3> box = {{Vector<3>(x / 2, 0, 0), Vector<3>(x, 1, 1)}};
+        const Boxes<3> touching = {{Vector<3>(x, 0, 0), Vector<3>(2 * x, 1, 1)}};
+        const Boxes<3> apart = {{Vector<3>(std::nextafter(x, 2 * x), 0, 0), Vector<3>(2 * x, 1, 1)}};
+        for (const BroadPhase method : all_methods) {
+            CAPTURE(x, std::string(name(method)));
+            CHECK(between(method, box, touching).size() == 1);
+            CHECK(between(method, box, apart).empty());
+            CHECK(within(method, Boxes<3>{box[0], touching[0]}).size() == 1);
+            CHECK(within(method, Boxes<3>{box[0], apart[0]}).empty());
+        }
+    }
+}
+
+TEST_CASE("an obstacle of 1e6 among boxes of 1e-3", "[broad_phase]") {
+    Boxes<3> small = placed(random_boxes<3>(2000, 7, 0.05), 1e-3, 0.0);
+    const Boxes<3> obstacle = {{Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, 5e-4)}, {Vector<3>(-1e6, -1e6, -1e6), Vector<3>(-1, 1e6, 1e6)}};
+    check_against_brute_force<3>(small, obstacle);
+    check_against_brute_force<3>(obstacle, small);
+    small.insert(small.end(), obstacle.begin(), obstacle.end());
+    check_against_brute_force<3>(small, small);
+}
+
+TEST_CASE("small boxes stay apart in single precision beside an obstacle 1e9 times their size", "[broad_phase]") {
+    // Without care all 30,000 would fall on one float: 4.5e8 false pairs. Each touches its neighbour only.
+    const int n = 30000;
+    Boxes<3> boxes;
+    for (int i = 0; i < n; ++i) boxes.push_back({Vector<3>(i * 0x1p-10, 0, 0), Vector<3>((i + 1) * 0x1p-10, 0x1p-10, 0x1p-10)});
+    boxes.push_back({Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, -1.0)});
+    CHECK(within(BroadPhase::embree, boxes).size() == n - 1);
+    boxes.push_back({Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, 0.0)});
+    CHECK(within(BroadPhase::embree, boxes).size() == 2 * n);  // the neighbours, the second obstacle with all, both obstacles
+}
+
+TEST_CASE("small boxes spread over many orders of magnitude", "[broad_phase]") {
+    Boxes<3> boxes;
+    for (int k = -9; k <= 9; ++k)
+        for (const Box<3>& box : random_boxes<3>(60, 20 + k, 0.2)) {
+            const double scale = std::pow(10.0, k);
+            boxes.push_back({scale * box.lower, scale * box.upper});
+        }
+    check_against_brute_force<3>(boxes, boxes);
+}
+
+TEST_CASE("empty sets and empty boxes overlap nothing", "[broad_phase]") {
+    const Boxes<3> none, one = {{Vector<3>(0, 0, 0), Vector<3>(1, 1, 1)}}, empty(5);
+    const Boxes<3> turned = {{Vector<3>(0, 1, 0), Vector<3>(1, 0, 1)}};  // empty: lower > upper in y
+    for (const BroadPhase method : all_methods) {
+        CAPTURE(std::string(name(method)));
+        CHECK(between(method, none, one).empty());
+        CHECK(between(method, one, none).empty());
+        CHECK(between(method, one, empty).empty());
+        CHECK(between(method, one, turned).empty());
+        CHECK(within(method, none).empty());
+        CHECK(within(method, one).empty());
+        CHECK(within(method, empty).empty());
+        CHECK((between(method, Boxes<3>{turned[0], one[0], Box<3>()}, one) == std::vector<IndexPair>{{1, 0}}));
+        CHECK((within(method, Boxes<3>{one[0], turned[0], Box<3>(), one[0]}) == std::vector<IndexPair>{{0, 3}}));
+    }
+}
+
+TEST_CASE("a bound that is not finite is an error that names the box", "[broad_phase][errors]") {
+    using Catch::Matchers::Contains;
+    const double bad = GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
+    const Box<3> good{Vector<3>(0, 0, 0), Vector<3>(1, 1, 1)};
+    Boxes<3> boxes(4, good);
+    boxes[2].upper.y() = bad;
+    for (const BroadPhase method : all_methods) {
+        CHECK_THROWS_AS(within(method, boxes), std::invalid_argument);
+        CHECK_THROWS_WITH(within(method, boxes), Contains("box 2"));
+        CHECK_THROWS_WITH(between(method, Boxes<3>{good}, boxes), Contains("box 2"));
+    }
+}
+
+TEST_CASE("queries from several threads at once give the same answers", "[broad_phase]") {
+    const Boxes<3> boxes_1 = random_boxes<3>(3000, 8, 0.05), boxes_2 = random_boxes<3>(3000, 9, 0.05);
+    const std::vector<IndexPair> expected = between(BroadPhase::brute_force, boxes_1, boxes_2);
+    std::array<std::vector<IndexPair>, 4> answers;
+    std::vector<std::jthread> threads;
+    for (std::vector<IndexPair>& answer : answers) threads.emplace_back([&] { answer = between(BroadPhase::embree, boxes_1, boxes_2); });
+    threads.clear();
+    for (const std::vector<IndexPair>& answer : answers) CHECK((answer == expected));
+}
+
+TEST_CASE("broad phases have names", "[broad_phase]") {
+    CHECK(name(BroadPhase::embree) == "embree");
+    CHECK(name(BroadPhase::fcl) == "fcl");
+    CHECK(name(BroadPhase::brute_force) == "brute_force");
+}
