@@ -17,7 +17,8 @@ target_compile_features(abut_compile_options INTERFACE cxx_std_20)
 # Same bits everywhere a compiler is free to choose: no contraction of a*b+c, no reassociation.
 # No interposition: calls between functions of one shared library are inlined as in a static one.
 target_compile_options(abut_compile_options INTERFACE
-  -ffp-contract=off -fno-fast-math -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow
+  -ffp-contract=off -fno-fast-math -fno-semantic-interposition
+  -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers  # {.shift = s} leaves the rest to its defaults on purpose
   $<$<BOOL:${ABUT_WERROR}>:-Werror>
   $<$<BOOL:${ABUT_NATIVE}>:-march=native>)
 if(ABUT_SANITIZE)
@@ -88,6 +89,7 @@ endfunction()
 
 function(abut_install_package)
   get_property(abut_layers GLOBAL PROPERTY abut_layers)
+  list(JOIN abut_layers ", " abut_layer_names)
   configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/abutConfig.cmake.in
     ${PROJECT_BINARY_DIR}/package/abutConfig.cmake INSTALL_DESTINATION ${abut_package_dir})
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)

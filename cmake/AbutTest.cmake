@@ -1,6 +1,6 @@
 # abut_test(<name> SOURCES files... LINK targets... [PROPERTIES name value...])
 #
-# One Catch2 program, test_<name>, and one CTest a TEST_CASE, called "<name>: <title>". LINK names what is under test, for
+# One Catch2 program, test_<name>, and one CTest a TEST_CASE, called "<name>/<title>". LINK names what is under test, for
 # example abut::contact. PROPERTIES go to every one of its CTests, for example TIMEOUT 300 or PROCESSORS 2. The main
 # program is compiled once, in tests/support; headers there are included as "support/<name>.hpp".
 include(Catch)
@@ -11,5 +11,5 @@ function(abut_test name)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${test_LINK} abut_test_main abut_compile_options)
   # Catch2 2.13 asks the finished program for its test cases right after linking it; it has no DISCOVERY_MODE.
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}: " PROPERTIES TIMEOUT 600 ${test_PROPERTIES})
+  catch_discover_tests(test_${name} TEST_PREFIX "${name}/" PROPERTIES TIMEOUT 600 ${test_PROPERTIES})
 endfunction()

@@ -6,6 +6,7 @@
 
 #include "abut/dynamics/lanes.hpp"
 #include "abut/dynamics/parallel.hpp"
+#include "abut/dynamics/sweep_schedule.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -49,24 +50,53 @@ double row_sum_norm(const Matrix<Dim>& m) {
     return m.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
+/// Where a face is and how its jump is penalised.
+template <int Dim>
+struct FacePlace {
+    std::array<double, Dim> centroid;  // x_f
+    double jump_stiffness = 0.0;       // k_f = |f| eta / h_f
+};
+
+template <int Dim>
+struct CellGeometry {
+    double inverse_measure;  // 1/|c|
+    double lambda;
+    double mu;
+    std::array<double, Dim> centroid;  // x_c
+};
+
+/// A face as one of its cells has it.
+class Slot {
+public:
+    Slot(std::int32_t face, bool outward, std::int32_t neighbour) : face_(outward ? face : ~face), neighbour_(neighbour) {}
+    [[nodiscard]] std::int32_t face() const { return face_ < 0 ? ~face_ : face_; }
+    [[nodiscard]] bool outward() const { return face_ >= 0; }  // the normal of the face points out of the cell
+    [[nodiscard]] double sign() const { return outward() ? 1.0 : -1.0; }
+    [[nodiscard]] std::int32_t neighbour() const { return neighbour_; }  // cell on the other side; the cell itself on the boundary
+
+private:
+    std::int32_t face_;
+    std::int32_t neighbour_;
+};
+
+/// Cells a chunk: its work arrays fit the second-level cache several times.
+inline constexpr std::int32_t chunk_size = 512;
+
 }  // namespace
 
 /// The arrays that the sweeps run over, in the order in which they run.
 template <int Dim>
 struct Ccg<Dim>::Impl {
-    // faces; a boundary face has its one cell on both sides, no stiffness and an empty stencil, so that the sweeps need no branch
+    // Faces. A boundary face has its one cell on both sides, no stiffness and an empty stencil: the sweeps need no branch.
     std::vector<std::array<std::int32_t, 2>> sides;
     std::vector<FaceStencil<Dim>> stencils;
-    std::vector<double> jump_stiffness;          // k_f = |f| eta / h_f
-    std::vector<Lanes<Dim>> area_vector;         // |f| n_f, out of sides[0]
-    std::vector<Lanes<Dim>> face_centroid;
-    // cells
-    std::vector<std::int32_t> cell_face_offsets;
-    std::vector<std::int32_t> cell_faces;
-    std::vector<double> measure;
-    std::vector<double> lambda;
-    std::vector<double> mu;
-    std::vector<Lanes<Dim>> cell_centroid;
+    std::vector<std::array<double, Dim>> area_vectors;    // |f| n_f, out of the first side
+    std::vector<FacePlace<Dim>> face_places;
+    // Slots: the faces of the cells, cell by cell.
+    std::vector<std::int32_t> slot_offsets;      // (n_cells + 1)
+    std::vector<Slot> slots;
+    // Cells.
+    std::vector<CellGeometry<Dim>> cell_geometry;
     Occurrences of_cell;                         // interior stencils that use a cell
     std::vector<double> of_cell_weight;
     // boundary faces
@@ -87,166 +117,251 @@ struct Ccg<Dim>::Impl {
     std::vector<double> boundary_stiffness;
     StencilReport report;
     bool varies = false;
-    // work: one value a face or a cell
-    std::vector<Lanes<Dim>> u;             // displacement
-    std::vector<Lanes<Dim>> relative;      // u_f - u_c of the first side
-    std::vector<LaneTensor<Dim>> g;        // displacement gradient
-    std::vector<Lanes<Dim>> jump_force;    // k [u]_f
-    std::vector<LaneTensor<Dim>> s;        // sigma + stabilisation
-    std::vector<Lanes<Dim>> direct;        // part of dV/du_c that the jumps give directly
-    std::vector<Lanes<Dim>> y;             // face forces
+    // Work arrays of registers.
+    std::vector<double> u;           // displacement, by cell
+    std::vector<double> relative;    // u_f - u_c of the first side, by face
+    std::vector<double> g;           // displacement gradient, by cell
+    std::vector<double> jump_force;  // k_f [u]_f, by face
+    std::vector<double> s;           // S_c: the stress with the stabilisation, by cell
+    std::vector<double> direct;      // part of dV/du_c that the jumps give directly, by cell
+    std::vector<double> y;           // face forces, by face
+    std::vector<double> face_correction;  // delta_f, by boundary face; zero but during a sweep
+    std::vector<double> face_pair_force;
+    // Where a chunk begins among the cells, faces, boundary faces and boundary_cells; one more at the end.
+    struct Chunk {
+        std::int32_t cell, face, boundary, boundary_cell;
+    };
+    std::vector<Chunk> chunks;
+    SweepSchedule<6> schedule;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& boundary_conditions);
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_motion_bound(const mesh::Mesh<Dim>& mesh);
+    void set_chunks();
 
     // The operator, one face or cell at a time ------------------------------------------------------------------------
 
+    [[nodiscard]] std::ptrdiff_t n_cells() const { return static_cast<std::ptrdiff_t>(cell_geometry.size()); }
+    [[nodiscard]] std::ptrdiff_t n_faces() const { return static_cast<std::ptrdiff_t>(sides.size()); }
+
+    [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load<Dim>(u, c); }
+
     [[nodiscard]] Lanes<Dim> reconstruct(std::ptrdiff_t f) const {
-        const Lanes<Dim> origin = u[sides[f][0]];
+        const Lanes<Dim> origin = displacement(sides[f][0]);
         Lanes<Dim> sum;
-        for (int j = 0; j <= Dim; ++j) sum += stencils[f].weights[j] * (u[stencils[f].cells[j]] - origin);
+        for (int j = 0; j <= Dim; ++j) sum += stencils[f].weights[j] * (displacement(stencils[f].cells[j]) - origin);
         return sum;
     }
 
-    [[nodiscard]] Lanes<Dim> reconstruct_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& load) const {
-        const Lanes<Dim> origin = u[sides[boundary_faces[b]][0]];
+    [[nodiscard]] Lanes<Dim> reconstruct_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
+        const Lanes<Dim> origin = displacement(sides[boundary_faces[b]][0]);
         Lanes<Dim> sum;
         for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-            sum += boundary_weight[i] * (u[boundary.cells[i]] - origin);
-        if (load.displacement.empty()) return sum;
-        return sum + abut::dynamics::load<Dim>(Vector<Dim>(load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
+            sum += boundary_weight[i] * (displacement(boundary.cells[i]) - origin);
+        sum += load<Dim>(face_correction, b);
+        if (boundary_load.displacement.empty()) return sum;
+        return sum + load<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
     }
 
     [[nodiscard]] LaneTensor<Dim> gradient(std::ptrdiff_t c) const {
         LaneTensor<Dim> sum{};
-        for (std::int32_t i = cell_face_offsets[c]; i < cell_face_offsets[c + 1]; ++i) {
-            const std::int32_t f = cell_faces[i];
-            const std::int32_t first = sides[f][0];
-            if (first == c)
-                sum.add_outer(relative[f], area_vector[f]);
-            else
-                sum.add_outer(relative[f] + (u[first] - u[c]), -area_vector[f]);
+        const Lanes<Dim> u_c = displacement(c);
+        for (std::int32_t i = slot_offsets[c]; i < slot_offsets[c + 1]; ++i) {
+            const Slot& slot = slots[i];
+            // relative[f] is seen from the first side of f; the difference is exactly zero when that is c.
+            const std::int32_t first = slot.outward() ? static_cast<std::int32_t>(c) : slot.neighbour();
+            const Lanes<Dim> seen_from_c = load<Dim>(relative, slot.face()) + (displacement(first) - u_c);
+            sum.add_outer(slot.sign() * seen_from_c, area_vectors[slot.face()]);
         }
-        const double scale = 1.0 / measure[c];
-        for (Lanes<Dim>& column : sum.col) column = scale * column;
+        for (Lanes<Dim>& column : sum.col) column = cell_geometry[c].inverse_measure * column;
         return sum;
     }
 
-    [[nodiscard]] Lanes<Dim> jump(std::ptrdiff_t f) const {
-        const auto [a, b] = sides[f];
-        const Lanes<Dim> in_a = g[a] * (face_centroid[f] - cell_centroid[a]);
-        const Lanes<Dim> in_b = g[b] * (face_centroid[f] - cell_centroid[b]);
-        return (u[a] - u[b]) + (in_a - in_b);
+    /// x_f - x_c
+    [[nodiscard]] std::array<double, Dim> arm(const FacePlace<Dim>& face, std::ptrdiff_t c) const {
+        std::array<double, Dim> difference;
+        for (int j = 0; j < Dim; ++j) difference[j] = face.centroid[j] - cell_geometry[c].centroid[j];
+        return difference;
     }
 
-    [[nodiscard]] LaneTensor<Dim> elastic_stress(std::ptrdiff_t c) const {
-        const LaneTensor<Dim>& gradient_c = g[c];
+    /// k_f [u]_f, [u]_f = I_1(x_f) - I_2(x_f)
+    [[nodiscard]] Lanes<Dim> jump(std::ptrdiff_t f) const {
+        const auto [a, b] = sides[f];
+        const FacePlace<Dim>& face = face_places[f];
+        const Lanes<Dim> in_a = load_tensor<Dim>(g, a).times(arm(face, a));
+        const Lanes<Dim> in_b = load_tensor<Dim>(g, b).times(arm(face, b));
+        return face.jump_stiffness * ((displacement(a) - displacement(b)) + (in_a - in_b));
+    }
+
+    [[nodiscard]] LaneTensor<Dim> elastic_stress(std::ptrdiff_t c, const LaneTensor<Dim>& g_c) const {
+        const LaneTensor<Dim> transposed = g_c.transposed();
         double trace = 0.0;
-        for (int j = 0; j < Dim; ++j) trace += gradient_c.col[j][j];
+        for (int j = 0; j < Dim; ++j) trace += g_c.col[j][j];
         LaneTensor<Dim> sigma;
         for (int j = 0; j < Dim; ++j) {
-            Lanes<Dim> transposed;
-            for (int i = 0; i < Dim; ++i) transposed.r[i] = gradient_c.col[i][j];
-            sigma.col[j] = mu[c] * (gradient_c.col[j] + transposed);
-            sigma.col[j].r[j] += lambda[c] * trace;
+            sigma.col[j] = cell_geometry[c].mu * (g_c.col[j] + transposed.col[j]);
+            sigma.col[j].r[j] += cell_geometry[c].lambda * trace;
         }
         return sigma;
     }
 
+    /// S_c = sigma_c + (1/|c|) sum of k [u] (x) (x_f - x_c), and the sum of k [u].
     void stress(std::ptrdiff_t c) {
-        LaneTensor<Dim> stabilisation{};
+        LaneTensor<Dim> sum{};
         Lanes<Dim> on_cell;
-        for (std::int32_t i = cell_face_offsets[c]; i < cell_face_offsets[c + 1]; ++i) {
-            const std::int32_t f = cell_faces[i];
-            const Lanes<Dim> force = sides[f][0] == c ? jump_force[f] : -jump_force[f];
-            stabilisation.add_outer(force, face_centroid[f] - cell_centroid[c]);
+        for (std::int32_t i = slot_offsets[c]; i < slot_offsets[c + 1]; ++i) {
+            const std::int32_t f = slots[i].face();
+            const Lanes<Dim> force = slots[i].sign() * load<Dim>(jump_force, f);
+            sum.add_outer(force, arm(face_places[f], c));
             on_cell += force;
         }
-        const double scale = 1.0 / measure[c];
-        const LaneTensor<Dim> sigma = elastic_stress(c);
-        for (int j = 0; j < Dim; ++j) s[c].col[j] = sigma.col[j] + scale * stabilisation.col[j];
-        direct[c] = on_cell;
+        const LaneTensor<Dim> sigma = elastic_stress(c, load_tensor<Dim>(g, c));
+        for (int j = 0; j < Dim; ++j) sum.col[j] = sigma.col[j] + cell_geometry[c].inverse_measure * sum.col[j];
+        store_tensor(sum, s, c);
+        store(on_cell, direct, c);
+    }
+
+    /// 1/2 |c| eps:C:eps
+    [[nodiscard]] double elastic_energy(std::ptrdiff_t c) const {
+        const LaneTensor<Dim> g_c = load_tensor<Dim>(g, c);
+        const LaneTensor<Dim> sigma = elastic_stress(c, g_c);
+        double density = 0.0;
+        for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], g_c.col[j]);
+        return 0.5 * density / cell_geometry[c].inverse_measure;
+    }
+
+    /// 1/2 k_f |[u]_f|^2
+    [[nodiscard]] double jump_energy(std::ptrdiff_t f) const {
+        const Lanes<Dim> force = load<Dim>(jump_force, f);
+        const double stiffness = face_places[f].jump_stiffness;
+        return stiffness > 0.0 ? 0.5 * dot(force, force) / stiffness : 0.0;
     }
 
     [[nodiscard]] Lanes<Dim> face_force(std::ptrdiff_t f) const {
         const auto [a, b] = sides[f];
-        LaneTensor<Dim> difference;
-        for (int j = 0; j < Dim; ++j) difference.col[j] = s[a].col[j] - s[b].col[j];
-        return difference * area_vector[f];
+        LaneTensor<Dim> difference = load_tensor<Dim>(s, a);
+        const LaneTensor<Dim> other = load_tensor<Dim>(s, b);
+        for (int j = 0; j < Dim; ++j) difference.col[j] -= other.col[j];
+        return difference.times(area_vectors[f]);
     }
 
-    [[nodiscard]] Lanes<Dim> boundary_face_force(std::ptrdiff_t b, const BoundaryLoad<Dim>& load) const {
+    [[nodiscard]] Lanes<Dim> boundary_face_force(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
         const std::int32_t f = boundary_faces[b];
-        const Lanes<Dim> force = s[sides[f][0]] * area_vector[f];
-        return load.traction.empty() ? force : force - abut::dynamics::load<Dim>(load.traction[b]);
+        const Lanes<Dim> force = load_tensor<Dim>(s, sides[f][0]).times(area_vectors[f]) + load<Dim>(face_pair_force, b);
+        return boundary_load.traction.empty() ? force : force - load<Dim>(boundary_load.traction[b]);
     }
 
     /// dV/du_c = jumps + R^T y.
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const {
-        Lanes<Dim> sum = direct[c];
-        for (std::int32_t i = of_cell.offsets[c]; i < of_cell.offsets[c + 1]; ++i) sum += of_cell_weight[i] * y[of_cell.rows[i]];
+        Lanes<Dim> sum = load<Dim>(direct, c);
+        for (std::int32_t i = of_cell.offsets[c]; i < of_cell.offsets[c + 1]; ++i) sum += of_cell_weight[i] * load<Dim>(y, of_cell.rows[i]);
         return sum;
     }
 
     [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t place) const {
         Lanes<Dim> sum;
         for (std::int32_t i = of_boundary_cell.offsets[place]; i < of_boundary_cell.offsets[place + 1]; ++i)
-            sum += of_boundary_cell_weight[i] * y[boundary_faces[of_boundary_cell.rows[i]]];
+            sum += of_boundary_cell_weight[i] * load<Dim>(y, boundary_faces[of_boundary_cell.rows[i]]);
         return sum;
     }
 
     // Whole sweeps ----------------------------------------------------------------------------------------------------
 
-    void load_displacement(std::span<const Vector<Dim>> displacement) {
-        parallel_each(static_cast<std::ptrdiff_t>(u.size()), [&](std::ptrdiff_t c) { u[c] = load<Dim>(displacement[c]); });
+    void load_displacement(std::span<const Vector<Dim>> from) {
+        parallel_each(n_cells(), [&](std::ptrdiff_t c) { store(load<Dim>(from[c]), u, c); });
     }
 
-    void add_corrections(const FaceCorrections<Dim>& corrections) {
-        for (std::size_t i = 0; i < corrections.faces.size(); ++i)
-            relative[boundary_faces[corrections.faces[i]]] += load<Dim>(corrections.displacement[i]);
+    /// The sweeps see the corrections face by face; zero everywhere else.
+    class PlacedCorrections {
+    public:
+        PlacedCorrections(Impl& impl, const FaceCorrections<Dim>& corrections) : impl_(impl), corrections_(corrections) {
+            for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
+                store(load<Dim>(corrections.displacement[i]), impl.face_correction, corrections.faces[i]);
+                if (!corrections.force.empty()) store(load<Dim>(corrections.force[i]), impl.face_pair_force, corrections.faces[i]);
+            }
+        }
+        ~PlacedCorrections() {
+            for (const std::int32_t b : corrections_.faces) {
+                store(Lanes<Dim>{}, impl_.face_correction, b);
+                store(Lanes<Dim>{}, impl_.face_pair_force, b);
+            }
+        }
+        PlacedCorrections(const PlacedCorrections&) = delete;
+        PlacedCorrections& operator=(const PlacedCorrections&) = delete;
+
+    private:
+        Impl& impl_;
+        const FaceCorrections<Dim>& corrections_;
+    };
+
+    enum Stage { reconstruction, gradients, jumps, stresses, face_forces, cell_gradients, n_stages };
+
+    void reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
+        for (std::int32_t f = chunks[k].face; f < chunks[k + 1].face; ++f) store(reconstruct(f), relative, f);
+        for (std::int32_t b = chunks[k].boundary; b < chunks[k + 1].boundary; ++b)
+            store(reconstruct_boundary(b, boundary_load), relative, boundary_faces[b]);
     }
 
-    void add_pair_forces(const FaceCorrections<Dim>& corrections) {
-        if (corrections.force.empty()) return;
-        for (std::size_t i = 0; i < corrections.faces.size(); ++i)
-            y[boundary_faces[corrections.faces[i]]] += load<Dim>(corrections.force[i]);
+    void gradients_of_chunk(std::int32_t k) {
+        for (std::int32_t c = chunks[k].cell; c < chunks[k + 1].cell; ++c) store_tensor(gradient(c), g, c);
     }
 
-    void sweep_to_jumps(std::span<const Vector<Dim>> displacement, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections) {
-        load_displacement(displacement);
-        parallel_each(static_cast<std::ptrdiff_t>(sides.size()), [&](std::ptrdiff_t f) { relative[f] = reconstruct(f); });
-        parallel_each(boundary.size(), [&](std::ptrdiff_t b) { relative[boundary_faces[b]] = reconstruct_boundary(b, load); });
-        add_corrections(corrections);
-        parallel_each(static_cast<std::ptrdiff_t>(measure.size()), [&](std::ptrdiff_t c) { g[c] = gradient(c); });
-        parallel_each(static_cast<std::ptrdiff_t>(sides.size()), [&](std::ptrdiff_t f) { jump_force[f] = jump_stiffness[f] * jump(f); });
+    void jumps_of_chunk(std::int32_t k) {
+        for (std::int32_t f = chunks[k].face; f < chunks[k + 1].face; ++f) store(jump(f), jump_force, f);
     }
 
-    void sweep_to_forces(const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections) {
-        parallel_each(static_cast<std::ptrdiff_t>(measure.size()), [&](std::ptrdiff_t c) { stress(c); });
-        parallel_each(static_cast<std::ptrdiff_t>(sides.size()), [&](std::ptrdiff_t f) { y[f] = face_force(f); });
-        parallel_each(boundary.size(), [&](std::ptrdiff_t b) { y[boundary_faces[b]] = boundary_face_force(b, load); });
-        add_pair_forces(corrections);
+    void stresses_of_chunk(std::int32_t k) {
+        for (std::int32_t c = chunks[k].cell; c < chunks[k + 1].cell; ++c) stress(c);
     }
 
-    void sweep_to_cells(std::span<Vector<Dim>> result) {
-        parallel_each(static_cast<std::ptrdiff_t>(measure.size()), [&](std::ptrdiff_t c) { result[c] = unload<Dim>(cell_gradient(c)); });
-        parallel_each(static_cast<std::ptrdiff_t>(boundary_cells.size()),
-                      [&](std::ptrdiff_t place) { result[boundary_cells[place]] += unload<Dim>(boundary_cell_gradient(place)); });
+    void face_forces_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
+        for (std::int32_t f = chunks[k].face; f < chunks[k + 1].face; ++f) store(face_force(f), y, f);
+        for (std::int32_t b = chunks[k].boundary; b < chunks[k + 1].boundary; ++b)
+            store(boundary_face_force(b, boundary_load), y, boundary_faces[b]);
+    }
+
+    void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) {
+        for (std::int32_t c = chunks[k].cell; c < chunks[k + 1].cell; ++c) result[c] = unload<Dim>(cell_gradient(c));
+        for (std::int32_t place = chunks[k].boundary_cell; place < chunks[k + 1].boundary_cell; ++place)
+            result[boundary_cells[place]] += unload<Dim>(boundary_cell_gradient(place));
+    }
+
+    void sweep(std::span<const Vector<Dim>> from, const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
+               std::span<Vector<Dim>> result) {
+        const PlacedCorrections placed(*this, corrections);
+        load_displacement(from);
+        schedule.run([&](int stage, std::int32_t chunk) {
+            switch (stage) {
+                case reconstruction: return reconstruct_chunk(chunk, boundary_load);
+                case gradients: return gradients_of_chunk(chunk);
+                case jumps: return jumps_of_chunk(chunk);
+                case stresses: return stresses_of_chunk(chunk);
+                case face_forces: return face_forces_of_chunk(chunk, boundary_load);
+                default: return cell_gradients_of_chunk(chunk, result);
+            }
+        });
+    }
+
+    void sweep_to_jumps(std::span<const Vector<Dim>> from, const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections) {
+        const PlacedCorrections placed(*this, corrections);
+        load_displacement(from);
+        const auto n_chunks = static_cast<std::int32_t>(chunks.size()) - 1;
+        const auto for_each_chunk = [&](auto&& task) { oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, task); };
+        for_each_chunk([&](std::int32_t k) { reconstruct_chunk(k, boundary_load); });
+        for_each_chunk([&](std::int32_t k) { gradients_of_chunk(k); });
+        for_each_chunk([&](std::int32_t k) { jumps_of_chunk(k); });
     }
 
     // The same on a region --------------------------------------------------------------------------------------------
 
-    void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> displacement, const BoundaryLoad<Dim>& load,
-                            const FaceCorrections<Dim>& corrections) {
-        for (const std::int32_t c : region.loaded_cells) u[c] = abut::dynamics::load<Dim>(displacement[c]);
-        for (const std::int32_t f : region.reconstructed) relative[f] = reconstruct(f);
-        for (const std::int32_t b : region.reconstructed_boundary) relative[boundary_faces[b]] = reconstruct_boundary(b, load);
-        add_corrections(corrections);
-        for (const std::int32_t c : region.gradient_cells) g[c] = gradient(c);
-        for (const std::int32_t f : region.jump_faces) jump_force[f] = jump_stiffness[f] * jump(f);
+    void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> from, const BoundaryLoad<Dim>& boundary_load) {
+        for (const std::int32_t c : region.loaded_cells) store(load<Dim>(from[c]), u, c);
+        for (const std::int32_t f : region.reconstructed) store(reconstruct(f), relative, f);
+        for (const std::int32_t b : region.reconstructed_boundary) store(reconstruct_boundary(b, boundary_load), relative, boundary_faces[b]);
+        for (const std::int32_t c : region.gradient_cells) store_tensor(gradient(c), g, c);
+        for (const std::int32_t f : region.jump_faces) store(jump(f), jump_force, f);
         for (const std::int32_t c : region.stress_cells) stress(c);
     }
 
@@ -263,9 +378,12 @@ struct Ccg<Dim>::Impl {
     [[nodiscard]] double free_motion_bound(std::span<const Vector<Dim>> from, std::span<const Vector<Dim>> to) const;
     [[nodiscard]] double largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                         std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const;
-    [[nodiscard]] std::span<const std::int32_t> faces_of(std::int32_t c) const {
-        return {cell_faces.data() + cell_face_offsets[c], static_cast<std::size_t>(cell_face_offsets[c + 1] - cell_face_offsets[c])};
+    [[nodiscard]] std::vector<std::int32_t> faces_of(std::int32_t c) const {
+        std::vector<std::int32_t> faces;
+        for (std::int32_t i = slot_offsets[c]; i < slot_offsets[c + 1]; ++i) faces.push_back(slots[i].face());
+        return faces;
     }
+    [[nodiscard]] Vector<Dim> area_vector(std::int32_t f) const { return Eigen::Map<const Vector<Dim>>(area_vectors[f].data()); }
 };
 
 template <int Dim>
@@ -277,13 +395,62 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
     set_motion_bound(mesh);
     for (const auto& condition : conditions.dirichlet) varies = varies || condition.history;
     for (const auto& condition : conditions.traction) varies = varies || condition.history;
-    u.resize(measure.size());
-    g.resize(measure.size());
-    s.resize(measure.size());
-    direct.resize(measure.size());
-    relative.resize(sides.size());
-    jump_force.resize(sides.size());
-    y.resize(sides.size());
+    u.resize(lane_width<Dim> * cell_geometry.size());
+    relative.resize(lane_width<Dim> * sides.size());
+    g.resize(lane_width<Dim> * Dim * cell_geometry.size());
+    jump_force.resize(lane_width<Dim> * sides.size());
+    s.resize(lane_width<Dim> * Dim * cell_geometry.size());
+    direct.resize(lane_width<Dim> * cell_geometry.size());
+    y.resize(lane_width<Dim> * sides.size());
+    face_correction.resize(lane_width<Dim> * boundary_faces.size());
+    face_pair_force.resize(lane_width<Dim> * boundary_faces.size());
+    set_chunks();
+}
+
+/// Chunks of cells with the faces they are the first side of, and which of them read each other's results.
+template <int Dim>
+void Ccg<Dim>::Impl::set_chunks() {
+    const auto cells = static_cast<std::int32_t>(n_cells());
+    const std::int32_t n_chunks = std::max(1, (cells + chunk_size - 1) / chunk_size);
+    const auto place = [](const auto& sorted, std::int32_t value) {
+        return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+    };
+    for (std::int32_t k = 0; k <= n_chunks; ++k) {
+        const std::int32_t cell = std::min(k * chunk_size, cells);
+        const auto face = static_cast<std::int32_t>(
+            std::partition_point(sides.begin(), sides.end(), [&](const auto& side) { return side[0] < cell; }) - sides.begin());
+        chunks.push_back({cell, face, place(boundary_faces, face), place(boundary_cells, cell)});
+    }
+
+    std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
+    for (auto& stage : needs) stage.resize(static_cast<std::size_t>(n_chunks));
+    const auto chunk_of = [](std::int32_t cell) { return cell / chunk_size; };
+    const auto owner = [&](std::int32_t face) { return chunk_of(sides[face][0]); };
+    for (std::int32_t c = 0; c < cells; ++c) {
+        const auto need = [&](Stage stage, std::int32_t chunk) {
+            auto& row = needs[stage - 1][chunk_of(c)];
+            if (row.empty() || row.back() != chunk) row.push_back(chunk);
+        };
+        for (std::int32_t i = slot_offsets[c]; i < slot_offsets[c + 1]; ++i) {
+            need(gradients, owner(slots[i].face()));
+            need(stresses, owner(slots[i].face()));
+        }
+        for (std::int32_t i = of_cell.offsets[c]; i < of_cell.offsets[c + 1]; ++i) need(cell_gradients, owner(of_cell.rows[i]));
+        need(cell_gradients, chunk_of(c));
+        if (const std::int32_t b = boundary_cell_place[c]; b >= 0)
+            for (std::int32_t i = of_boundary_cell.offsets[b]; i < of_boundary_cell.offsets[b + 1]; ++i)
+                need(cell_gradients, owner(boundary_faces[of_boundary_cell.rows[i]]));
+    }
+    for (const auto& [a, b] : sides) {
+        for (const Stage stage : {jumps, face_forces}) {
+            auto& row = needs[stage - 1][chunk_of(a)];
+            for (const std::int32_t chunk : {chunk_of(a), chunk_of(b)})
+                if (row.empty() || row.back() != chunk) row.push_back(chunk);
+        }
+    }
+    for (auto& stage : needs)
+        for (auto& row : stage) sort_unique(row);
+    schedule = SweepSchedule<n_stages>(n_chunks, needs);
 }
 
 template <int Dim>
@@ -291,12 +458,15 @@ void Ccg<Dim>::Impl::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Mate
     const auto n_faces = static_cast<std::size_t>(mesh.n_faces());
     sides = mesh.face_cells;
     stencils.resize(n_faces);
-    jump_stiffness.assign(n_faces, 0.0);
+    area_vectors.resize(n_faces);
+    face_places.resize(n_faces);
     boundary_place.assign(n_faces, -1);
     std::vector<std::int32_t> interior;
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f) {
-        area_vector.push_back(load<Dim>(Vector<Dim>(mesh.face_measure[f] * mesh.face_normal[f])));
-        face_centroid.push_back(load<Dim>(mesh.face_centroid[f]));
+        for (int j = 0; j < Dim; ++j) {
+            area_vectors[f][j] = mesh.face_measure[f] * mesh.face_normal[f][j];
+            face_places[f].centroid[j] = mesh.face_centroid[f][j];
+        }
         if (mesh.is_boundary(f)) {
             boundary_place[f] = static_cast<std::int32_t>(boundary_faces.size());
             boundary_faces.push_back(f);
@@ -308,7 +478,7 @@ void Ccg<Dim>::Impl::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Mate
         interior.push_back(f);
         // |f| eta / h_f with h_f = |f|^(1/(d-1))
         const double eta = materials[mesh.cell_body[sides[f][0]]].stabilisation();
-        jump_stiffness[f] = Dim == 2 ? eta : eta * std::sqrt(mesh.face_measure[f]);
+        face_places[f].jump_stiffness = Dim == 2 ? eta : eta * std::sqrt(mesh.face_measure[f]);
     }
     const auto selected = select_stencils<Dim>(mesh, interior, report);
     for (std::size_t i = 0; i < interior.size(); ++i) stencils[interior[i]] = selected[i];
@@ -316,13 +486,18 @@ void Ccg<Dim>::Impl::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Mate
 
 template <int Dim>
 void Ccg<Dim>::Impl::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
-    cell_face_offsets = mesh.cell_faces.offsets;
-    cell_faces = mesh.cell_faces.values;
-    measure = mesh.cell_measure;
+    slot_offsets = mesh.cell_faces.offsets;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        lambda.push_back(materials[mesh.cell_body[c]].lambda());
-        mu.push_back(materials[mesh.cell_body[c]].mu());
-        cell_centroid.push_back(load<Dim>(mesh.cell_centroid[c]));
+        const Material& material = materials[mesh.cell_body[c]];
+        CellGeometry<Dim>& geometry = cell_geometry.emplace_back();
+        geometry.inverse_measure = 1.0 / mesh.cell_measure[c];
+        geometry.lambda = material.lambda();
+        geometry.mu = material.mu();
+        for (int j = 0; j < Dim; ++j) geometry.centroid[j] = mesh.cell_centroid[c][j];
+        for (const std::int32_t f : mesh.cell_faces[c]) {
+            const bool outward = sides[f][0] == c;
+            slots.emplace_back(f, outward, sides[f][outward ? 1 : 0]);
+        }
     }
     std::vector<std::int32_t> begin(static_cast<std::size_t>(mesh.n_faces()) + 1);
     for (std::size_t f = 0; f < begin.size(); ++f) begin[f] = static_cast<std::int32_t>(f) * (Dim + 1);
@@ -340,7 +515,7 @@ void Ccg<Dim>::Impl::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const M
     for (const Matrix<Dim>& weight : boundary.weights) boundary_weight.push_back(load<Dim>(weight));
     boundary_cells = boundary.cells;
     sort_unique(boundary_cells);
-    boundary_cell_place.assign(measure.size(), -1);
+    boundary_cell_place.assign(cell_geometry.size(), -1);
     for (std::size_t i = 0; i < boundary_cells.size(); ++i) boundary_cell_place[boundary_cells[i]] = static_cast<std::int32_t>(i);
     of_boundary_cell = Occurrences::of(static_cast<std::int32_t>(boundary_cells.size()), boundary.size(), boundary.offsets,
                                        [&](std::int32_t, std::int32_t place) { return boundary_cell_place[boundary.cells[place]]; });
@@ -376,20 +551,20 @@ void Ccg<Dim>::Impl::set_motion_bound(const mesh::Mesh<Dim>& mesh) {
 /// From the cells whose stress is wanted back to everything it depends on.
 template <int Dim>
 void Ccg<Dim>::Impl::complete(Region<Dim>& region) const {
-    const auto faces_of = [&](const std::vector<std::int32_t>& cells) {
+    const auto all_faces_of = [&](const std::vector<std::int32_t>& cells) {
         std::vector<std::int32_t> faces;
         for (const std::int32_t c : cells)
-            faces.insert(faces.end(), cell_faces.begin() + cell_face_offsets[c], cell_faces.begin() + cell_face_offsets[c + 1]);
+            for (std::int32_t i = slot_offsets[c]; i < slot_offsets[c + 1]; ++i) faces.push_back(slots[i].face());
         sort_unique(faces);
         return faces;
     };
     sort_unique(region.stress_cells);
-    region.jump_faces = faces_of(region.stress_cells);
+    region.jump_faces = all_faces_of(region.stress_cells);
     region.gradient_cells = region.stress_cells;
     for (const std::int32_t f : region.jump_faces) region.gradient_cells.insert(region.gradient_cells.end(), sides[f].begin(), sides[f].end());
     sort_unique(region.gradient_cells);
     region.loaded_cells = region.gradient_cells;
-    for (const std::int32_t f : faces_of(region.gradient_cells)) {
+    for (const std::int32_t f : all_faces_of(region.gradient_cells)) {
         region.loaded_cells.insert(region.loaded_cells.end(), sides[f].begin(), sides[f].end());
         if (const std::int32_t b = boundary_place[f]; b >= 0) {
             region.reconstructed_boundary.push_back(b);
@@ -419,7 +594,9 @@ template <int Dim>
 double Ccg<Dim>::Impl::jump_answer(std::int32_t f, std::int32_t b) const {
     const std::int32_t cell = sides[boundary_faces[b]][0];
     const double sign = sides[f][0] == cell ? 1.0 : -1.0;
-    return sign * dot(area_vector[boundary_faces[b]], face_centroid[f] - cell_centroid[cell]) / measure[cell];
+    const Vector<Dim> from_cell = Eigen::Map<const Vector<Dim>>(face_places[f].centroid.data()) -
+                                  Eigen::Map<const Vector<Dim>>(cell_geometry[cell].centroid.data());
+    return sign * cell_geometry[cell].inverse_measure * area_vector(boundary_faces[b]).dot(from_cell);
 }
 
 template <int Dim>
@@ -428,13 +605,14 @@ Matrix<Dim> Ccg<Dim>::Impl::coupling_block(std::int32_t b, std::int32_t other) c
     const std::int32_t other_cell = sides[boundary_faces[other]][0];
     Matrix<Dim> block = Matrix<Dim>::Zero();
     if (cell == other_cell) {
-        const Vector<Dim> a_f = unload<Dim>(area_vector[boundary_faces[b]]);
-        const Vector<Dim> a_g = unload<Dim>(area_vector[boundary_faces[other]]);
-        block = (lambda[cell] * a_f * a_g.transpose() + mu[cell] * (a_f.dot(a_g) * Matrix<Dim>::Identity() + a_g * a_f.transpose())) / measure[cell];
+        const Vector<Dim> a_f = area_vector(boundary_faces[b]);
+        const Vector<Dim> a_g = area_vector(boundary_faces[other]);
+        const auto& [inverse_measure, lambda, mu, centroid] = cell_geometry[cell];
+        block = inverse_measure * (lambda * a_f * a_g.transpose() + mu * (a_f.dot(a_g) * Matrix<Dim>::Identity() + a_g * a_f.transpose()));
     }
     for (const std::int32_t f : faces_of(cell))
         if (sides[f][0] == other_cell || sides[f][1] == other_cell)
-            block += jump_stiffness[f] * jump_answer(f, b) * jump_answer(f, other) * Matrix<Dim>::Identity();
+            block += face_places[f].jump_stiffness * jump_answer(f, b) * jump_answer(f, other) * Matrix<Dim>::Identity();
     return block;
 }
 
@@ -484,7 +662,7 @@ Ccg<Dim>& Ccg<Dim>::operator=(Ccg&&) noexcept = default;
 
 template <int Dim>
 std::int32_t Ccg<Dim>::n_cells() const {
-    return static_cast<std::int32_t>(impl_->measure.size());
+    return static_cast<std::int32_t>(impl_->n_cells());
 }
 
 template <int Dim>
@@ -545,46 +723,37 @@ bool Ccg<Dim>::has_prescribed_face(std::int32_t cell) const {
 }
 
 template <int Dim>
-void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement) {
+void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement) {
     Impl& m = *impl_;
     m.load_displacement(u);
     parallel_each(m.boundary.size(), [&](std::ptrdiff_t b) {
-        displacement[b] = u[m.sides[m.boundary_faces[b]][0]] + unload<Dim>(m.reconstruct_boundary(b, load));
+        displacement[b] = u[m.sides[m.boundary_faces[b]][0]] + unload<Dim>(m.reconstruct_boundary(b, boundary_load));
     });
 }
 
 template <int Dim>
-void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
                         std::span<Vector<Dim>> result) {
-    impl_->sweep_to_jumps(u, load, corrections);
-    impl_->sweep_to_forces(load, corrections);
-    impl_->sweep_to_cells(result);
+    impl_->sweep(u, boundary_load, corrections, result);
 }
 
 template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_force(std::int32_t boundary_face) const {
-    return unload<Dim>(impl_->y[impl_->boundary_faces[boundary_face]]);
+    return unload<Dim>(load<Dim>(impl_->y, impl_->boundary_faces[boundary_face]));
 }
 
 template <int Dim>
-double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections) {
+double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections) {
     Impl& m = *impl_;
-    m.sweep_to_jumps(u, load, corrections);
-    const double elastic = ordered_sum(static_cast<std::ptrdiff_t>(m.measure.size()), 0.0, [&](std::ptrdiff_t c) {
-        const LaneTensor<Dim> sigma = m.elastic_stress(c);
-        double density = 0.0;
-        for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], m.g[c].col[j]);
-        return m.measure[c] * density;
-    });
-    const double stabilisation = ordered_sum(static_cast<std::ptrdiff_t>(m.sides.size()), 0.0, [&](std::ptrdiff_t f) {
-        return m.jump_stiffness[f] > 0.0 ? dot(m.jump_force[f], m.jump_force[f]) / m.jump_stiffness[f] : 0.0;
-    });
+    m.sweep_to_jumps(u, boundary_load, corrections);
+    const double elastic = ordered_sum(m.n_cells(), 0.0, [&](std::ptrdiff_t c) { return m.elastic_energy(c); });
+    const double jumps = ordered_sum(m.n_faces(), 0.0, [&](std::ptrdiff_t f) { return m.jump_energy(f); });
     double work = 0.0;
-    for (std::size_t b = 0; b < load.traction.size(); ++b) {
+    for (std::size_t b = 0; b < boundary_load.traction.size(); ++b) {
         const std::int32_t f = m.boundary_faces[b];
-        work += load.traction[b].dot(unload<Dim>(m.relative[f] + m.u[m.sides[f][0]]));
+        work += boundary_load.traction[b].dot(unload<Dim>(load<Dim>(m.relative, f) + m.displacement(m.sides[f][0])));
     }
-    return 0.5 * (elastic + stabilisation) - work;
+    return elastic + jumps - work;
 }
 
 template <int Dim>
@@ -617,25 +786,25 @@ Region<Dim> Ccg<Dim>::region_of_cells(std::span<const std::int32_t> cells) const
 }
 
 template <int Dim>
-void Ccg<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+void Ccg<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load,
                               std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force) {
     Impl& m = *impl_;
-    m.evaluate_to_stress(region, u, load, {});
+    m.evaluate_to_stress(region, u, boundary_load);
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         const std::int32_t f = m.boundary_faces[region.faces[i]];
-        displacement[i] = u[m.sides[f][0]] + unload<Dim>(m.relative[f]);
-        force[i] = unload<Dim>(m.boundary_face_force(region.faces[i], load));
+        displacement[i] = u[m.sides[f][0]] + unload<Dim>(load<Dim>(m.relative, f));
+        force[i] = unload<Dim>(m.boundary_face_force(region.faces[i], boundary_load));
     }
 }
 
 template <int Dim>
-void Ccg<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+void Ccg<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load,
                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     Impl& m = *impl_;
-    m.evaluate_to_stress(region, u, load, corrections);
-    for (const std::int32_t f : region.force_faces) m.y[f] = m.face_force(f);
-    for (const std::int32_t b : region.faces) m.y[m.boundary_faces[b]] = m.boundary_face_force(b, load);
-    m.add_pair_forces(corrections);
+    const typename Impl::PlacedCorrections placed(m, corrections);
+    m.evaluate_to_stress(region, u, boundary_load);
+    for (const std::int32_t f : region.force_faces) store(m.face_force(f), m.y, f);
+    for (const std::int32_t b : region.faces) store(m.boundary_face_force(b, boundary_load), m.y, m.boundary_faces[b]);
     for (std::size_t i = 0; i < region.cells.size(); ++i) {
         const std::int32_t c = region.cells[i];
         Lanes<Dim> sum = m.cell_gradient(c);
@@ -679,17 +848,12 @@ double Ccg<Dim>::largest_motion(std::span<const Vector<Dim>> u_from, const Bound
 
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::displacement_gradient(std::int32_t cell) const {
-    Matrix<Dim> gradient;
-    for (int j = 0; j < Dim; ++j) gradient.col(j) = unload<Dim>(impl_->g[cell].col[j]);
-    return gradient;
+    return unload(load_tensor<Dim>(impl_->g, cell));
 }
 
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
-    const LaneTensor<Dim> sigma = impl_->elastic_stress(cell);
-    Matrix<Dim> stress;
-    for (int j = 0; j < Dim; ++j) stress.col(j) = unload<Dim>(sigma.col[j]);
-    return stress;
+    return unload(impl_->elastic_stress(cell, load_tensor<Dim>(impl_->g, cell)));
 }
 
 template <int Dim>

@@ -1,5 +1,7 @@
 #include <fcl/broadphase/detail/hierarchy_tree.h>
 
+#include <algorithm>
+
 #include "abut/geometry/broad_phase_backends.hpp"
 
 namespace abut::geometry::backend {

@@ -92,11 +92,12 @@ double area_of(const Clipped& polygon) {
     return 0.5 * twice;
 }
 
-// Whether edges i of 1 and j of 2 run the same way along one line: both ends of either are within `distance` of the other's line.
+// Whether edges i of 1 and j of 2 lie on one line: both ends of either are within `distance` of the other's line.
 bool coincide(const Polygon& polygon_1, int i, const Polygon& polygon_2, int j, double distance) {
     const PlaneVector<3> edge_1 = polygon_1.edge(i), edge_2 = polygon_2.edge(j);
-    const double longest = edge_1.cwiseAbs().sum() + edge_2.cwiseAbs().sum();
-    if (std::abs(cross(edge_1, edge_2)) > 2.0 * distance * longest || edge_1.dot(edge_2) <= 0.0) return false;
+    const double length_1 = edge_1.cwiseAbs().sum(), length_2 = edge_2.cwiseAbs().sum();
+    if (std::abs(cross(edge_1, edge_2)) > 2.0 * distance * (length_1 + length_2)) return false;  // the common case
+    if (length_1 <= distance || length_2 <= distance) return false;                              // too short to have a direction
     const auto lies_on = [distance](const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& start, const PlaneVector<3>& line) {
         const double limit = distance * line.norm();
         return std::abs(cross(line, a - start)) <= limit && std::abs(cross(line, b - start)) <= limit;
@@ -105,26 +106,24 @@ bool coincide(const Polygon& polygon_1, int i, const Polygon& polygon_2, int j, 
            lies_on(polygon_1.vertices[i], polygon_1.end(i), polygon_2.vertices[j], edge_2);
 }
 
-bool lies_on_an_edge_of_the_other(const Corner& corner, const Polygon& polygon_1, const Polygon& polygon_2, double distance) {
+// How much of a piece of the boundary of the overlap counts. Every piece is there once, labelled with one of the faces;
+// where edges of both coincide rounding picks the label, so either label counts half. Coinciding edges of opposite
+// direction bound faces that lie side by side: their overlap is rounding, and counts as none.
+double weight_of(const Corner& corner, const Polygon& polygon_1, const Polygon& polygon_2, double distance) {
     const int n = corner.of_face_2 ? polygon_1.size : polygon_2.size;
-    for (int k = 0; k < n; ++k)
-        if (corner.of_face_2 ? coincide(polygon_1, k, polygon_2, corner.edge, distance)
-                             : coincide(polygon_1, corner.edge, polygon_2, k, distance))
-            return true;
-    return false;
+    for (int k = 0; k < n; ++k) {
+        const int i = corner.of_face_2 ? k : corner.edge, j = corner.of_face_2 ? corner.edge : k;
+        if (coincide(polygon_1, i, polygon_2, j, distance)) return polygon_1.edge(i).dot(polygon_2.edge(j)) > 0.0 ? 0.5 : 0.0;
+    }
+    return corner.of_face_2 ? 1.0 : 0.0;
 }
 
-// Every part of the boundary of the overlap is there once, labelled with one of the faces: where edges of both coincide
-// rounding picks the label, so either label counts half.
 PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygon_1, const Polygon& polygon_2, double distance) {
     PlaneVector<3> along = PlaneVector<3>::Zero();
     for (int k = 0; k < overlap.size; ++k) {
         const Corner& corner = overlap.corners[k];
-        const PlaneVector<3> piece = overlap.corners[k + 1 == overlap.size ? 0 : k + 1].point - corner.point;
-        if (lies_on_an_edge_of_the_other(corner, polygon_1, polygon_2, distance))
-            along += 0.5 * piece;
-        else if (corner.of_face_2)
-            along += piece;
+        const Corner& next = overlap.corners[k + 1 == overlap.size ? 0 : k + 1];
+        along += weight_of(corner, polygon_1, polygon_2, distance) * (next.point - corner.point);
     }
     return {along.y(), -along.x()};
 }

@@ -26,7 +26,7 @@ void check(std::span<const Vector<Dim>> points) {
 
 template <int Dim>
 auto sorting_traits(const std::vector<decltype(cgal_point(Vector<Dim>()))>& points) {
-    const auto point_of = CGAL::make_property_map(points);
+    const auto point_of = CGAL::make_property_map(points.data());
     if constexpr (Dim == 2)
         return CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(point_of)>(point_of);
     else

@@ -29,7 +29,7 @@ void make_directory(const std::filesystem::path& directory) {
 }
 
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
-    return path.parent_path() / ("." + path.stem().string() + ".part" + path.extension().string());
+    return path.parent_path() / (std::string(".") + path.stem().string() + ".part" + path.extension().string());
 }
 
 void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {

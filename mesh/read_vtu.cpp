@@ -3,7 +3,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,27 +24,10 @@
 #include "abut/mesh/file.hpp"
 #include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/vtk_messages.hpp"
 
 namespace abut::mesh {
 namespace {
-
-/// Collects what VTK would print.
-class Complaints : public vtkCommand {
-public:
-    static Complaints* New() { return new Complaints; }
-    void Execute(vtkObject*, unsigned long, void* text) override {
-        if (text != nullptr) all_ += std::string(all_.empty() ? "" : "; ") + static_cast<const char*>(text);
-    }
-    /// On one line.
-    [[nodiscard]] std::string all() const {
-        std::string line = all_;
-        std::replace(line.begin(), line.end(), '\n', ' ');
-        return line;
-    }
-
-private:
-    std::string all_;
-};
 
 void check_is_whole_vtu(const std::string& name, const std::string& contents) {
     const std::string head = contents.substr(0, 1024);
@@ -57,14 +38,12 @@ void check_is_whole_vtu(const std::string& name, const std::string& contents) {
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& name) {
+    const VtkMessages messages;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
-    vtkNew<Complaints> complaints;
-    for (const auto event : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent}) reader->AddObserver(event, complaints);
-    reader->SetReaderErrorObserver(complaints);
-    reader->SetParserErrorObserver(complaints);
     reader->SetFileName(name.c_str());
     reader->Update();
-    if (!complaints->all().empty()) throw MeshError(name + ": cannot be read: VTK says: " + complaints->all() + " Write the mesh again.");
+    if (const std::string said = messages.all(); !said.empty())
+        throw MeshError(name + ": cannot be read: VTK says: " + said + ". Write the mesh again.");
     return reader->GetOutput();
 }
 

@@ -15,8 +15,10 @@ namespace abut::mesh {
 namespace {
 
 constexpr double golden_angle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
-/// Above this many expected tetrahedra Gmsh's HXT takes over from its Delaunay mesher, which would take minutes.
-constexpr double many_tetrahedra = 5e4;
+/// Above this many expected tetrahedra HXT takes over from Gmsh's Delaunay mesher, which needs half a minute there. Not
+/// below: HXT gives another mesh each time it runs, even with one thread and a fixed seed.
+constexpr double many_tetrahedra = 4e5;
+constexpr double tetrahedra_in_size_cubed = 4.6;  // as counted in Gmsh's meshes of cylinders
 constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1, hxt_3d = 10;
 
 void check_positive(const std::string& name, const char* what, double value) {
@@ -58,7 +60,7 @@ void set_size(const SizeField<Dim>& field) {
 }
 
 void choose_algorithms(double volume, double size) {
-    const double tetrahedra = 6.0 * std::numbers::sqrt2 * volume / (size * size * size);
+    const double tetrahedra = tetrahedra_in_size_cubed * volume / (size * size * size);
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
     gmsh::option::setNumber("Mesh.Algorithm3D", tetrahedra > many_tetrahedra ? hxt_3d : delaunay_3d);
     gmsh::option::setNumber("Mesh.Optimize", 1);

@@ -5,8 +5,9 @@
 
 #include "abut/mesh/mesh.hpp"
 
-/// Meshes of simple parts. The unstructured ones come from Gmsh: the same options give the same bits; calls from several
-/// threads wait for one another. All throw MeshError when a length or count is not positive, or when Gmsh fails.
+/// Meshes of simple parts. The unstructured ones come from Gmsh; calls from several threads wait for one another. The same
+/// options give the same bits up to about 400,000 tetrahedra a part. Larger parts are meshed by Gmsh's HXT, which is fast but
+/// gives another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError when a length or count is not positive, or when Gmsh fails.
 ///
 /// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
 /// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the

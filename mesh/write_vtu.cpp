@@ -3,7 +3,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -23,6 +22,7 @@
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/file.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/vtk_messages.hpp"
 
 namespace abut::mesh {
 namespace {
@@ -160,28 +160,17 @@ vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, const std::v
     return surface;
 }
 
-/// Collects what VTK would print.
-class WriterComplaints : public vtkCommand {
-public:
-    static WriterComplaints* New() { return new WriterComplaints; }
-    void Execute(vtkObject*, unsigned long, void* text) override {
-        if (text != nullptr) all += static_cast<const char*>(text);
-    }
-    std::string all;
-};
-
 template <class Writer>
 void write_grid(vtkDataObject& grid, const Path& path) {
     const Path temporary = temporary_beside(path);
+    const VtkMessages messages;
     vtkNew<Writer> writer;
-    vtkNew<WriterComplaints> complaints;
-    writer->AddObserver(vtkCommand::ErrorEvent, complaints);
     writer->SetInputData(&grid);
     writer->SetFileName(temporary.c_str());
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToZLib();
-    if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !complaints->all.empty()) {
+    if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !messages.all().empty()) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
         throw MeshError(path.string() + ": cannot be written. Check permissions and free space of its folder.");

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "abut/geometry/broad_phase.hpp"
 

@@ -51,7 +51,7 @@ TEST_CASE("a unit square and itself turned by 45 degrees share an octagon of are
 
 TEST_CASE("two unit squares shifted by s share an area of 1 - s", "[overlap]") {
     const auto method = GENERATE(from_range(methods));
-    const double s = GENERATE(0.25, 0.5, 1e-9, 1.0 - 1e-12);
+    const double s = GENERATE(0.25, 0.5, 1e-9, 1.0 - 1e-11);
     CAPTURE(s);
     const SharedArea<3> result = shared(unit_square(), unit_square(), {s, 0.0}, method);
     CHECK(result.area == Approx(1.0 - s).epsilon(1e-14).margin(1e-16));
@@ -120,7 +120,7 @@ TEST_CASE("matching triangulations share whole triangles, and sliding one over t
             derivative += result.shift_derivative;
         }
         CHECK(sum == Approx(area_of(face)).epsilon(1e-12));
-        CHECK(derivative.norm() < 0.3);  // every edge half: the same face gives 0, its neighbours nothing
+        CHECK(derivative.norm() < 1e-12);  // every edge of its twin half, which adds up to 0; its neighbours nothing
     }
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("a lifted corner is measured as deviation from the plane", "[polygon]"
     CHECK(planarity_deviation<3>(turned({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {1, 2, 3})) < 1e-14);
 }
 
-TEST_CASE("convex: regular, straight corners, repeated vertices; not convex: a dart, a star", "[polygon]") {
+TEST_CASE("convex: regular, straight corners, repeated vertices. Not convex: a dart, a star", "[polygon]") {
     CHECK(is_convex<3>(turned(regular(16), {1, 2, 3}), 1e-14));
     CHECK(is_convex<3>(Face{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}}, 0.0));
     CHECK(is_convex<3>(Face{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {1, 2, 0}}, 0.0));

@@ -1,7 +1,8 @@
-// Two unit segments that face each other, 1 mm pressed together, each held by k = 1e9 N/m: contact finds the pair, moves
-// its two faces half a millimetre each and returns forces that sum to zero.
+// Two unit segments that face each other, pressed d = 1 mm into each other, each held by a spring k = 1e9 N/m: contact finds
+// the pair and moves its faces d/2 each. The springs then hold V = k d^2 / 4, so the forces are dV/dd = k d / 2 = 5e5 N.
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "abut/contact/contact.hpp"
 
@@ -17,7 +18,7 @@ int main() {
         return contact::FaceCoupling<2>{{0, 1, 2}, {0, 1}, {1e9 * Matrix<2>::Identity(), 1e9 * Matrix<2>::Identity()}};
     });
     contact.integrate({rest, rest, rest, rest});
-    const auto force = contact.result().mean_force();
-    std::printf("%zu pair, forces %g and %g N\n", contact.result().active_pairs().size(), force[0].y(), force[1].y());
-    return force[0].y() < 0.0 && std::abs(force[0].y() + force[1].y()) < 1e-9 ? 0 : 1;
+    const auto dV = contact.result().mean_force();
+    std::printf("%zu pair, dV/du = %g and %g N, k depth / 2 = %g N\n", contact.result().active_pairs().size(), dV[0].y(), dV[1].y(), 5e5);
+    return std::abs(dV[0].y() - 5e5) < 1e-6 && std::abs(dV[1].y() + 5e5) < 1e-6 ? 0 : 1;
 }

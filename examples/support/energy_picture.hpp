@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace abut::examples {
+
+/// What the picture of the energies of a run is drawn from and scaled by.
+struct EnergyPicture {
+    std::string title;
+    double pseudo_energy;  ///< H~ at the start [J]
+    double kinetic;        ///< K0 [J]
+};
+
+/// energy.gp beside energy.csv, and energy.png, which gnuplot makes of it: above kinetic and potential energy, H and H~;
+/// below |H~ - H~0| and H - H~ over K0, logarithmic. Says why there is no picture; empty if there is one.
+[[nodiscard]] std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture);
+
+}  // namespace abut::examples

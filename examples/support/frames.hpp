@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/solid.hpp"
+#include "abut/mesh/write_vtu.hpp"
+
+namespace abut::examples {
+
+/// A run as a series for ParaView: displacement, velocity, stress and von Mises stress on cells, contact pressure and gap on
+/// boundary faces (a face that nothing faces has the gap NaN). `n_frames` equally far apart, first and last step included.
+template <int Dim>
+class Frames {
+public:
+    Frames(const std::filesystem::path& directory, const mesh::Mesh<Dim>& mesh, int n_frames, std::int64_t n_steps);
+
+    /// Writes a frame if one is due at the integrator's step.
+    void write_if_due(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid);
+
+private:
+    void write(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid);
+
+    mesh::VtuSeries<Dim> series_;
+    std::int64_t n_frames_;
+    std::int64_t n_steps_;
+};
+
+/// von Mises equivalent stress [Pa]; in 2D of plane strain, with sigma_zz = nu (sigma_xx + sigma_yy).
+template <int Dim>
+[[nodiscard]] double von_mises(const Matrix<Dim>& stress, double poisson);
+
+}  // namespace abut::examples

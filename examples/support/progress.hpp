@@ -1,0 +1,29 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+
+namespace abut::examples {
+
+/// How far a run has come: one line that rewrites itself on a terminal, otherwise a line of the log every tenth of the way.
+class Progress {
+public:
+    explicit Progress(std::int64_t n_steps);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// `drift` is |H~ - H~0| / K0 as last measured [-].
+    void show(std::int64_t step, double time, double drift);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::int64_t n_steps_;
+    bool terminal_;
+    bool line_open_ = false;
+    std::int64_t next_step_;
+    Clock::time_point start_;
+    Clock::time_point last_;
+};
+
+}  // namespace abut::examples

@@ -1,0 +1,16 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "support/run.hpp"
+
+namespace abut::examples {
+
+/// summary.json: units are SI, drifts absolute and the largest of all records.
+template <int Dim>
+[[nodiscard]] nlohmann::ordered_json summary(const Scene<Dim>& scene, const RunOptions& options, const RunResult<Dim>& result);
+
+/// The table that closes a run.
+template <int Dim>
+void print_table(const Scene<Dim>& scene, const RunOptions& options, const RunResult<Dim>& result);
+
+}  // namespace abut::examples

@@ -1,0 +1,59 @@
+// Counts every allocation of this program: libraries included, since they call the same operator new.
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "contact/surfaces.hpp"
+
+namespace {
+std::atomic<long> n_allocations{0};
+
+void* counted(std::size_t size) {
+    ++n_allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size); }
+void* operator new[](std::size_t size) { return counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+using namespace abut;
+using namespace abut::test;
+
+TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work arrays have grown", "[contact][path]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(21);
+    const auto surface = random_surface<Dim>(random, 30);
+    contact::ContactOptions options;
+    options.skin = 5.0;
+    options.compression_limit = 1e9;
+    contact::Contact<Dim> contact(surface.view(), options);
+    std::vector<std::vector<Vector<Dim>>> states;
+    for (int i = 0; i < 8; ++i) states.push_back(random_displacement(random, surface, 0.4, 0.1));
+    const auto rest = random_displacement(random, surface, 0.0, -1.0);
+    contact.search(rest, rest, [](std::span<const std::int32_t> faces) { return uncoupled<Dim>(faces.size()); });
+    const std::size_t n = contact.faces().size();
+    REQUIRE(n == static_cast<std::size_t>(surface.size()));
+    const std::vector<Vector<Dim>> y(n, Vector<Dim>::Ones());
+    const auto run_through = [&] {
+        std::int64_t active = 0;
+        for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+            contact.integrate({states[i], states[i + 1], y, y});
+            active += contact.report().active_pairs;
+            contact.evaluate(states[i], y);
+        }
+        return active;
+    };
+    run_through();
+    const long before = n_allocations;
+    const std::int64_t active = run_through();
+    const long after = n_allocations;
+    CHECK(active > 50);
+    CHECK(after - before == 0);
+}

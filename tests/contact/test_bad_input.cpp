@@ -1,0 +1,112 @@
+#include <catch2/catch.hpp>
+
+#include "contact/surfaces.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+template <int Dim>
+contact::Surface<Dim> two_tiles() {
+    contact::Surface<Dim> surface;
+    surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.3, 1.0, 0);
+    surface.append(tile<Dim>(0.1 * up<Dim>(), -up<Dim>(), 0.5), 0.3, 1.0, 1);
+    return surface;
+}
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a good surface passes the check", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    CHECK_NOTHROW(contact::check(two_tiles<Dim>().view()));
+    CHECK_NOTHROW(contact::check(contact::Surface<Dim>{}.view()));
+}
+
+TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong with it", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    auto surface = two_tiles<Dim>();
+    std::string says = "face 1";
+    SECTION("arrays of different sizes") { surface.depth.pop_back(); says = "`depth` has 1"; }
+    SECTION("an empty row table") { surface.face_offsets.clear(); says = "`face_offsets` has 0"; }
+    SECTION("a vertex that does not exist") { surface.face_vertices.back() = 99; }
+    SECTION("a negative vertex") { surface.face_vertices.back() = -1; }
+    SECTION("a corner that is not a number") { surface.vertices.back()[0] = not_a_number; }
+    SECTION("too few corners") { surface.face_vertices.pop_back(); surface.face_offsets.back() -= 1; if (Dim == 3) { surface.face_vertices.pop_back(); surface.face_offsets.back() -= 1; } }
+    SECTION("no area") { surface.area[1] = 0.0; }
+    SECTION("an area that is not a number") { surface.area[1] = not_a_number; }
+    SECTION("a centroid that is not a number") { surface.centroid[1][0] = not_a_number; }
+    SECTION("a normal that is not unit") { surface.normal[1] *= 1.001; }
+    SECTION("a normal that is not a number") { surface.normal[1][0] = not_a_number; }
+    SECTION("a negative depth") { surface.depth[1] = -1e-9; }
+    SECTION("a depth that is not a number") { surface.depth[1] = not_a_number; }
+    SECTION("a negative stiffness") { surface.stiffness[1] = -1.0; }
+    SECTION("no stiffness") { surface.stiffness[1] = 0.0; }
+    SECTION("a stiffness that is not a number") { surface.stiffness[1] = not_a_number; }
+    CHECK_THROWS_AS(contact::check(surface.view()), std::invalid_argument);
+    CHECK_THROWS_WITH(contact::check(surface.view()), Contains(says));
+    using contact::Contact;
+    CHECK_THROWS_AS(Contact<Dim>(surface.view(), {}), std::invalid_argument);
+}
+
+TEST_CASE("a face that is not flat is refused with its deviation", "[contact][errors]") {
+    auto surface = two_tiles<3>();
+    surface.vertices.back()[2] += 1e-6;
+    CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 1") && Contains("not flat"));
+}
+
+TEST_CASE("a face that is not convex is refused", "[contact][errors]") {
+    contact::Surface<3> surface;
+    surface.append(std::vector<Vector<3>>{{0, 0, 0}, {1, 0, 0}, {0.2, 0.2, 0}, {0, 1, 0}}, 0.1, 1.0, 0);
+    CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 0") && Contains("not convex"));
+}
+
+TEST_CASE("a face of too many corners is refused", "[contact][errors]") {
+    contact::Surface<3> surface;
+    std::vector<Vector<3>> corners;
+    for (int i = 0; i <= geometry::max_polygon_vertices; ++i) corners.emplace_back(std::cos(0.3 * i), std::sin(0.3 * i), 0.0);
+    surface.append(corners, 0.1, 1.0, 0);
+    CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 0") && Contains("17 corners"));
+}
+
+TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    const auto surface = two_tiles<Dim>();
+    contact::ContactOptions options;
+    std::string says;
+    SECTION("four points") { options.quadrature = 4; says = "quadrature"; }
+    SECTION("minus one points") { options.quadrature = -1; says = "quadrature"; }
+    SECTION("facing away") { options.facing_cosine = 0.0; says = "facing_cosine"; }
+    SECTION("no angle") { options.facing_cosine = -1.1; says = "facing_cosine"; }
+    SECTION("angle not a number") { options.facing_cosine = not_a_number; says = "facing_cosine"; }
+    SECTION("negative skin") { options.skin = -0.1; says = "skin"; }
+    SECTION("skin not a number") { options.skin = not_a_number; says = "skin"; }
+    SECTION("no compression") { options.compression_limit = 0.0; says = "compression_limit"; }
+    using contact::Contact;
+    CHECK_THROWS_AS(Contact<Dim>(surface.view(), options), std::invalid_argument);
+    CHECK_THROWS_WITH(Contact<Dim>(surface.view(), options), Contains(says));
+}
+
+TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused with both faces and both numbers", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    const auto surface = two_tiles<Dim>();
+    contact::ContactOptions options;
+    options.skin = 10.0;
+    Mover<Dim> mover(surface, options);
+    auto u = at_rest(surface);
+    mover.search(u);
+    u[1] = -(0.1 + 2.0 * 0.6 - 1e-6) * up<Dim>();  // D = 0.6, the limit is 2
+    CHECK_NOTHROW(mover.move_to(u));
+    CHECK(mover.contact.report().compressed_steps == 1);
+    u[1] = -(0.1 + 2.0 * 0.6 + 1e-6) * up<Dim>();
+    CHECK_THROWS_AS(mover.move_to(u), std::runtime_error);
+    CHECK_THROWS_WITH(mover.move_to(u), Contains("faces 0 and 1") && Contains("2.0") && Contains("compression_limit"));
+}
+
+TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its face", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    const auto surface = two_tiles<Dim>();
+    Mover<Dim> mover(surface, {});
+    auto u = at_rest(surface);
+    u[1][0] = GENERATE(not_a_number, rigid);
+    CHECK_THROWS_AS(mover.search(u), std::runtime_error);
+    CHECK_THROWS_WITH(mover.search(u), Contains("face 1") && Contains("not finite"));
+}

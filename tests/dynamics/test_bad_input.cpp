@@ -1,0 +1,117 @@
+#include <catch2/catch.hpp>
+
+#include "dynamics/scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const double infinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("a material out of bounds is refused with the body, the quantity, its value and its limit", "[dynamics][errors]") {
+    const auto mesh = two_discs(0.0, 0.6);
+    auto options = bodies<2>(2);
+    dynamics::Material& material = options.materials[1];
+    std::string quantity, limit;
+    SECTION("poisson") {
+        material.poisson = GENERATE(0.5, 0.7, -1.0, -2.0, not_a_number);
+        quantity = "poisson (nu)", limit = "above -1 and below 0.5";
+    }
+    SECTION("young") {
+        material.young = GENERATE(0.0, -1.0, not_a_number, infinite);
+        quantity = "young (E)", limit = "> 0 Pa";
+    }
+    SECTION("density") {
+        material.density = GENERATE(0.0, -1.0, not_a_number, infinite);
+        quantity = "density (rho)", limit = "> 0 kg/m^3";
+    }
+    SECTION("eta") {
+        material.eta = GENERATE(-1.0, not_a_number, infinite);
+        quantity = "eta", limit = ">= 0 Pa";
+    }
+    CHECK_THROWS_AS(dynamics::Solid<2>(mesh, options), std::invalid_argument);
+    CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("body 1") && Contains(quantity) && Contains(limit));
+}
+
+TEST_CASE("materials at the edge of what is allowed are taken", "[dynamics][errors]") {
+    const auto mesh = round(0.6);
+    auto options = bodies<2>(1);
+    options.materials[0].poisson = GENERATE(-0.99, 0.0, 0.49);
+    CHECK_NOTHROW(dynamics::Solid<2>(mesh, options));
+}
+
+TEST_CASE("a wrong number of materials or accelerations is refused with both numbers", "[dynamics][errors]") {
+    const auto mesh = two_discs(0.0, 0.6);
+    auto options = bodies<2>(2);
+    SECTION("materials") {
+        options.materials.pop_back();
+        CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("1 materials") && Contains("2 bodies"));
+    }
+    SECTION("accelerations") {
+        options.acceleration = {Vector<2>::Zero()};
+        CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("1 accelerations") && Contains("2 bodies"));
+    }
+    CHECK_THROWS_AS(dynamics::Solid<2>(mesh, options), std::invalid_argument);
+}
+
+TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their group", "[dynamics][errors]", ((int Dim), Dim), 2, 3) {
+    const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
+    auto options = bodies<Dim>(1);
+    dynamics::DirichletCondition<Dim> condition;
+    condition.group = "xmin";
+    options.boundary.dirichlet = {condition};
+    std::string says = "'xmin'";
+    SECTION("an unknown group to hold") {
+        options.boundary.dirichlet[0].group = "nowhere";
+        says = "nowhere";
+    }
+    SECTION("an unknown group to load") {
+        options.boundary.traction.push_back({.group = "nowhere", .value = Vector<Dim>::Ones(), .history = {}});
+        says = "nowhere";
+    }
+    SECTION("the same direction twice") {
+        condition.constraint = dynamics::Constraint::normal;
+        options.boundary.dirichlet.push_back(condition);
+    }
+    SECTION("no component at all") { options.boundary.dirichlet[0].constraint = dynamics::Constraint::components; }
+    SECTION("a traction where all is prescribed") { options.boundary.traction.push_back({.group = "xmin", .value = Vector<Dim>::Ones(), .history = {}}); }
+    CHECK_THROWS_AS(dynamics::Solid<Dim>(mesh, options), std::invalid_argument);
+    CHECK_THROWS_WITH(dynamics::Solid<Dim>(mesh, options), Contains(says));
+}
+
+TEST_CASE("an unknown group is answered with the names that exist", "[dynamics][errors]") {
+    const auto mesh = mesh::box<2>({.size = 0.5});
+    auto options = bodies<2>(1);
+    dynamics::DirichletCondition<2> condition;
+    condition.group = "left";
+    options.boundary.dirichlet = {condition};
+    CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("xmin") && Contains("ymax"));
+}
+
+TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made", "[dynamics][errors]", ((int Dim), Dim), 2, 3) {
+    std::array<int, Dim> counts;
+    counts.fill(4);
+    counts[0] = 1;
+    const auto mesh = mesh::structured_box<Dim>(Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts,
+                                                Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron, "plate");
+    const auto options = bodies<Dim>(1);
+    CHECK_THROWS_WITH(dynamics::Solid<Dim>(mesh, options), Contains("plate: face") && Contains("one cell thick"));
+}
+
+TEST_CASE("bad contact options are refused when the solid is made", "[dynamics][errors]") {
+    const auto mesh = two_discs(0.0, 0.6);
+    auto options = bodies<2>(2);
+    options.contact->quadrature = 9;
+    CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("quadrature is 9"));
+}
+
+TEST_CASE("a run that has diverged ends with an error that says so", "[dynamics][errors]") {
+    auto options = bodies<2>(2);
+    Scene<2> scene(two_discs(0.0, 0.5), options, disc_velocities, -3.0);
+    CHECK_THROWS_WITH(scene.run(5000, 5000), Contains("not finite") || Contains("deep"));
+}

@@ -1,0 +1,76 @@
+#include <catch2/catch.hpp>
+#include <oneapi/tbb/global_control.h>
+
+#include <cstring>
+
+#include "abut/dynamics/parasitic_filter.hpp"
+#include "dynamics/scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using geometry::BroadPhase;
+
+namespace {
+
+struct State {
+    std::vector<double> q, p_before, p_after;
+    double pseudo_energy;
+    std::int64_t events;
+
+    friend bool operator==(const State& a, const State& b) {
+        const auto same = [](const std::vector<double>& x, const std::vector<double>& y) {
+            return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
+        };
+        return same(a.q, b.q) && same(a.p_before, b.p_before) && same(a.p_after, b.p_after) &&
+               std::memcmp(&a.pseudo_energy, &b.pseudo_energy, sizeof(double)) == 0 && a.events == b.events;
+    }
+};
+
+/// Enough cells for every sweep to be cut into parts for several threads, already close to each other.
+template <int Dim>
+mesh::Mesh<Dim> large_bodies() {
+    if constexpr (Dim == 2) return two_discs(0.3, 0.055, 0.002);
+    else return two_boxes(8, 0.002);
+}
+
+template <int Dim>
+State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, BroadPhase broad_phase, int threads, int steps) {
+    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    contact::ContactOptions options;
+    options.broad_phase = broad_phase;
+    Scene<Dim> scene(mesh, bodies<Dim>(2, options), velocity);
+    dynamics::NeutralFilter<Dim> filter(scene.solid);
+    scene.memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) { filter(q, dt, p_before, p_after); });
+    scene.run(steps, steps);
+    const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
+    return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()), scene.ledger.entries().back().pseudo_energy,
+            scene.solid.contact_report().events};
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> velocities() {
+    if constexpr (Dim == 2) return disc_velocities;
+    else return box_velocities;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[dynamics][reproducible]", ((int Dim), Dim), 2, 3) {
+    mesh::Mesh<Dim> mesh;
+    if constexpr (Dim == 2) mesh = two_discs(0.8);
+    else mesh = two_boxes(4);
+    const int steps = Dim == 2 ? 400 : 150;
+    const State brute = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::brute_force, 1, steps);
+    CHECK(brute.events > 10);
+    CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, 1, steps) == brute);
+    CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::fcl, 1, steps) == brute);
+}
+
+TEMPLATE_TEST_CASE_SIG("any number of threads gives the same bits", "[dynamics][reproducible]", ((int Dim), Dim), 2, 3) {
+    const auto mesh = large_bodies<Dim>();
+    REQUIRE(mesh.n_cells() > 4 * 1024);  // several parts for every sweep
+    const int steps = 80;
+    const State one = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, 1, steps);
+    CHECK(one.events > 10);
+    for (const int threads : {2, 4}) CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, threads, steps) == one);
+}

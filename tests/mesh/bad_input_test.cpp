@@ -1,0 +1,186 @@
+#include "mesh/meshes.hpp"
+
+#include <limits>
+
+using namespace abut;
+using namespace abut::mesh;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// Two triangles of the unit square.
+CellSoup<2> square() {
+    CellSoup<2> soup;
+    soup.name = "square.msh";
+    soup.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    soup.cell_shape = {CellShape::triangle, CellShape::triangle};
+    soup.cell_vertices.append(std::array{0, 1, 2});
+    soup.cell_vertices.append(std::array{0, 2, 3});
+    soup.cell_body = {0, 0};
+    soup.body_names = {"square"};
+    return soup;
+}
+
+template <int Dim>
+std::string complaint(CellSoup<Dim> soup, const MeshOptions& options = {}) {
+    try {
+        (void)build_mesh(std::move(soup), options);
+    } catch (const MeshError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("sound input raises nothing", "[mesh][quality]") { CHECK(complaint(square()) == "nothing"); }
+
+TEST_CASE("an empty mesh is refused", "[mesh][quality]") {
+    CellSoup<3> soup;
+    soup.name = "a.msh";
+    CHECK_THAT(complaint(soup), Contains("a.msh: the mesh is empty: it has 0 cells of dimension 3, at least 1 is needed."));
+}
+
+TEST_CASE("an index out of range names cell, index and limit", "[mesh][quality]") {
+    auto soup = square();
+    soup.cell_vertices.values[4] = 7;
+    CHECK_THAT(complaint(soup), Contains("square.msh: cell 1 has the vertex 7, 0 to 3 are allowed."));
+    soup.cell_vertices.values[4] = -1;
+    CHECK_THAT(complaint(soup), Contains("cell 1 has the vertex -1"));
+}
+
+TEST_CASE("labels of the input appear in messages", "[mesh][quality]") {
+    auto soup = square();
+    soup.cell_label = {101, 102};
+    soup.vertex_label = {11, 12, 13, 14};
+    soup.cell_vertices.values[4] = 0;
+    CHECK_THAT(complaint(soup), Contains("square.msh: cell 102 has the vertex 11 twice."));
+}
+
+TEST_CASE("a coordinate that is no number is refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.vertices[2].y() = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THAT(complaint(soup), Contains("square.msh: vertex 2 has the y coordinate nan, a finite number is needed."));
+    soup.vertices[2].y() = std::numeric_limits<double>::infinity();
+    CHECK_THAT(complaint(soup), Contains("vertex 2 has the y coordinate inf"));
+}
+
+TEST_CASE("an inverted cell is refused with its measure", "[mesh][quality]") {
+    auto soup = square();
+    std::swap(soup.cell_vertices.values[4], soup.cell_vertices.values[5]);
+    CHECK_THAT(complaint(soup), Contains("square.msh: cell 1 (triangle) is inverted: its measure is -0.5 m^2, more than 2e-12 is needed."));
+    for (const CellShape shape : test::shapes_3d) {
+        auto corners = test::corners_of(shape);
+        for (auto& corner : corners) corner.x() = -corner.x();
+        CHECK_THAT(complaint(test::one_cell<3>(shape, corners)), Contains("is inverted"));
+    }
+}
+
+TEST_CASE("a flat cell is refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.vertices[3] = {0.5, 0.5};
+    CHECK_THAT(complaint(soup), Contains("square.msh: cell 1 (triangle) is flat: its measure is"));
+}
+
+TEST_CASE("a face without measure is refused", "[mesh][quality]") {
+    // Two corners of a quadrangle coincide; its area does not vanish.
+    const auto soup = test::one_cell<2>(CellShape::quadrangle, {{0, 0}, {1, 0}, {1, 1}, {1, 1}});
+    CHECK_THAT(complaint(soup), Contains("one.msh: face (2, 3) of cell 0 is degenerate: its measure is 0 m^1"));
+}
+
+TEST_CASE("a face of three cells is refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.vertices.push_back({2, 0});
+    soup.cell_shape.push_back(CellShape::triangle);
+    soup.cell_vertices.append(std::array{0, 4, 2});
+    soup.cell_body.push_back(0);
+    CHECK_THAT(complaint(soup), Contains("square.msh: face with vertices (") && Contains("belongs to 3 cells") && Contains("at most 2 are allowed."));
+}
+
+TEST_CASE("a cell given twice is refused", "[mesh][quality]") {
+    auto soup = test::one_cell<3>(CellShape::tetrahedron, test::corners_of(CellShape::tetrahedron));
+    soup.cell_shape.push_back(CellShape::tetrahedron);
+    soup.cell_vertices.append(std::array{0, 1, 2, 3});
+    soup.cell_body.push_back(0);
+    CHECK_THAT(complaint(soup), Contains("one.msh: cells ") && Contains("lie on the same side of their common face with vertices (0, 1, 3)"));
+    auto plane = test::one_cell<2>(CellShape::triangle, {{0, 0}, {1, 0}, {0, 1}});
+    plane.cell_shape.push_back(CellShape::triangle);
+    plane.cell_vertices.append(std::array{0, 1, 2});
+    plane.cell_body.push_back(0);
+    CHECK_THAT(complaint(plane), Contains("lie on the same side of their common face with vertices (0, 1)"));
+}
+
+TEST_CASE("a non-planar face is refused with distance, limit and remedy", "[mesh][quality]") {
+    // One corner of the top lifted by 4e-3: the four vertices lie 1e-3 on either side of their best plane.
+    auto corners = test::corners_of(CellShape::hexahedron);
+    corners[6].z() += 4e-3;
+    const auto message = complaint(test::one_cell<3>(CellShape::hexahedron, corners));
+    CHECK_THAT(message, Contains("one.msh: face (4, 5, 6, 7) of cell 0 is not planar: a vertex lies 0.00") && Contains("m off its plane, 1e-10 m is allowed.") &&
+                            Contains("MeshOptions::planarity_tolerance"));
+    CHECK(complaint(test::one_cell<3>(CellShape::hexahedron, corners), {.planarity_tolerance = 0.01}) == "nothing");
+}
+
+TEST_CASE("a face that is not convex is refused", "[mesh][quality]") {
+    // An arrow head, extruded.
+    std::vector<Vector<3>> corners;
+    for (const double z : {0.0, 1.0})
+        for (const Vector<2>& p : {Vector<2>(0, 0), Vector<2>(1, -1), Vector<2>(0.1, 1), Vector<2>(0.05, 0.05)}) corners.push_back({p.x(), p.y(), z});
+    CHECK_THAT(complaint(test::one_cell<3>(CellShape::hexahedron, corners)), Contains("of cell 0 is not convex."));
+}
+
+TEST_CASE("a quadrangle whose edges cross is refused", "[mesh][quality]") {
+    // Edges 12 and 30 cross; the larger lobe makes the area positive.
+    CHECK_THAT(complaint(test::one_cell<2>(CellShape::quadrangle, {{0, 0}, {2, 0}, {0.9, 1.2}, {1.1, 1.2}})), Contains("one.msh: cell 0 is folded"));
+}
+
+TEST_CASE("a named face inside the body is refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.group_names = {"inside"};
+    soup.named_faces = {{{2, 0}, 0}};
+    CHECK_THAT(complaint(soup), Contains("square.msh: face (2, 0) of group 'inside' is not a boundary face of any cell.") ||
+                                    Contains("square.msh: face (0, 2) of group 'inside' is not a boundary face of any cell."));
+    soup.vertices.push_back({5, 5});
+    soup.named_faces = {{{0, 4}, 0}};
+    CHECK_THAT(complaint(soup), Contains("face with a vertex that no cell has of group 'inside' is not a boundary face"));
+    soup.named_faces = {{{0, 9}, 0}};
+    CHECK_THAT(complaint(soup), Contains("named face 0 has the vertex 9"));
+    soup.named_faces = {{{0, 1}, 3}};
+    CHECK_THAT(complaint(soup), Contains("named face 0 belongs to group 3, but there are 1 group names."));
+}
+
+TEST_CASE("bodies that share a vertex are refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.body_names = {"left", "right"};
+    soup.cell_body = {0, 1};
+    CHECK_THAT(complaint(soup), Contains("square.msh: bodies 'left' and 'right' share vertex 0 (cells 0|1)."));
+}
+
+TEST_CASE("arrays of wrong size, cells of wrong dimension and unnamed bodies are refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.cell_body.pop_back();
+    CHECK_THAT(complaint(soup), Contains("2 cell shapes, but 2 rows of vertices, 1 bodies"));
+    soup = square();
+    soup.cell_shape[1] = CellShape::tetrahedron;
+    CHECK_THAT(complaint(soup), Contains("cell 1 is no cell of dimension 2."));
+    soup = square();
+    soup.cell_shape[1] = CellShape::quadrangle;
+    CHECK_THAT(complaint(soup), Contains("cell 1 has 3 vertices, a quadrangle has 4."));
+    soup = square();
+    soup.cell_body[1] = 1;
+    CHECK_THAT(complaint(soup), Contains("cell 1 belongs to body 1, but there are 1 body names."));
+    soup = square();
+    soup.vertex_label = {1};
+    CHECK_THAT(complaint(soup), Contains("4 vertices but 1 vertex labels."));
+}
+
+TEST_CASE("vertices that no cell uses are dropped and counted", "[mesh][quality]") {
+    auto soup = square();
+    soup.vertices.insert(soup.vertices.begin(), {9, 9});
+    for (auto& vertex : soup.cell_vertices.values) ++vertex;
+    for (const bool reorder : {true, false}) {
+        const auto mesh = build_mesh(soup, {.reorder = reorder});
+        CHECK(mesh.vertices.size() == 4);
+        CHECK(mesh.report.n_unused_vertices == 1);
+        CHECK(test::total_measure(mesh) == Approx(1.0));
+    }
+}

@@ -1,0 +1,171 @@
+#include "mesh/meshes.hpp"
+
+#include <Eigen/Geometry>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <fstream>
+#include <regex>
+
+#include "abut/mesh/write_vtu.hpp"
+
+using namespace abut;
+using namespace abut::mesh;
+using Catch::Matchers::Contains;
+
+namespace {
+
+template <class Reader>
+auto read(const std::filesystem::path& path) {
+    vtkNew<Reader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    return vtkSmartPointer(reader->GetOutput());
+}
+
+struct Listed {
+    double time;
+    std::string file;
+};
+std::vector<Listed> list_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::regex entry("timestep=\"([^\"]*)\" part=\"0\" file=\"([^\"]*)\"");
+    std::vector<Listed> result;
+    for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) result.push_back({std::stod((*i)[1]), (*i)[2]});
+    return result;
+}
+
+std::size_t n_files(const std::filesystem::path& folder) {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a series read back by VTK holds the fields, padded to three dimensions", "[mesh][vtu]", ((int Dim), Dim), 2, 3) {
+    const test::ScratchFolder folder;
+    const auto mesh = [] {
+        if constexpr (Dim == 2) return test::small_box(CellShape::triangle);
+        else return test::small_box_3d(CellShape::prism);
+    }();
+    const auto n = static_cast<std::size_t>(mesh.n_cells());
+    std::vector<Vector<Dim>> u(n);
+    std::vector<Matrix<Dim>> stress(n);
+    std::vector<double> energy(n), pressure(mesh.boundary_faces.size());
+    for (std::size_t c = 0; c < n; ++c) {
+        u[c] = Vector<Dim>::Constant(1.0 + static_cast<double>(c));
+        stress[c] = Matrix<Dim>::Constant(2.0) + Matrix<Dim>::Identity() * static_cast<double>(c);
+        energy[c] = 0.5 * static_cast<double>(c);
+    }
+    std::iota(pressure.begin(), pressure.end(), 10.0);
+
+    VtuSeries<Dim> series(folder / "out", "run", mesh);
+    for (const double time : {0.0, 0.25, 1.0 / 3.0})
+        series.write({.time = time,
+                      .displacement = u,
+                      .cell_fields = {{"energy [J]", energy}, {"stress [Pa]", stress}},
+                      .boundary_fields = {{"contact pressure [Pa]", pressure}}});
+    CHECK(series.n_frames() == 3);
+
+    const auto listed = list_of(folder / "out/run.pvd");
+    REQUIRE(listed.size() == 3);
+    CHECK(listed[2].time == 1.0 / 3.0);
+    CHECK(listed[2].file == "run_000002.vtu");
+    const auto surfaces = list_of(folder / "out/run_surface.pvd");
+    REQUIRE(surfaces.size() == 3);
+    CHECK(n_files(folder / "out") == 8);  // nothing half-written left behind
+
+    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / ("out/" + listed[1].file));
+    REQUIRE(grid->GetNumberOfCells() == mesh.n_cells());
+    auto* cells = grid->GetCellData();
+    auto* displacement = cells->GetArray("displacement");
+    REQUIRE(displacement->GetNumberOfComponents() == 3);
+    CHECK(displacement->GetComponent(4, 0) == 5.0);
+    CHECK(displacement->GetComponent(4, 2) == (Dim == 3 ? 5.0 : 0.0));
+    auto* tensor = cells->GetArray("stress [Pa]");
+    REQUIRE(tensor->GetNumberOfComponents() == 6);
+    CHECK(tensor->GetComponent(3, 0) == 5.0);
+    CHECK(tensor->GetComponent(3, 2) == (Dim == 3 ? 5.0 : 0.0));
+    CHECK(tensor->GetComponent(3, 3) == 2.0);
+    CHECK(cells->GetArray("energy [J]")->GetComponent(6, 0) == 3.0);
+    CHECK(cells->GetArray("body")->GetComponent(0, 0) == 0.0);
+
+    const auto surface = read<vtkXMLPolyDataReader>(folder / ("out/" + surfaces[1].file));
+    REQUIRE(surface->GetNumberOfCells() == static_cast<vtkIdType>(mesh.boundary_faces.size()));
+    CHECK(surface->GetCellData()->GetArray("contact pressure [Pa]")->GetComponent(2, 0) == 12.0);
+    REQUIRE(surface->GetPointData()->GetArray("displacement") != nullptr);
+    CHECK(surface->GetNumberOfPoints() <= static_cast<vtkIdType>(mesh.vertices.size()));
+}
+
+TEST_CASE("a prism is written as VTK documents a wedge: its first triangle is counter-clockwise from outside", "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    write_vtu(test::small_box_3d(CellShape::prism), folder / "prisms.vtu");
+    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "prisms.vtu");
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+        std::array<Vector<3>, 6> x;
+        for (vtkIdType i = 0; i < 6; ++i) grid->GetCell(cell)->GetPoints()->GetPoint(i, x[static_cast<std::size_t>(i)].data());
+        CHECK((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) < 0.0);
+    }
+}
+
+TEST_CASE("the displacement of a vertex is the mean of its own body's cells", "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    const std::vector<Mesh<2>> bodies = {fan_disc({0, 0}, 1, 6), fan_disc({2, 0}, 1, 6)};  // they touch at (1, 0)
+    const auto mesh = combine<2>(bodies);
+    std::vector<Vector<2>> u(12, Vector<2>(1, 0));
+    for (std::size_t c = 6; c < 12; ++c) u[c] = {-3, 2};
+    VtuSeries<2> series(folder.path(), "pair", mesh);
+    series.write({.displacement = u});
+    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "pair_000000.vtu");
+    auto* displacement = grid->GetPointData()->GetArray("displacement");
+    for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point) CHECK(displacement->GetComponent(point, 0) == (point < 7 ? 1.0 : -3.0));
+}
+
+TEST_CASE("a field of the wrong size is refused by name and writes nothing", "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    const auto mesh = test::small_box(CellShape::quadrangle);
+    VtuSeries<2> series(folder.path(), "run", mesh);
+    const std::vector<double> values(5, 1.0);
+    const std::vector<Vector<2>> u(5, Vector<2>::Zero());
+    CHECK_THROWS_WITH(series.write({.cell_fields = {{"energy", values}}}), "VtuSeries: field 'energy' has 5 values, one for each of the 12 cells is needed.");
+    CHECK_THROWS_WITH(series.write({.boundary_fields = {{"gap", values}}}), Contains("one for each of the 14 boundary faces is needed."));
+    CHECK_THROWS_WITH(series.write({.displacement = u}), Contains("field 'displacement' has 5 values"));
+    CHECK(n_files(folder.path()) == 0);
+    CHECK(series.n_frames() == 0);
+}
+
+TEST_CASE("a folder that cannot be written is refused", "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    const auto mesh = test::small_box(CellShape::quadrangle);
+    std::ofstream(folder / "file") << "in the way";
+    CHECK_THROWS_WITH((VtuSeries<2>(folder / "file", "run", mesh)), Contains("file: the folder cannot be made"));
+    CHECK_THROWS_AS((VtuSeries<2>(folder / "file/below", "run", mesh)), MeshError);
+    CHECK_THROWS_WITH(write_vtu(mesh, folder / "missing/mesh.vtu"), Contains("mesh.vtu: cannot be written. Check permissions"));
+    VtuSeries<2> series(folder / "gone", "run", mesh);
+    series.write({});
+    std::filesystem::remove_all(folder / "gone");
+    CHECK_THROWS_AS(series.write({}), MeshError);
+    CHECK(series.n_frames() == 1);
+}
+
+TEST_CASE("a frame that cannot be finished leaves the list of the frames before it", "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    const auto mesh = test::small_box(CellShape::quadrangle);
+    VtuSeries<2> series(folder.path(), "run", mesh);
+    series.write({.time = 1.0});
+    std::filesystem::create_directories(folder / "run_surface_000001.vtp/in_the_way");
+    CHECK_THROWS_AS(series.write({.time = 2.0}), MeshError);
+    CHECK(list_of(folder / "run.pvd").size() == 1);
+    CHECK(list_of(folder / "run_surface.pvd").size() == 1);
+    std::filesystem::remove_all(folder / "run_surface_000001.vtp");
+    series.write({.time = 2.0});
+    CHECK(list_of(folder / "run.pvd").size() == 2);
+}
