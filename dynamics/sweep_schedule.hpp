@@ -12,7 +12,7 @@
 namespace abut::dynamics {
 
 /// An order in which several sweeps over the chunks of a mesh can run together, each task as soon as what it reads is there,
-/// so that what one sweep writes is still in cache when the next one reads it. Chunks follow a space-filling curve: what a
+/// so that what one sweep writes is still in cache when the next one reads it. Chunks follow the layers of the mesh: what a
 /// chunk needs of another sweep lies mostly close by.
 ///
 /// A task is (stage, chunk). Stage 0 needs nothing; a task of stage s needs the tasks (s - 1, j) for j in needs(s, chunk).

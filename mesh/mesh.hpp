@@ -112,7 +112,7 @@ enum class NonPlanarFaces : std::uint8_t {
 };
 
 struct MeshOptions {
-    bool reorder = true;                 ///< renumber cells (within each body) and vertices along a space-filling curve
+    bool reorder = true;                 ///< renumber cells (within each body) and vertices row by row and layer by layer
     double planarity_tolerance = 1e-10;  ///< largest distance of a face's vertex from its plane, in units of the face size
     NonPlanarFaces non_planar = NonPlanarFaces::fail;
 };

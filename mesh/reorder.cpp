@@ -1,12 +1,17 @@
 #include "abut/mesh/reorder.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 
-#include "abut/geometry/space_filling_order.hpp"
+#include "abut/geometry/box.hpp"
 
 namespace abut::mesh {
 namespace {
+
+/// In mean distances between centroids.
+inline constexpr double layer_thickness = 1.0;
 
 template <class Value>
 std::vector<Value> permuted(const std::vector<Value>& values, std::span<const std::int32_t> old_index) {
@@ -49,16 +54,42 @@ Rows renumbered_rows(const Rows& rows, std::span<const std::int32_t> old_row, st
     return result;
 }
 
+/// Row by row and layer by layer, layers across the longest extent of the points, rows along the shortest: any two cells
+/// that touch are then at most about one layer apart in the order, and the cells of a row follow one another.
+template <int Dim>
+std::vector<std::int32_t> layer_order(const std::vector<Vector<Dim>>& points) {
+    geometry::Box<Dim> box;
+    for (const Vector<Dim>& point : points) box.extend(point);
+    const Vector<Dim> extent = box.upper - box.lower;
+    std::array<Eigen::Index, Dim> axis;
+    std::iota(axis.begin(), axis.end(), 0);
+    std::stable_sort(axis.begin(), axis.end(), [&](Eigen::Index a, Eigen::Index b) { return extent[a] > extent[b]; });
+    const double spacing = layer_thickness * std::pow(extent.prod() / static_cast<double>(points.size()), 1.0 / Dim);
+
+    std::vector<std::array<double, Dim>> keys(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (int k = 0; k < Dim; ++k) {
+            const double along = points[i][axis[k]] - box.lower[axis[k]];
+            keys[i][k] = k + 1 < Dim && spacing > 0.0 ? std::floor(along / spacing) : along;
+        }
+    std::vector<std::int32_t> order(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+        return keys[static_cast<std::size_t>(a)] < keys[static_cast<std::size_t>(b)];
+    });
+    return order;
+}
+
 }  // namespace
 
 template <int Dim>
-std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const Vector<Dim>> centroids, bool along_curve) {
+std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const Vector<Dim>> centroids, bool by_layers) {
     std::vector<std::int32_t> order(centroids.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
         return soup.cell_body[static_cast<std::size_t>(a)] < soup.cell_body[static_cast<std::size_t>(b)];
     });
-    if (!along_curve) return order;
+    if (!by_layers) return order;
     const auto body_of = [&](std::int32_t cell) { return soup.cell_body[static_cast<std::size_t>(cell)]; };
     for (auto begin = order.begin(); begin != order.end();) {
         const auto end = std::find_if(begin, order.end(), [&](std::int32_t cell) { return body_of(cell) != body_of(*begin); });
@@ -66,7 +97,7 @@ std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const 
         std::vector<Vector<Dim>> points;
         points.reserve(cells.size());
         for (const std::int32_t cell : cells) points.push_back(centroids[static_cast<std::size_t>(cell)]);
-        for (const std::int32_t k : geometry::space_filling_order<Dim>(points)) *begin++ = cells[static_cast<std::size_t>(k)];
+        for (const std::int32_t k : layer_order<Dim>(points)) *begin++ = cells[static_cast<std::size_t>(k)];
     }
     return order;
 }

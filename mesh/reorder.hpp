@@ -8,10 +8,11 @@
 
 namespace abut::mesh {
 
-/// Old index of each cell in the new order: bodies one after another, and inside a body along a Hilbert curve through the
-/// centroids if `along_curve`, else as given.
+/// Old index of each cell in the new order: bodies one after another, and inside a body row by row and layer by layer across
+/// its longest extent if `by_layers`, else as given. Operators that sweep over the cells several times profit most from
+/// layers: what one sweep has written is needed by the next at most a layer later (docs/performance.md).
 template <int Dim>
-[[nodiscard]] std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const Vector<Dim>> centroids, bool along_curve);
+[[nodiscard]] std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const Vector<Dim>> centroids, bool by_layers);
 
 /// The soup with its cells in the order `old_cell`. Vertices come in the order of their first use if `renumber_vertices`,
 /// else as given; those without a cell are dropped.
