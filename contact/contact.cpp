@@ -20,7 +20,7 @@ const ContactOptions& checked(const ContactOptions& options) {
     return options;
 }
 
-/// A fifth of the mean size of the deformable faces.
+/// Half the mean size of the deformable faces.
 template <int Dim>
 double default_skin(const SurfaceView<Dim>& surface) {
     double size = 0.0;
@@ -30,7 +30,7 @@ double default_skin(const SurfaceView<Dim>& surface) {
         size += Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
         ++n;
     }
-    return n > 0 ? 0.2 * size / n : 0.0;
+    return n > 0 ? 0.5 * size / n : 0.0;
 }
 
 template <int Dim>
@@ -104,7 +104,7 @@ void Contact<Dim>::update_admission(std::span<const Vector<Dim>> displacement) {
         const auto at = pairs_.position(surface_, pair, displacement[local_face_[pair.face_1]], displacement[local_face_[pair.face_2]]);
         const bool wanted = at.gap > -pair.depth;
         if (wanted == pair.admitted && wanted) continue;
-        if (at.gap >= 0.0 || pairs_.shared_area(pair, at.shift, options_.area).area == 0.0)
+        if (at.gap >= 0.0 || pairs_.stay_apart(pair, at.shift, at.shift) || pairs_.shared_area(pair, at.shift, options_.area).area == 0.0)
             pair.admitted = wanted;
         else if (!pair.admitted)
             ++report_.not_admitted;

@@ -26,6 +26,13 @@ double share_of_first(const SurfaceView<Dim>& surface, std::int32_t face_1, std:
     return k_2 / (k_1 + k_2);
 }
 
+template <int PlaneDim>
+double circumradius(std::span<const Eigen::Matrix<double, PlaneDim, 1, Eigen::DontAlign>> corners) {
+    double radius = 0.0;
+    for (const auto& corner : corners) radius = std::max(radius, corner.norm());
+    return radius;
+}
+
 /// Corners about the centroid of the face, counter-clockwise in the plane of the pair (3D), increasing (2D).
 template <int Dim>
 void append_projected(const SurfaceView<Dim>& surface, std::int32_t face, const geometry::PlaneFrame<Dim>& frame,
@@ -43,19 +50,21 @@ void append_projected(const SurfaceView<Dim>& surface, std::int32_t face, const 
 }  // namespace
 
 template <int Dim>
-void PairList<Dim>::append(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, Weights weights) {
-    const double theta_1 = share_of_first(surface, face_1, face_2, weights);
-    ContactPair<Dim> pair{.face_1 = face_1,
-                          .face_2 = face_2,
-                          .frame = geometry::PlaneFrame<Dim>(pair_normal(surface, face_1, face_2)),
+void PairList<Dim>::append(const SurfaceView<Dim>& surface, std::int32_t first, std::int32_t second, Weights weights) {
+    const double theta_1 = share_of_first(surface, first, second, weights);
+    ContactPair<Dim> pair{.face_1 = first,
+                          .face_2 = second,
+                          .frame = geometry::PlaneFrame<Dim>(pair_normal(surface, first, second)),
                           .theta_1 = theta_1,
                           .theta_2 = 1.0 - theta_1,
-                          .depth = surface.depth[face_1] + surface.depth[face_2]};
+                          .reach = 0.0,
+                          .depth = surface.depth[first] + surface.depth[second]};
     pair.corners_1 = static_cast<std::int32_t>(corners_.size());
-    append_projected(surface, face_1, pair.frame, corners_);
+    append_projected(surface, first, pair.frame, corners_);
     pair.corners_2 = static_cast<std::int32_t>(corners_.size());
-    append_projected(surface, face_2, pair.frame, corners_);
+    append_projected(surface, second, pair.frame, corners_);
     pair.corners_end = static_cast<std::int32_t>(corners_.size());
+    pair.reach = (1.0 + 1e-12) * (circumradius<Dim - 1>(face_1(pair)) + circumradius<Dim - 1>(face_2(pair)));
     pairs_.push_back(pair);
 }
 

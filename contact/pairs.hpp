@@ -17,6 +17,7 @@ struct ContactPair {
     geometry::PlaneFrame<Dim> frame;  ///< its normal is n_12, from face 1's body into face 2's
     double theta_1;                   ///< share of the correction that face 1 takes [-]
     double theta_2;
+    double reach;                     ///< sum of the circumradii of the projected faces: farther apart they share nothing [m]
     double depth;                     ///< D = d_1 + d_2 [m]
     std::int32_t corners_1 = 0;           ///< where the projected corners of face 1 begin in PairList::corners
     std::int32_t corners_2 = 0;
@@ -50,6 +51,11 @@ public:
                                              const Vector<Dim>& u_1, const Vector<Dim>& u_2) const;
     [[nodiscard]] geometry::SharedArea<Dim> shared_area(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift,
                                                         geometry::AreaMethod method) const;
+    /// Whether the faces are sure to share no area while the shift goes straight from shift_0 to shift_1 (a cheap test).
+    [[nodiscard]] bool stay_apart(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift_0, const PlaneVector<Dim>& shift_1) const {
+        const double allowed = pair.reach + (shift_1 - shift_0).norm();
+        return shift_0.squaredNorm() > allowed * allowed;
+    }
     void append_overlap_events(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift_0, const PlaneVector<Dim>& shift_1,
                                std::vector<double>& events) const;
 

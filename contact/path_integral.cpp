@@ -1,5 +1,7 @@
 #include "abut/contact/path_integral.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +59,21 @@ std::span<const PathPiece<Dim>> row(const std::vector<PathPiece<Dim>>& pieces, c
     return {pieces.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
 }
 
+inline constexpr std::size_t run_length = 64;
+
+/// Calls body(begin, end, work) for runs of [0, n), concurrently, run i with the work area work[i]. What it does
+/// for one index must not depend on the runs.
+template <class Work, class Body>
+void for_each_run(std::size_t n, std::vector<Work>& work, const Body& body) {
+    const std::size_t n_runs = std::max<std::size_t>(1, (n + run_length - 1) / run_length);
+    if (work.size() < n_runs) work.resize(n_runs);
+    const auto run = [&](std::size_t i) { body(std::min(n, i * run_length), std::min(n, (i + 1) * run_length), work[i]); };
+    if (n_runs <= 2)
+        for (std::size_t i = 0; i < n_runs; ++i) run(i);
+    else
+        oneapi::tbb::parallel_for(std::size_t{0}, n_runs, run);
+}
+
 void sort_and_close(std::vector<double>& cuts, double begin, double end) {
     cuts.push_back(begin);
     cuts.push_back(end);
@@ -77,105 +94,176 @@ void PathIntegral<Dim>::integrate(const SurfaceView<Dim>& surface, const PairLis
     mean_correction_.assign(n_faces, Vector<Dim>::Zero());
     mean_force_.assign(n_faces, Vector<Dim>::Zero());
     mean_normal_force_.assign(n_faces, 0.0);
-    find_active(surface, pairs, local_face, path);
+    const Step step{surface, pairs, local_face, coupling, path, cuts};
+    find_closing(step);
+    find_active(step);
     if (active_.empty()) return;
-    link_faces(surface, pairs, local_face, n_faces);
+    link_faces(step);
     add_mean_corrections(pairs);
-    for (std::int32_t a = 0; a < static_cast<std::int32_t>(active_.size()); ++a)
-        add_pair_force(a, surface, pairs, local_face, coupling, path, cuts);
+
+    pair_forces_.resize(active_.size());
+    for_each_run(active_.size(), scratch_, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+        for (std::size_t a = begin; a < end; ++a) pair_forces_[a] = pair_force(step, static_cast<std::int32_t>(a), scratch);
+    });
+    for (std::size_t a = 0; a < active_.size(); ++a) {
+        const ContactPair<Dim>& pair = pairs.pairs()[active_[a]];
+        const std::int32_t f_1 = local_face[pair.face_1];
+        const std::int32_t f_2 = local_face[pair.face_2];
+        mean_force_[f_1] -= pair_forces_[a].force;
+        mean_force_[f_2] += pair_forces_[a].force;
+        mean_normal_force_[f_1] -= pair_forces_[a].normal_force;
+        mean_normal_force_[f_2] -= pair_forces_[a].normal_force;
+    }
 }
 
 template <int Dim>
-void PathIntegral<Dim>::find_active(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
-                                    const FacePath<Dim>& path) {
+void PathIntegral<Dim>::find_closing(const Step& step) {
+    closing_.clear();
+    const auto& [u_0, u_1, y_0, y_1] = step.path;
+    for (std::int32_t p = 0; p < step.pairs.size(); ++p) {
+        const ContactPair<Dim>& pair = step.pairs.pairs()[p];
+        if (!pair.admitted) continue;
+        const std::int32_t f_1 = step.local_face[pair.face_1];
+        const std::int32_t f_2 = step.local_face[pair.face_2];
+        const Motion motion{step.pairs.position(step.surface, pair, u_0[f_1], u_0[f_2]),
+                            step.pairs.position(step.surface, pair, u_1[f_1], u_1[f_2]), options_.overlap == OverlapMode::moving};
+        if (motion.at_0.gap >= 0.0 && motion.at_1.gap >= 0.0) continue;
+        if (step.pairs.stay_apart(pair, motion.at_0.shift, motion.at_1.shift)) continue;
+        closing_.push_back({p, motion});
+    }
+}
+
+template <int Dim>
+void PathIntegral<Dim>::find_active(const Step& step) {
+    for_each_run(closing_.size(), found_, [&](std::size_t begin, std::size_t end, Found& found) {
+        found.active.clear();
+        found.pieces.clear();
+        found.n_pieces.clear();
+        found.cuts.clear();
+        found.n_cuts.clear();
+        for (std::size_t i = begin; i < end; ++i) append_pair(step.pairs, closing_[i], found);
+    });
+    join_found();
+    compression_ = 0.0;
+    most_compressed_ = -1;
+    std::size_t i = 0;
+    for (const std::int32_t p : active_) {
+        while (closing_[i].pair != p) ++i;
+        const double compression = -std::min(closing_[i].motion.at_0.gap, closing_[i].motion.at_1.gap) / step.pairs.pairs()[p].depth;
+        if (compression <= compression_) continue;
+        compression_ = compression;
+        most_compressed_ = p;
+    }
+}
+
+template <int Dim>
+void PathIntegral<Dim>::join_found() {
     active_.clear();
     pieces_.clear();
     piece_offsets_.assign(1, 0);
     cuts_.clear();
     cut_offsets_.assign(1, 0);
-    n_events_ = 0;
-    compression_ = 0.0;
-    most_compressed_ = -1;
-    for (std::int32_t p = 0; p < pairs.size(); ++p) {
-        const ContactPair<Dim>& pair = pairs.pairs()[p];
-        if (!pair.admitted) continue;
-        const std::int32_t f_1 = local_face[pair.face_1];
-        const std::int32_t f_2 = local_face[pair.face_2];
-        const auto at_0 = pairs.position(surface, pair, path.displacement_0[f_1], path.displacement_0[f_2]);
-        const auto at_1 = pairs.position(surface, pair, path.displacement_1[f_1], path.displacement_1[f_2]);
-        if (at_0.gap >= 0.0 && at_1.gap >= 0.0) continue;
-        append_pieces(pairs, pair, at_0, at_1);
-        if (static_cast<std::int32_t>(pieces_.size()) == piece_offsets_.back()) {
-            cuts_.resize(cut_offsets_.back());
-            continue;
-        }
-        active_.push_back(p);
-        piece_offsets_.push_back(static_cast<std::int32_t>(pieces_.size()));
-        cut_offsets_.push_back(static_cast<std::int32_t>(cuts_.size()));
-        n_events_ += cut_offsets_.back() - cut_offsets_[cut_offsets_.size() - 2];
-        const double compression = -std::min(at_0.gap, at_1.gap) / pair.depth;
-        if (compression > compression_) {
-            compression_ = compression;
-            most_compressed_ = p;
-        }
+    if (closing_.empty()) return;
+    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    const std::size_t n_runs = (closing_.size() + run_length - 1) / run_length;
+    for (const Found& found : std::span(found_).first(n_runs)) {
+        append(active_, found.active);
+        append(pieces_, found.pieces);
+        append(cuts_, found.cuts);
+        for (const std::int32_t n : found.n_pieces) piece_offsets_.push_back(piece_offsets_.back() + n);
+        for (const std::int32_t n : found.n_cuts) cut_offsets_.push_back(cut_offsets_.back() + n);
     }
 }
 
+/// The pieces and the cuts of one pair, if it is active at all.
 template <int Dim>
-void PathIntegral<Dim>::append_pieces(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const PairPosition<Dim>& at_0,
-                                      const PairPosition<Dim>& at_1) {
-    const Motion motion{at_0, at_1, options_.overlap == OverlapMode::moving};
+void PathIntegral<Dim>::append_pair(const PairList<Dim>& pairs, const Closing& closing, Found& found) const {
+    const auto& [at_0, at_1, overlap_moves] = closing.motion;
+    const ContactPair<Dim>& pair = pairs.pairs()[closing.pair];
+    const std::size_t n_pieces = found.pieces.size();
+    const std::size_t n_cuts = found.cuts.size();
     if (!options_.events) {
-        const Quadrature rule = gauss_legendre(options_.quadrature);
-        append_piece(pairs, pair, motion, 0.0, 1.0, rule.size, rule.node);
-        return;
+        append_sampled_piece(pairs, pair, closing.motion, found);
+    } else {
+        found.events.clear();
+        if ((at_0.gap < 0.0) != (at_1.gap < 0.0)) found.events.push_back(at_0.gap / (at_0.gap - at_1.gap));
+        if (closing.motion.overlap_changes()) pairs.append_overlap_events(pair, at_0.shift, at_1.shift, found.events);
+        std::erase_if(found.events, [](double tau) { return !(tau > 0.0 && tau < 1.0); });
+        sort_and_close(found.events, 0.0, 1.0);
+        for (std::size_t k = 0; k + 1 < found.events.size(); ++k)
+            if (found.events[k + 1] > found.events[k]) append_piece(pairs, pair, closing.motion, found.events[k], found.events[k + 1], found);
     }
-    events_.clear();
-    if ((at_0.gap < 0.0) != (at_1.gap < 0.0)) events_.push_back(at_0.gap / (at_0.gap - at_1.gap));
-    if (motion.overlap_moves) pairs.append_overlap_events(pair, at_0.shift, at_1.shift, events_);
-    std::erase_if(events_, [](double tau) { return !(tau > 0.0 && tau < 1.0); });
-    sort_and_close(events_, 0.0, 1.0);
-
-    // A is of degree Dim - 1 between two events and sampled well inside them.
-    static constexpr std::array<double, 3> inside = Dim == 2 ? std::array{0.25, 0.75, 0.0} : std::array{1.0 / 6.0, 0.5, 5.0 / 6.0};
-    for (std::size_t k = 0; k + 1 < events_.size(); ++k) {
-        const double begin = events_[k];
-        const double end = events_[k + 1];
-        if (!(end > begin) || motion.gap(0.5 * (begin + end)) >= 0.0) continue;
-        append_piece(pairs, pair, motion, begin, end, Dim, inside);
-    }
+    if (found.pieces.size() == n_pieces) return;
+    for (std::size_t i = n_pieces; i < found.pieces.size(); ++i)
+        for (const double cut : {found.pieces[i].begin, found.pieces[i].end})
+            if (cut > 0.0 && cut < 1.0 && (found.cuts.size() == n_cuts || found.cuts.back() != cut)) found.cuts.push_back(cut);
+    found.active.push_back(closing.pair);
+    found.n_pieces.push_back(static_cast<std::int32_t>(found.pieces.size() - n_pieces));
+    found.n_cuts.push_back(static_cast<std::int32_t>(found.cuts.size() - n_cuts));
 }
 
+/// Between two events g is linear and A of degree Dim - 1. Its slope dA/ds . ds/dtau is of degree Dim - 2, so A at one time
+/// and dA/ds at Dim - 1 times, well inside, give all.
 template <int Dim>
 void PathIntegral<Dim>::append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin,
-                                     double end, int n, const std::array<double, 3>& node) {
+                                     double end, Found& found) const {
+    const double length = end - begin;
+    if (motion.gap(begin + 0.5 * length) >= 0.0) return;
+    PathPiece<Dim> piece;
+    piece.begin = begin;
+    piece.end = end;
+    piece.depth = {motion.gap(begin), motion.gap(end) - motion.gap(begin), 0.0};
+    piece.shift_derivative.fill(PlaneVector<Dim>::Zero());
+
+    constexpr double first = Dim == 2 ? 0.5 : 0.25;
+    const geometry::SharedArea<Dim> at_first = pairs.shared_area(pair, motion.shift(begin + first * length), options_.area);
+    piece.area = {at_first.area, 0.0, 0.0};
+    if (motion.overlap_moves) piece.shift_derivative[0] = at_first.shift_derivative;
+    if (motion.overlap_changes()) {
+        const PlaneVector<Dim> travel = length * (motion.at_1.shift - motion.at_0.shift);
+        const double slope = at_first.shift_derivative.dot(travel);
+        double curvature = 0.0;
+        if constexpr (Dim == 3) {
+            constexpr double second = 0.75;
+            const geometry::SharedArea<Dim> at_second = pairs.shared_area(pair, motion.shift(begin + second * length), options_.area);
+            const PlaneVector<Dim> change = (at_second.shift_derivative - at_first.shift_derivative) / (second - first);
+            piece.shift_derivative = {PlaneVector<Dim>(at_first.shift_derivative - first * change), change, PlaneVector<Dim>::Zero()};
+            curvature = change.dot(travel);
+        }
+        // A(t) = A_first + slope (t - first) + curvature (t - first)^2 / 2
+        piece.area = {at_first.area - slope * first + 0.5 * curvature * first * first, slope - curvature * first, 0.5 * curvature};
+    }
+    if (piece.area[0] == 0.0 && piece.area[1] == 0.0 && piece.area[2] == 0.0) return;
+    found.pieces.push_back(piece);
+}
+
+/// Without events the step is one piece, and A and min(g, 0) are known at the quadrature points only.
+template <int Dim>
+void PathIntegral<Dim>::append_sampled_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion,
+                                             Found& found) const {
+    const Quadrature rule = gauss_legendre(options_.quadrature);
     std::array<double, 3> area{};
     std::array<double, 3> depth{};
     std::array<PlaneVector<Dim>, 3> derivative;
     derivative.fill(PlaneVector<Dim>::Zero());
     bool touches = false;
-    for (int k = 0; k < n; ++k) {
-        const double tau = begin + (end - begin) * node[k];
-        const geometry::SharedArea<Dim> shared =
-            k > 0 && !motion.overlap_changes() ? geometry::SharedArea<Dim>{area[0], derivative[0]}
-                                               : pairs.shared_area(pair, motion.shift(tau), options_.area);
+    for (int k = 0; k < rule.size; ++k) {
+        const geometry::SharedArea<Dim> shared = pairs.shared_area(pair, motion.shift(rule.node[k]), options_.area);
         area[k] = shared.area;
         if (motion.overlap_moves) derivative[k] = shared.shift_derivative;
-        depth[k] = std::min(motion.gap(tau), 0.0);
+        depth[k] = std::min(motion.gap(rule.node[k]), 0.0);
         touches = touches || (area[k] > 0.0 && depth[k] < 0.0);
     }
     if (!touches) return;
-    pieces_.push_back({begin, end, interpolate(n, node, area, 0.0), interpolate(n, node, depth, 0.0),
-                       interpolate<PlaneVector<Dim>>(n, node, derivative, PlaneVector<Dim>::Zero())});
-    for (const double cut : {begin, end})
-        if (cut > 0.0 && cut < 1.0 && (static_cast<std::int32_t>(cuts_.size()) == cut_offsets_.back() || cuts_.back() != cut))
-            cuts_.push_back(cut);
+    found.pieces.push_back({0.0, 1.0, interpolate(rule.size, rule.node, area, 0.0), interpolate(rule.size, rule.node, depth, 0.0),
+                            interpolate<PlaneVector<Dim>>(rule.size, rule.node, derivative, PlaneVector<Dim>::Zero())});
 }
 
 /// Row f of terms_: the active pairs on face f and what their h adds to its correction.
 template <int Dim>
-void PathIntegral<Dim>::link_faces(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
-                                   std::size_t n_faces) {
+void PathIntegral<Dim>::link_faces(const Step& step) {
+    const auto& [surface, pairs, local_face, coupling, path, cuts] = step;
+    const std::size_t n_faces = mean_correction_.size();
     term_offsets_.assign(n_faces + 1, 0);
     const auto for_each_side = [&](auto&& visit) {
         for (std::int32_t a = 0; a < static_cast<std::int32_t>(active_.size()); ++a) {
@@ -206,75 +294,74 @@ void PathIntegral<Dim>::add_mean_corrections(const PairList<Dim>& pairs) {
             mean_correction_[f] += terms_[t].weight * mean_measure_[terms_[t].active] * pairs.pairs()[active_[terms_[t].active]].frame.normal();
 }
 
-/// coupled_: every active pair whose h enters beta of this pair through the face forces, and its factor
+/// scratch.coupled: every active pair whose h enters beta of this pair through the face forces, and its factor
 /// +-theta_i/|f_i| n . Q n' weight'.
 template <int Dim>
-void PathIntegral<Dim>::collect_coupled(std::int32_t active, const SurfaceView<Dim>& surface, const PairList<Dim>& pairs,
-                                        std::span<const std::int32_t> local_face, const FaceCoupling<Dim>& coupling) {
-    coupled_.clear();
-    const ContactPair<Dim>& pair = pairs.pairs()[active_[active]];
+void PathIntegral<Dim>::collect_coupled(const Step& step, std::int32_t active, Scratch& scratch) const {
+    scratch.coupled.clear();
+    const auto& coupling = step.coupling;
+    const ContactPair<Dim>& pair = step.pairs.pairs()[active_[active]];
     const auto add_side = [&](std::int32_t face, double factor) {
         if (factor == 0.0) return;
-        const std::int32_t f = local_face[face];
+        const std::int32_t f = step.local_face[face];
         for (std::int32_t c = coupling.offsets[f]; c < coupling.offsets[f + 1]; ++c) {
             const Vector<Dim> row_of_normal = factor * (coupling.blocks[c].transpose() * pair.frame.normal());
             const std::int32_t other = coupling.columns[c];
             for (std::int32_t t = term_offsets_[other]; t < term_offsets_[other + 1]; ++t) {
-                const Vector<Dim>& n = pairs.pairs()[active_[terms_[t].active]].frame.normal();
-                coupled_.emplace_back(terms_[t].active, terms_[t].weight * row_of_normal.dot(n));
+                const Vector<Dim>& n = step.pairs.pairs()[active_[terms_[t].active]].frame.normal();
+                scratch.coupled.emplace_back(terms_[t].active, terms_[t].weight * row_of_normal.dot(n));
             }
         }
     };
-    add_side(pair.face_1, pair.theta_1 / surface.area[pair.face_1]);
-    add_side(pair.face_2, -pair.theta_2 / surface.area[pair.face_2]);
+    add_side(pair.face_1, pair.theta_1 / step.surface.area[pair.face_1]);
+    add_side(pair.face_2, -pair.theta_2 / step.surface.area[pair.face_2]);
 }
 
-/// nodes_: the times inside (begin, end) at which beta may change its formula, with both ends, sorted.
+/// scratch.nodes: the times inside (begin, end) at which beta may change its formula, with both ends, sorted.
 template <int Dim>
-void PathIntegral<Dim>::collect_cuts(double begin, double end, Cuts cuts) {
-    nodes_.clear();
+void PathIntegral<Dim>::collect_cuts(double begin, double end, Cuts cuts, Scratch& scratch) const {
+    scratch.nodes.clear();
     const auto add = [&](std::int32_t a) {
         for (std::int32_t c = cut_offsets_[a]; c < cut_offsets_[a + 1]; ++c)
-            if (cuts_[c] > begin && cuts_[c] < end) nodes_.push_back(cuts_[c]);
+            if (cuts_[c] > begin && cuts_[c] < end) scratch.nodes.push_back(cuts_[c]);
     };
     if (cuts == Cuts::global)
         for (std::int32_t a = 0; a < static_cast<std::int32_t>(active_.size()); ++a) add(a);
     else
-        for (const auto& [a, factor] : coupled_) add(a);
-    sort_and_close(nodes_, begin, end);
+        for (const auto& [a, factor] : scratch.coupled) add(a);
+    sort_and_close(scratch.nodes, begin, end);
 }
 
+/// Mean over the step of beta A and of beta (A n + g dA/ds), beta = theta_1 y_1.n/|f_1| - theta_2 y_2.n/|f_2|.
 template <int Dim>
-void PathIntegral<Dim>::add_pair_force(std::int32_t active, const SurfaceView<Dim>& surface, const PairList<Dim>& pairs,
-                                       std::span<const std::int32_t> local_face, const FaceCoupling<Dim>& coupling,
-                                       const FacePath<Dim>& path, Cuts cuts) {
-    const ContactPair<Dim>& pair = pairs.pairs()[active_[active]];
-    const std::int32_t f_1 = local_face[pair.face_1];
-    const std::int32_t f_2 = local_face[pair.face_2];
-    const double factor_1 = pair.theta_1 / surface.area[pair.face_1];
-    const double factor_2 = -pair.theta_2 / surface.area[pair.face_2];
+typename PathIntegral<Dim>::PairForce PathIntegral<Dim>::pair_force(const Step& step, std::int32_t active, Scratch& scratch) const {
+    const ContactPair<Dim>& pair = step.pairs.pairs()[active_[active]];
     const Vector<Dim>& n = pair.frame.normal();
-    const auto free_beta = [&](std::span<const Vector<Dim>> force) { return factor_1 * force[f_1].dot(n) + factor_2 * force[f_2].dot(n); };
-    const double beta_0 = free_beta(path.force_0);
-    const double beta_1 = free_beta(path.force_1);
-    collect_coupled(active, surface, pairs, local_face, coupling);
+    const auto free_beta = [&](std::span<const Vector<Dim>> force) {
+        return pair.theta_1 / step.surface.area[pair.face_1] * force[step.local_face[pair.face_1]].dot(n) -
+               pair.theta_2 / step.surface.area[pair.face_2] * force[step.local_face[pair.face_2]].dot(n);
+    };
+    const double beta_0 = free_beta(step.path.force_0);
+    const double beta_1 = free_beta(step.path.force_1);
+    collect_coupled(step, active, scratch);
 
     const Quadrature rule = gauss_legendre(options_.quadrature);
-    double normal_force = 0.0;  // mean of beta A
-    PlaneVector<Dim> shift_force = PlaneVector<Dim>::Zero();  // mean of beta g dA/ds
+    double normal_force = 0.0;
+    PlaneVector<Dim> shift_force = PlaneVector<Dim>::Zero();
     for (const PathPiece<Dim>& piece : row<Dim>(pieces_, piece_offsets_, active)) {
-        collect_cuts(piece.begin, piece.end, cuts);
-        for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
-            const double length = nodes_[i + 1] - nodes_[i];
+        collect_cuts(piece.begin, piece.end, step.cuts, scratch);
+        for (std::size_t i = 0; i + 1 < scratch.nodes.size(); ++i) {
+            const double begin = scratch.nodes[i];
+            const double length = scratch.nodes[i + 1] - begin;
             if (!(length > 0.0)) continue;
             std::array<double, 3> tau{};
             std::array<double, 3> beta{};
             for (int k = 0; k < rule.size; ++k) {
-                tau[k] = nodes_[i] + length * rule.node[k];
+                tau[k] = begin + length * rule.node[k];
                 beta[k] = beta_0 + tau[k] * (beta_1 - beta_0);
             }
-            for (const auto& [other, factor] : coupled_)
-                if (const PathPiece<Dim>* at = piece_at(row<Dim>(pieces_, piece_offsets_, other), nodes_[i] + 0.5 * length))
+            for (const auto& [other, factor] : scratch.coupled)
+                if (const PathPiece<Dim>* at = piece_at(row<Dim>(pieces_, piece_offsets_, other), begin + 0.5 * length))
                     for (int k = 0; k < rule.size; ++k) beta[k] += factor * correction_measure(*at, tau[k]);
             for (int k = 0; k < rule.size; ++k) {
                 const double t = (tau[k] - piece.begin) / (piece.end - piece.begin);
@@ -284,11 +371,7 @@ void PathIntegral<Dim>::add_pair_force(std::int32_t active, const SurfaceView<Di
             }
         }
     }
-    const Vector<Dim> force = normal_force * n + pair.frame.lift(shift_force);
-    mean_force_[f_2] += force;
-    mean_force_[f_1] -= force;
-    mean_normal_force_[f_1] -= normal_force;
-    mean_normal_force_[f_2] -= normal_force;
+    return {normal_force, normal_force * n + pair.frame.lift(shift_force)};
 }
 
 template class PathIntegral<2>;

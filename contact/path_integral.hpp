@@ -65,20 +65,16 @@ public:
     [[nodiscard]] std::span<const double> mean_normal_force() const { return mean_normal_force_; }
     /// Pairs that were active at some time of the step: their indices in the pair list, increasing.
     [[nodiscard]] std::span<const std::int32_t> active_pairs() const { return active_; }
-    [[nodiscard]] std::int64_t events() const { return n_events_; }
+    [[nodiscard]] std::int64_t events() const { return static_cast<std::int64_t>(cuts_.size()); }
     /// Largest |g|/D of an active pair at the ends of the step, and which pair (-1: none).
     [[nodiscard]] double compression() const { return compression_; }
     [[nodiscard]] std::int32_t most_compressed() const { return most_compressed_; }
 
 private:
-    struct Term {            // one face of an active pair, as seen from a coupled face
-        std::int32_t active; // place in active_
-        double weight;       // delta_f += weight h n_12, h = A min(g, 0)
-    };
-
+    using Position = PairPosition<Dim>;
     struct Motion {  // of a pair along the step
-        PairPosition<Dim> at_0;
-        PairPosition<Dim> at_1;
+        Position at_0;
+        Position at_1;
         bool overlap_moves;
 
         [[nodiscard]] double gap(double tau) const { return at_0.gap + tau * (at_1.gap - at_0.gap); }
@@ -87,21 +83,55 @@ private:
         }
         [[nodiscard]] bool overlap_changes() const { return overlap_moves && at_0.shift != at_1.shift; }
     };
+    struct Closing {  // an admitted pair with g < 0 at some time of the step
+        std::int32_t pair;
+        Motion motion;
+    };
+    struct Found {  // what a run of closing pairs gave; runs are joined in order
+        std::vector<std::int32_t> active;
+        std::vector<PathPiece<Dim>> pieces;
+        std::vector<std::int32_t> n_pieces;
+        std::vector<double> cuts;
+        std::vector<std::int32_t> n_cuts;
+        std::vector<double> events;  // work array
+    };
+    struct Term {             // one active pair on a face
+        std::int32_t active;  // place in active_
+        double weight;        // delta_f += weight h n_12, h = A min(g, 0)
+    };
+    struct Scratch {
+        std::vector<std::pair<std::int32_t, double>> coupled;  // (active pair, what its h adds to beta)
+        std::vector<double> nodes;
+    };
+    struct PairForce {
+        double normal_force;  // mean of beta A
+        Vector<Dim> force;    // mean of beta (A n + g dA/ds)
+    };
+    /// What stays the same while one step is integrated.
+    struct Step {
+        const SurfaceView<Dim>& surface;
+        const PairList<Dim>& pairs;
+        std::span<const std::int32_t> local_face;
+        const FaceCoupling<Dim>& coupling;
+        const FacePath<Dim>& path;
+        Cuts cuts;
+    };
 
-    void find_active(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
-                     const FacePath<Dim>& path);
-    void append_pieces(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const PairPosition<Dim>& at_0, const PairPosition<Dim>& at_1);
-    void append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin, double end, int n,
-                      const std::array<double, 3>& node);
-    void link_faces(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face, std::size_t n_faces);
+    void find_closing(const Step& step);
+    void find_active(const Step& step);
+    void append_pair(const PairList<Dim>& pairs, const Closing& closing, Found& found) const;
+    void append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin, double end, Found& found) const;
+    void append_sampled_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, Found& found) const;
+    void join_found();
+    void link_faces(const Step& step);
     void add_mean_corrections(const PairList<Dim>& pairs);
-    void add_pair_force(std::int32_t active, const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
-                        const FaceCoupling<Dim>& coupling, const FacePath<Dim>& path, Cuts cuts);
-    void collect_coupled(std::int32_t active, const SurfaceView<Dim>& surface, const PairList<Dim>& pairs,
-                         std::span<const std::int32_t> local_face, const FaceCoupling<Dim>& coupling);
-    void collect_cuts(double begin, double end, Cuts cuts);
+    [[nodiscard]] PairForce pair_force(const Step& step, std::int32_t active, Scratch& scratch) const;
+    void collect_coupled(const Step& step, std::int32_t active, Scratch& scratch) const;
+    void collect_cuts(double begin, double end, Cuts cuts, Scratch& scratch) const;
 
     ContactOptions options_;
+    std::vector<Closing> closing_;
+    std::vector<Found> found_;                       // by run of closing pairs
     std::vector<std::int32_t> active_;
     std::vector<PathPiece<Dim>> pieces_;
     std::vector<std::int32_t> piece_offsets_;        // (n_active + 1)
@@ -109,17 +139,14 @@ private:
     std::vector<std::int32_t> cut_offsets_;          // (n_active + 1)
     std::vector<std::int32_t> term_offsets_;         // (n + 1)
     std::vector<Term> terms_;
+    std::vector<double> mean_measure_;               // mean of h, by active pair
+    std::vector<PairForce> pair_forces_;             // by active pair
+    std::vector<Scratch> scratch_;                   // by run of active pairs
     std::vector<Vector<Dim>> mean_correction_;
     std::vector<Vector<Dim>> mean_force_;
     std::vector<double> mean_normal_force_;
-    std::int64_t n_events_ = 0;
     double compression_ = 0.0;
     std::int32_t most_compressed_ = -1;
-
-    std::vector<double> events_;                     // work arrays
-    std::vector<std::pair<std::int32_t, double>> coupled_;  // (active pair, what its h adds to beta)
-    std::vector<double> nodes_;
-    std::vector<double> mean_measure_;
 };
 
 }  // namespace abut::contact

@@ -1,5 +1,7 @@
 #include "abut/dynamics/ccg.hpp"
 
+#include <oneapi/tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -64,6 +66,9 @@ struct CellGeometry {
     double mu;
     std::array<double, Dim> centroid;  // x_c
 };
+
+/// Elements of a region that are worth a task of their own.
+inline constexpr std::ptrdiff_t region_grain = 256;
 
 /// A face as one of its cells has it.
 class Slot {
@@ -357,12 +362,15 @@ struct Ccg<Dim>::Impl {
     // The same on a region --------------------------------------------------------------------------------------------
 
     void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> from, const BoundaryLoad<Dim>& boundary_load) {
-        for (const std::int32_t c : region.loaded_cells) store(load<Dim>(from[c]), u, c);
-        for (const std::int32_t f : region.reconstructed) store(reconstruct(f), relative, f);
-        for (const std::int32_t b : region.reconstructed_boundary) store(reconstruct_boundary(b, boundary_load), relative, boundary_faces[b]);
-        for (const std::int32_t c : region.gradient_cells) store_tensor(gradient(c), g, c);
-        for (const std::int32_t f : region.jump_faces) store(jump(f), jump_force, f);
-        for (const std::int32_t c : region.stress_cells) stress(c);
+        const auto for_all = [](const std::vector<std::int32_t>& list, const auto& body) {
+            parallel_each(static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
+        };
+        for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(from[c]), u, c); });
+        for_all(region.reconstructed, [&](std::int32_t f) { store(reconstruct(f), relative, f); });
+        for_all(region.reconstructed_boundary, [&](std::int32_t b) { store(reconstruct_boundary(b, boundary_load), relative, boundary_faces[b]); });
+        for_all(region.gradient_cells, [&](std::int32_t c) { store_tensor(gradient(c), g, c); });
+        for_all(region.jump_faces, [&](std::int32_t f) { store(jump(f), jump_force, f); });
+        for_all(region.stress_cells, [&](std::int32_t c) { stress(c); });
     }
 
     void complete(Region<Dim>& region) const;
@@ -638,15 +646,21 @@ double Ccg<Dim>::Impl::free_motion_bound(std::span<const Vector<Dim>> from, std:
 template <int Dim>
 double Ccg<Dim>::Impl::largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const {
-    double largest = 0.0;
-    for (std::int32_t b = 0; b < boundary.size(); ++b) {
-        Vector<Dim> motion = Vector<Dim>::Zero();
-        if (!load_to.displacement.empty()) motion = load_to.displacement[b] - load_from.displacement[b];
+    const auto motion_of = [&](std::int32_t b) {
+        Lanes<Dim> motion;
+        if (!load_to.displacement.empty()) motion = load<Dim>(Vector<Dim>(load_to.displacement[b] - load_from.displacement[b]));
         for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-            motion += boundary.weights[i] * (u_to[boundary.cells[i]] - u_from[boundary.cells[i]]);
-        largest = std::max(largest, motion.norm());
-    }
-    return largest;
+            motion += boundary_weight[i] * (load<Dim>(u_to[boundary.cells[i]]) - load<Dim>(u_from[boundary.cells[i]]));
+        return dot(motion, motion);
+    };
+    const double largest = oneapi::tbb::parallel_reduce(
+        oneapi::tbb::blocked_range<std::int32_t>(0, boundary.size(), parallel_grain), 0.0,
+        [&](const oneapi::tbb::blocked_range<std::int32_t>& range, double so_far) {
+            for (std::int32_t b = range.begin(); b < range.end(); ++b) so_far = std::max(so_far, motion_of(b));
+            return so_far;
+        },
+        [](double a, double b) { return std::max(a, b); });
+    return std::sqrt(largest);
 }
 
 template <int Dim>

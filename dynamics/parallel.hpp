@@ -16,22 +16,25 @@ inline constexpr std::ptrdiff_t parallel_grain = 1024;
 /// Calls body(begin, end) on parts of [0, n), concurrently when n is worth it. What is computed for one index must not
 /// depend on the parts.
 template <class Body>
-void parallel_ranges(std::ptrdiff_t n, const Body& body) {
-    if (n <= 2 * parallel_grain) {
+void parallel_ranges(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = parallel_grain) {
+    if (n <= 2 * grain) {
         body(std::ptrdiff_t{0}, n);
         return;
     }
     oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::ptrdiff_t>(0, n, parallel_grain),
+        oneapi::tbb::blocked_range<std::ptrdiff_t>(0, n, grain),
         [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range) { body(range.begin(), range.end()); },
         oneapi::tbb::static_partitioner{});
 }
 
 template <class Body>
-void parallel_each(std::ptrdiff_t n, const Body& body) {
-    parallel_ranges(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-        for (std::ptrdiff_t i = begin; i < end; ++i) body(i);
-    });
+void parallel_each(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = parallel_grain) {
+    parallel_ranges(
+        n,
+        [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+            for (std::ptrdiff_t i = begin; i < end; ++i) body(i);
+        },
+        grain);
 }
 
 /// Sum of term(i) over [0, n): blocks of fixed size, then the blocks in order, so that the bits depend on n alone.

@@ -43,16 +43,16 @@ std::vector<NamedMesh<Dim>> boxes(int cells = 3) {
 }
 
 /// Round bodies from Gmsh.
-inline mesh::Mesh<2> round(double size, int variant = 0, const Vector<2>& centre = Vector<2>::Zero()) {
+inline mesh::Mesh<2> unit_disc(double size, int variant = 0, const Vector<2>& centre = Vector<2>::Zero()) {
     return mesh::disc({.centre = centre, .size = size, .variant = variant});
 }
-inline mesh::Mesh<3> round_3d(double size, int variant = 0, const Vector<3>& centre = Vector<3>::Zero()) {
+inline mesh::Mesh<3> unit_cylinder(double size, int variant = 0, const Vector<3>& centre = Vector<3>::Zero()) {
     return mesh::cylinder({.centre = centre, .length = 0.8, .size = size, .variant = variant});
 }
 template <int Dim>
 mesh::Mesh<Dim> round_body(double size) {
-    if constexpr (Dim == 2) return round(size);
-    else return round_3d(size);
+    if constexpr (Dim == 2) return unit_disc(size);
+    else return unit_cylinder(size);
 }
 
 template <int Dim>
@@ -150,7 +150,7 @@ dynamics::SolidOptions<Dim> bodies(int n, const contact::ContactOptions& contact
 /// The two discs of CASES.md: R = 1, v = +-0.05, gap 0.02, meshes that do not match.
 inline mesh::Mesh<2> two_discs(double offset, double size = 0.25, double gap = 0.02) {
     const double x = std::sqrt(4.0 - offset * offset);  // centres at the distance 2
-    return together(round(size, 0, {-0.5 * (x + gap), -0.5 * offset}), round(size, 1, {0.5 * (x + gap), 0.5 * offset}));
+    return together(unit_disc(size, 0, {-0.5 * (x + gap), -0.5 * offset}), unit_disc(size, 1, {0.5 * (x + gap), 0.5 * offset}));
 }
 inline const std::vector<Vector<2>> disc_velocities{{0.05, 0.0}, {-0.05, 0.0}};
 
@@ -163,7 +163,7 @@ inline const std::vector<Vector<3>> box_velocities{{0.02, 0.01, 0.05}, {-0.02, 0
 
 inline mesh::Mesh<3> two_cylinders(double offset, double size = 0.4) {
     const double x = std::sqrt(4.0 - offset * offset);
-    return together(round_3d(size, 0, {-0.5 * (x + 0.02), -0.5 * offset, 0.0}), round_3d(size, 1, {0.5 * (x + 0.02), 0.5 * offset, 0.05}));
+    return together(unit_cylinder(size, 0, {-0.5 * (x + 0.02), -0.5 * offset, 0.0}), unit_cylinder(size, 1, {0.5 * (x + 0.02), 0.5 * offset, 0.05}));
 }
 inline const std::vector<Vector<3>> cylinder_velocities{{0.05, 0.0, 0.0}, {-0.05, 0.0, 0.0}};
 

@@ -39,7 +39,7 @@ TEST_CASE("a material out of bounds is refused with the body, the quantity, its 
 }
 
 TEST_CASE("materials at the edge of what is allowed are taken", "[dynamics][errors]") {
-    const auto mesh = round(0.6);
+    const auto mesh = unit_disc(0.6);
     auto options = bodies<2>(1);
     options.materials[0].poisson = GENERATE(-0.99, 0.0, 0.49);
     CHECK_NOTHROW(dynamics::Solid<2>(mesh, options));
@@ -113,5 +113,5 @@ TEST_CASE("bad contact options are refused when the solid is made", "[dynamics][
 TEST_CASE("a run that has diverged ends with an error that says so", "[dynamics][errors]") {
     auto options = bodies<2>(2);
     Scene<2> scene(two_discs(0.0, 0.5), options, disc_velocities, -3.0);
-    CHECK_THROWS_WITH(scene.run(5000, 5000), Contains("not finite") || Contains("deep"));
+    CHECK_THROWS_WITH(scene.run(5000, 5000), Contains("not finite") || Contains("pressed"));
 }

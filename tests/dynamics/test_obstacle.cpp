@@ -84,7 +84,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a tilted wall that turns back and o
 TEST_CASE("the momentum that a body loses is the mean force on the obstacle times twice the step, step by step", "[dynamics][obstacle]") {
     auto options = bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
-    Scene<2> scene(round(0.25), options, {Vector<2>(-0.1, 0.02)});
+    Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
     const auto total = [](std::span<const double> p) {
         Vector<2> sum = Vector<2>::Zero();
         for (const Vector<2>& p_c : dynamics::as_vectors<2>(p)) sum += p_c;

@@ -78,7 +78,7 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact
 TEST_CASE("the neutral filter keeps H~ of a body on a wall, where momentum is not its own", "[dynamics][filter]") {
     auto options = bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
-    Scene<2> scene(round(0.25), options, {Vector<2>(-0.1, 0.02)});
+    Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
     dynamics::NeutralFilter<2> filter(scene.solid);
     bool held = false;
     scene.memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) {

@@ -27,7 +27,7 @@ TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eige
 }
 
 TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[dynamics][stable_step]") {
-    const auto mesh = round(0.4);
+    const auto mesh = unit_disc(0.4);
     auto options = bodies<2>(1);
     dynamics::Solid<2> touching(mesh, options);
     options.contact.reset();
@@ -36,7 +36,7 @@ TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[dyn
 }
 
 TEST_CASE("the stable step is the same however often it is asked for, and scales with h sqrt(rho/E)", "[dynamics][stable_step]") {
-    const auto mesh = round(0.4);
+    const auto mesh = unit_disc(0.4);
     auto options = bodies<2>(1);
     dynamics::Solid<2> solid(mesh, options);
     const double dt = dynamics::stable_step(solid).dt;

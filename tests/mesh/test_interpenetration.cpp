@@ -36,7 +36,7 @@ Mesh<Dim> both(const Mesh<Dim>& body_1, const Mesh<Dim>& body_2) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("boxes pushed into each other overlap by as much as they were pushed", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each body, whatever the broad phase", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
     const auto broad_phase = GENERATE(geometry::BroadPhase::embree, geometry::BroadPhase::fcl, geometry::BroadPhase::brute_force);
     const double depth = 0.05;
     const auto mesh = both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 2, brick<Dim>(), "low"),
