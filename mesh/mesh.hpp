@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "abut/geometry/vector.hpp"
-#include "abut/mesh/ids.hpp"
 
 namespace abut::mesh {
 
