@@ -64,15 +64,19 @@ Traffic step_traffic(const mesh::Mesh<3>& mesh, const dynamics::BoundaryReconstr
     const double faces = per_cell(static_cast<std::size_t>(mesh.n_faces())), slots = per_cell(mesh.cell_faces.values.size());
     const double stencils = faces - per_cell(mesh.boundary_faces.size());
     const double boundary_rows = per_cell(boundary.weights.size()) * (id + tensor);
-    const double constant = faces * (2 * id + 4 * (id + number)) + boundary_rows                 // sides, stencils, R on the boundary
-                            + slots * 2 * id + id + 6 * number + faces * (vector + 4 * number)  // slots, cells, area vectors, x_f and k_f
-                            + faces * 2 * id + stencils * 4 * (id + number) + id + boundary_rows;  // slots of faces, R^T twice
-    const double again = slots * 2 * id + id + 6 * number + faces * vector;  // the stress sweep reads these a second time
-    const double work = 2 * lane + faces * lane                              // u written, read; relative written
-                        + faces * lane + lane + tensor                       // gradient: relative, u; g
-                        + tensor + lane + slots * lane + lane                // stress: g, u; traction, direct
-                        + slots * lane + faces * lane                        // face forces: traction; y
-                        + faces * lane + lane;                               // cell gradients: y, direct
+    const double cell_data = slots * 2 * id + id + 6 * number;  // slots, their offset, 1/|c|, Lame, x_c
+    const double constant = faces * (2 * id + 4 * (id + number)) + boundary_rows  // reconstruction: sides, stencils, R
+                            + cell_data + faces * vector                          // gradients: area vectors
+                            + faces * 4 * number                                  // jumps: x_f, k_f
+                            + stencils * 4 * (id + number) + id + boundary_rows;  // cell gradients: transposed stencils, R^T
+    const double again = faces * 2 * id + 6 * number        // jumps: sides, x_c
+                         + cell_data + faces * 4 * number   // stresses
+                         + faces * (2 * id + vector);       // face forces: sides, area vectors
+    const double work = 4 * lane + 2 * faces * lane    // u: written and read by reconstruction, gradients, jumps; relative
+                        + 3 * tensor                   // g: jumps and stresses read it
+                        + 2 * faces * lane             // jump forces
+                        + 2 * tensor + 2 * lane        // S, direct part
+                        + 2 * faces * lane;            // face forces
     const double state = 4 * vector      // q^{n+1}: q, p, 1/m; written
                          + 3 * vector    // midpoint: both q; written
                          + 2 * vector    // loaded; result

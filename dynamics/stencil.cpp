@@ -52,13 +52,14 @@ public:
         }
     }
 
-    /// The nearest cells of a body, by distance, then number.
-    [[nodiscard]] std::vector<Near> find(std::int32_t body, const Vector<Dim>& point) const {
+    /// The nearest `wanted` cells of a body, or all if it has fewer, by distance, then number.
+    [[nodiscard]] std::vector<Near> find(std::int32_t body, const Vector<Dim>& point, std::size_t wanted) const {
         const BodyTree& tree = *bodies_[body];
-        std::array<std::uint32_t, n_nearest<Dim>> index{};
-        std::array<double, n_nearest<Dim>> squared{};
-        const std::size_t n = tree.index.knnSearch(point.data(), n_nearest<Dim>, index.data(), squared.data());
+        std::vector<std::uint32_t> index(wanted);
+        std::vector<double> squared(wanted);
+        const std::size_t n = tree.index.knnSearch(point.data(), wanted, index.data(), squared.data());
         std::vector<Near> near;
+        near.reserve(n);
         for (std::size_t i = 0; i < n; ++i)
             near.push_back({std::sqrt(squared[i]), tree.centroids.first_cell + static_cast<std::int32_t>(index[i])});
         std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell); });
@@ -138,10 +139,14 @@ private:
 template <int Dim>
 FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face, int& halvings) {
     const std::int32_t cell = mesh.face_cells[face][0];
-    const auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face]);
-    double smallest_volume = volume_floor * mesh.cell_measure[cell];
-    for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5)
-        if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
+    // Regular layers may put the nearest centroids all in one plane: then look further.
+    for (std::size_t wanted = n_nearest<Dim>; wanted <= 4 * n_nearest<Dim>; wanted *= 2) {
+        const auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted);
+        double smallest_volume = volume_floor * mesh.cell_measure[cell];
+        for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5)
+            if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
+        if (near.size() < wanted) break;
+    }
     throw std::runtime_error(mesh.name + ": face " + std::to_string(face) + " of cell " + std::to_string(cell) +
                              ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
                              "The body is one cell thick there: put at least two cells across it.");

@@ -71,7 +71,7 @@ void print_energies(const RunResult<Dim>& result) {
     print_line("energy excess H - H~, / K0", fmt::format("{:.2e}", result.ledger.energy_excess() / k));
     print_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", result.ledger.parasitic()));
     print_line("drift of linear momentum", fmt::format("{:.2e} kg m/s", result.ledger.momentum_drift()));
-    print_line("drift of angular momentum", fmt::format("{:.2e} kg m^{}/s", result.ledger.angular_momentum_drift(), 2));
+    print_line("drift of angular momentum", fmt::format("{:.2e} kg m^2/s", result.ledger.angular_momentum_drift()));
 }
 
 template <int Dim>

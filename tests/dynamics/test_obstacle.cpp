@@ -51,6 +51,29 @@ TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 
     CHECK(scene.solid.contact_report().lost_contacts == 0);
 }
 
+TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and no gap elsewhere", "[dynamics][obstacle]") {
+    Scene<2> scene(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
+    scene.run_until(0.6, 1000);
+    double pressure = 0.0, gap_at_end = 0.0;
+    const int steps = 200;
+    for (int i = 0; i < steps; ++i) {
+        scene.memm.step();
+        const auto field = scene.solid.contact_field(scene.memm.q());
+        for (std::size_t b = 0; b < field.pressure.size(); ++b) {
+            if (scene.mesh.face_normal[scene.mesh.boundary_faces[b]][0] < -0.99) {
+                pressure += field.pressure[b] / (2.0 * steps);  // two faces at the end
+                gap_at_end = std::min(gap_at_end, field.gap[b]);
+            } else {
+                CHECK(field.pressure[b] == 0.0);
+                CHECK(field.gap[b] == std::numeric_limits<double>::infinity());
+            }
+        }
+    }
+    CHECK(pressure == Approx(speed * std::sqrt(young)).epsilon(0.02));
+    CHECK(gap_at_end < 0.0);
+    CHECK(gap_at_end > -0.5 * length / n);  // less than the depth of a cell
+}
+
 TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thrown off as a flying one rebounds", "[dynamics][obstacle]") {
     Scene<2> flying(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
     Scene<2> pushed(bar(), bar_and_wall([](double t) { return Vector<2>(speed * t, 0.0); }), {Vector<2>::Zero()}, dt);
