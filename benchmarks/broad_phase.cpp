@@ -61,7 +61,7 @@ nlohmann::json measure(int faces, const Choices& choices) {
 
     std::vector<std::function<void()>> works;
     for (const BroadPhase method : methods) works.emplace_back([&, method] { (void)pairs_of(method); });
-    const auto samples = benchmark::time_in_turn(choices.repetitions, works);
+    const auto samples = benchmark::time_in_turn(choices.repetitions, benchmark::clock_for(choices.threads), works);
     nlohmann::json result{{"faces", lower.size() + upper.size()}, {"pairs", expected.size()}};
     fmt::print("{:>8} faces, {:>8} pairs:", lower.size() + upper.size(), expected.size());
     for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -108,8 +108,9 @@ nlohmann::json measure(std::size_t n, std::size_t n_exact, int repetitions) {
     benchmark::require_small("derivative of the area, fast against exact", difference.derivative, 1e-12);
 
     volatile double sink = 0.0;
-    const auto samples = benchmark::time_in_turn(repetitions, {[&] { sink = sum_of_areas<Dim>(all, AreaMethod::fast); },
-                                                               [&] { sink = sum_of_areas<Dim>(few, AreaMethod::exact); }});
+    const auto samples = benchmark::time_in_turn(
+        repetitions, benchmark::Clock::processor,
+        {[&] { sink = sum_of_areas<Dim>(all, AreaMethod::fast); }, [&] { sink = sum_of_areas<Dim>(few, AreaMethod::exact); }});
     const auto nanoseconds = [&](const benchmark::Samples& s, std::size_t count) { return 1e9 * s.least() / static_cast<double>(count); };
     nlohmann::json result{{"dim", Dim},
                           {"pairs", n},

@@ -37,7 +37,7 @@ std::string processor(std::string_view field) {
     return "unknown";
 }
 
-std::string now() {
+std::string time_of_day() {
     const std::time_t time = std::time(nullptr);
     std::array<char, 32> text{};
     std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&time));
@@ -57,11 +57,17 @@ double Samples::median() const {
     return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
 
-std::vector<Samples> time_in_turn(int repetitions, const std::vector<std::function<void()>>& works) {
+double now(Clock clock) {
+    std::timespec time{};
+    clock_gettime(clock == Clock::wall ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::vector<Samples> time_in_turn(int repetitions, Clock clock, const std::vector<std::function<void()>>& works) {
     std::vector<Samples> samples(works.size());
     for (int round = 0; round <= repetitions; ++round)
         for (std::size_t i = 0; i < works.size(); ++i) {
-            const double seconds = seconds_of(works[i]);
+            const double seconds = seconds_of(works[i], clock);
             if (round > 0) samples[i].seconds.push_back(seconds);
         }
     return samples;
@@ -80,7 +86,7 @@ nlohmann::json circumstances(int argc, char** argv) {
 #endif
                                                     }}},
             {"command", command},
-            {"time", now()}};
+            {"time", time_of_day()}};
 }
 
 Triad::Triad() : a_(std::size_t{1} << 24), b_(a_.size(), 1.0), c_(a_.size(), 2.0) {}

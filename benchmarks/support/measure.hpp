@@ -1,5 +1,4 @@
 #pragma once
-#include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,17 +15,24 @@ struct Samples {
     [[nodiscard]] double median() const;
 };
 
+/// `processor`: of all threads of this process, waiting for a processor left out: for one thread on a machine that others
+/// use too. They still take their share of the memory's bandwidth: the triad in the same rounds tells.
+enum class Clock { wall, processor };
+
+[[nodiscard]] inline Clock clock_for(int threads) { return threads == 1 ? Clock::processor : Clock::wall; }
+[[nodiscard]] double now(Clock clock);  ///< [s]
+
 /// Seconds that a call takes.
 template <class Work>
-[[nodiscard]] double seconds_of(Work&& work) {
-    const auto start = std::chrono::steady_clock::now();
+[[nodiscard]] double seconds_of(Work&& work, Clock clock) {
+    const double start = now(clock);
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return now(clock) - start;
 }
 
 /// Runs all works in turn, again and again, so that whatever else the machine does meets all of them alike. The first
 /// round warms caches and is not counted.
-[[nodiscard]] std::vector<Samples> time_in_turn(int repetitions, const std::vector<std::function<void()>>& works);
+[[nodiscard]] std::vector<Samples> time_in_turn(int repetitions, Clock clock, const std::vector<std::function<void()>>& works);
 
 /// What a result is worth nothing without: commit, machine, compiler, command, time of day.
 [[nodiscard]] nlohmann::json circumstances(int argc, char** argv);
