@@ -24,6 +24,8 @@ abut_find(fcl 0.7 ARGS CONFIG TARGETS fcl)
 abut_find(Gmsh 4.8 ARGS MODULE TARGETS Gmsh::Gmsh)
 abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
   TARGETS VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+
+# dynamics
 abut_find(nanoflann 1.4 ARGS CONFIG TARGETS nanoflann::nanoflann)
 
 # examples
