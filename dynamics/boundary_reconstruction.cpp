@@ -91,11 +91,11 @@ private:
     }
 
     Matrix<Dim> stiffness(std::int32_t cell, std::int32_t f, std::int32_t g) const {
-        const auto outward = [&](std::int32_t face) {
-            return mesh_.face_cells[face][0] == cell ? mesh_.face_normal[face] : Vector<Dim>(-mesh_.face_normal[face]);
+        const auto outward = [&](std::int32_t face) -> Vector<Dim> {
+            return (mesh_.face_cells[face][0] == cell ? 1.0 : -1.0) * mesh_.face_measure[face] * mesh_.face_normal[face];
         };
-        return face_stiffness<Dim>(materials_[mesh_.cell_body[cell]], mesh_.cell_measure[cell], mesh_.face_measure[f], outward(f),
-                                   mesh_.face_measure[g], outward(g));
+        const Material& material = materials_[mesh_.cell_body[cell]];
+        return face_stiffness<Dim>(material.lambda(), material.mu(), mesh_.cell_measure[cell], outward(f), outward(g));
     }
 
     /// Minimum of the cell's energy over what is free of its boundary faces:
@@ -175,12 +175,9 @@ private:
 }  // namespace
 
 template <int Dim>
-Matrix<Dim> face_stiffness(const Material& material, double cell_measure, double area_f, const Vector<Dim>& n_f, double area_g,
-                           const Vector<Dim>& n_g) {
-    const double lambda = material.lambda();
-    const double mu = material.mu();
-    return (area_f * area_g / cell_measure) *
-           (lambda * n_f * n_g.transpose() + mu * (n_f.dot(n_g) * Matrix<Dim>::Identity() + n_g * n_f.transpose()));
+Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f, const Vector<Dim>& area_g) {
+    return (lambda * area_f * area_g.transpose() + mu * (area_f.dot(area_g) * Matrix<Dim>::Identity() + area_g * area_f.transpose())) /
+           cell_measure;
 }
 
 template <int Dim>
@@ -191,7 +188,7 @@ BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, st
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                                    \
-    template Matrix<Dim> face_stiffness<Dim>(const Material&, double, double, const Vector<Dim>&, double, const Vector<Dim>&);   \
+    template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);                    \
     template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>,    \
                                                                    std::span<const Material>, const FaceConditions<Dim>&, Neumann);
 ABUT_INSTANTIATE(2)

@@ -32,10 +32,9 @@ template <int Dim>
                                                                std::span<const Material> materials, const FaceConditions<Dim>& conditions,
                                                                Neumann neumann);
 
-/// A_fg of a cell: the answer of the energy's face force on f to a displacement of g, stabilisation left out; the normals
-/// point out of the cell. METHOD.md, section 2.
+/// A_fg of a cell: the answer of the energy's face force on f to a displacement of g, stabilisation left out; the area
+/// vectors |f| n_f and |g| n_g point out of the cell. METHOD.md, section 2.
 template <int Dim>
-[[nodiscard]] Matrix<Dim> face_stiffness(const Material& material, double cell_measure, double area_f, const Vector<Dim>& normal_f,
-                                         double area_g, const Vector<Dim>& normal_g);
+[[nodiscard]] Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f, const Vector<Dim>& area_g);
 
 }  // namespace abut::dynamics

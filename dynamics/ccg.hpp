@@ -33,7 +33,6 @@ struct Region {
     std::vector<std::int32_t> reconstructed;
     std::vector<std::int32_t> reconstructed_boundary;
     std::vector<std::int32_t> gradient_cells;
-    std::vector<std::int32_t> jump_faces;
     std::vector<std::int32_t> stress_cells;
     std::vector<std::int32_t> force_faces;
 };

@@ -22,13 +22,13 @@ class SweepSchedule {
 public:
     SweepSchedule() = default;
 
-    /// needs[s - 1][k]: chunks of stage s - 1 that task (s, k) reads, for s = 1 .. Stages - 1; each row with at least one.
+    /// needs[s - 1][k]: chunks of stage s - 1 that task (s, k) reads, for s = 1 .. Stages - 1.
     SweepSchedule(std::int32_t n_chunks, const std::array<std::vector<std::vector<std::int32_t>>, Stages - 1>& needs) : n_chunks_(n_chunks) {
         spans_[0].resize(static_cast<std::size_t>(n_chunks));
         for (std::int32_t k = 0; k < n_chunks; ++k) spans_[0][k] = {k, k};
         for (int s = 1; s < Stages; ++s)
             for (std::int32_t k = 0; k < n_chunks; ++k) {
-                Span span = spans_[s - 1][needs[s - 1][k].front()];
+                Span span{k, k};
                 for (const std::int32_t j : needs[s - 1][k]) {
                     span.first = std::min(span.first, spans_[s - 1][j].first);
                     span.last = std::max(span.last, spans_[s - 1][j].last);
@@ -41,7 +41,7 @@ public:
     /// need another thread's; the rest follows stage by stage.
     template <class Task>
     void run(const Task& task) const {
-        const std::int32_t n_parts = std::clamp<std::int32_t>(oneapi::tbb::this_task_arena::max_concurrency(), 1, std::max(1, n_chunks_ / 8));
+        const std::int32_t n_parts = std::clamp<std::int32_t>(thread_limit(), 1, std::max(1, n_chunks_ / chunks_a_part));
         const auto begin_of = [&](std::int32_t part) { return static_cast<std::int32_t>(std::int64_t{n_chunks_} * part / n_parts); };
         if (n_parts == 1) return run_part(0, n_chunks_, task);
         oneapi::tbb::parallel_for(std::int32_t{0}, n_parts, [&](std::int32_t part) { run_part(begin_of(part), begin_of(part + 1), task); },
@@ -56,6 +56,8 @@ public:
     }
 
 private:
+    static constexpr std::int32_t chunks_a_part = 8;  // fewer are not worth a thread of their own
+
     struct Span {  // of stage 0 that a task depends on through all stages
         std::int32_t first;
         std::int32_t last;
