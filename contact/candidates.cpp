@@ -15,14 +15,6 @@ double largest_tilt_sine(double facing_cosine, bool against_rigid) {
     return std::sin(against_rigid ? angle : 0.5 * angle);
 }
 
-template <int Dim>
-double circumradius(const SurfaceView<Dim>& surface, std::int32_t face) {
-    double radius = 0.0;
-    for (const std::int32_t v : surface.vertices_of(face))
-        radius = std::max(radius, (surface.vertices[v] - surface.centroid[face]).norm());
-    return radius;
-}
-
 struct BodyFaces {
     std::int32_t body;
     std::vector<std::int32_t> faces;
@@ -43,17 +35,21 @@ std::vector<BodyFaces> faces_by_body(const SurfaceView<Dim>& surface) {
 template <int Dim>
 class CandidateFinder {
 public:
-    CandidateFinder(const SurfaceView<Dim>& surface, const ContactOptions& options, std::vector<geometry::Box<Dim>> boxes)
-        : surface_(surface), options_(options), boxes_(std::move(boxes)), bodies_(faces_by_body(surface)) {}
+    CandidateFinder(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
+                    const ContactOptions& options, double skin)
+        : surface_(surface), u_0_(u_0), u_1_(u_1), options_(options), skin_(skin),
+          boxes_(swept_boxes(surface, u_0, u_1, options.facing_cosine, skin)), bodies_(faces_by_body(surface)) {
+        for (std::int32_t face = 0; face < surface.size(); ++face) radius_.push_back(circumradius(surface, face));
+    }
 
     std::vector<geometry::IndexPair> find() {
         std::vector<std::vector<geometry::Box<Dim>>> body_boxes;
         for (const BodyFaces& body : bodies_) body_boxes.push_back(select(body.faces));
         for (std::size_t a = 0; a < bodies_.size(); ++a) {
             if (options_.self_contact)
-                keep_facing(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a]), a, a);
+                keep_reachable(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a]), a, a);
             for (std::size_t b = a + 1; b < bodies_.size(); ++b)
-                keep_facing(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a], body_boxes[b]), a, b);
+                keep_reachable(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a], body_boxes[b]), a, b);
         }
         std::sort(found_.begin(), found_.end());
         return std::move(found_);
@@ -67,18 +63,33 @@ private:
         return selected;
     }
 
-    void keep_facing(const std::vector<geometry::IndexPair>& overlapping, std::size_t a, std::size_t b) {
+    void keep_reachable(const std::vector<geometry::IndexPair>& overlapping, std::size_t a, std::size_t b) {
         for (const auto& [i, j] : overlapping) {
             const auto [face_1, face_2] = std::minmax(bodies_[a].faces[i], bodies_[b].faces[j]);
             if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) continue;
-            if (are_facing(surface_, face_1, face_2, options_.facing_cosine)) found_.push_back({face_1, face_2});
+            if (are_facing(surface_, face_1, face_2, options_.facing_cosine) && can_touch(face_1, face_2)) found_.push_back({face_1, face_2});
         }
     }
 
+    /// Whether g can become negative where the faces share area: on the way from u_0 to u_1, or within the skin of u_0.
+    bool can_touch(std::int32_t face_1, std::int32_t face_2) const {
+        const Vector<Dim> n = pair_normal(surface_, face_1, face_2);
+        const Vector<Dim> rest = surface_.centroid[face_2] - surface_.centroid[face_1];
+        const Vector<Dim> at_0 = rest + (u_0_[face_2] - u_0_[face_1]);
+        const Vector<Dim> at_1 = rest + (u_1_[face_2] - u_1_[face_1]);
+        if (at_0.dot(n) - skin_ > 0.0 && at_1.dot(n) > 0.0) return false;
+        const double reach = radius_[face_1] + radius_[face_2] + std::max(skin_, (at_1 - at_0).norm());
+        return (at_0 - at_0.dot(n) * n).norm() <= (1.0 + 1e-12) * reach;
+    }
+
     const SurfaceView<Dim>& surface_;
+    std::span<const Vector<Dim>> u_0_;
+    std::span<const Vector<Dim>> u_1_;
     const ContactOptions& options_;
+    double skin_;
     std::vector<geometry::Box<Dim>> boxes_;
     std::vector<BodyFaces> bodies_;
+    std::vector<double> radius_;
     std::vector<geometry::IndexPair> found_;
 };
 
@@ -106,7 +117,7 @@ std::vector<geometry::Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std
 template <int Dim>
 std::vector<geometry::IndexPair> find_candidates(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
                                                  std::span<const Vector<Dim>> u_1, const ContactOptions& options, double skin) {
-    return CandidateFinder<Dim>(surface, options, swept_boxes(surface, u_0, u_1, options.facing_cosine, skin)).find();
+    return CandidateFinder<Dim>(surface, u_0, u_1, options, skin).find();
 }
 
 template std::vector<geometry::Box<2>> swept_boxes<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const Vector<2>>, double, double);

@@ -62,9 +62,11 @@ void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vect
     const std::vector<ContactPair<Dim>> known(pairs_.pairs().begin(), pairs_.pairs().end());
     std::vector<geometry::IndexPair> found = find_candidates(surface_, u_0, u_1, options_, skin_);
     // A pair in contact stays in the list however deep it is.
-    for (const ContactPair<Dim>& pair : known)
-        if (pair.admitted && pairs_.position(surface_, pair, u_0[pair.face_1], u_0[pair.face_2]).gap < 0.0)
-            found.push_back({pair.face_1, pair.face_2});
+    for (const ContactPair<Dim>& pair : known) {
+        if (!pair.admitted) continue;
+        const auto at = pairs_.position(surface_, pair, u_0[pair.face_1], u_0[pair.face_2]);
+        if (at.gap < 0.0 && pairs_.shared_area(pair, at.shift, options_.area).area > 0.0) found.push_back({pair.face_1, pair.face_2});
+    }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
 

@@ -6,15 +6,6 @@
 namespace abut::contact {
 namespace {
 
-template <int Dim>
-Vector<Dim> pair_normal(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
-    const Vector<Dim>& n_1 = surface.normal[face_1];
-    const Vector<Dim>& n_2 = surface.normal[face_2];
-    if (surface.is_rigid(face_2)) return -n_2;
-    if (surface.is_rigid(face_1)) return n_1;
-    return (n_1 - n_2).normalized();
-}
-
 /// theta_1. The limit of the stiffness weights for a rigid face 2 is 1, for a rigid face 1 it is 0, whatever the weights.
 template <int Dim>
 double share_of_first(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, Weights weights) {
@@ -27,7 +18,7 @@ double share_of_first(const SurfaceView<Dim>& surface, std::int32_t face_1, std:
 }
 
 template <int PlaneDim>
-double circumradius(std::span<const Eigen::Matrix<double, PlaneDim, 1, Eigen::DontAlign>> corners) {
+double largest_norm(std::span<const Eigen::Matrix<double, PlaneDim, 1, Eigen::DontAlign>> corners) {
     double radius = 0.0;
     for (const auto& corner : corners) radius = std::max(radius, corner.norm());
     return radius;
@@ -64,7 +55,7 @@ void PairList<Dim>::append(const SurfaceView<Dim>& surface, std::int32_t first, 
     pair.corners_2 = static_cast<std::int32_t>(corners_.size());
     append_projected(surface, second, pair.frame, corners_);
     pair.corners_end = static_cast<std::int32_t>(corners_.size());
-    pair.reach = (1.0 + 1e-12) * (circumradius<Dim - 1>(face_1(pair)) + circumradius<Dim - 1>(face_2(pair)));
+    pair.reach = (1.0 + 1e-12) * (largest_norm<Dim - 1>(face_1(pair)) + largest_norm<Dim - 1>(face_2(pair)));
     pairs_.push_back(pair);
 }
 
@@ -104,12 +95,33 @@ void PairList<Dim>::append_overlap_events(const ContactPair<Dim>& pair, const Pl
 }
 
 template <int Dim>
+Vector<Dim> pair_normal(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
+    const Vector<Dim>& n_1 = surface.normal[face_1];
+    const Vector<Dim>& n_2 = surface.normal[face_2];
+    if (surface.is_rigid(face_2)) return -n_2;
+    if (surface.is_rigid(face_1)) return n_1;
+    return (n_1 - n_2).normalized();
+}
+
+template <int Dim>
+double circumradius(const SurfaceView<Dim>& surface, std::int32_t face) {
+    double radius = 0.0;
+    for (const std::int32_t v : surface.vertices_of(face))
+        radius = std::max(radius, (surface.vertices[v] - surface.centroid[face]).norm());
+    return radius;
+}
+
+template <int Dim>
 bool are_facing(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, double facing_cosine) {
     return surface.normal[face_1].dot(surface.normal[face_2]) < facing_cosine;
 }
 
 template class PairList<2>;
 template class PairList<3>;
+template Vector<2> pair_normal<2>(const SurfaceView<2>&, std::int32_t, std::int32_t);
+template Vector<3> pair_normal<3>(const SurfaceView<3>&, std::int32_t, std::int32_t);
+template double circumradius<2>(const SurfaceView<2>&, std::int32_t);
+template double circumradius<3>(const SurfaceView<3>&, std::int32_t);
 template bool are_facing<2>(const SurfaceView<2>&, std::int32_t, std::int32_t, double);
 template bool are_facing<3>(const SurfaceView<3>&, std::int32_t, std::int32_t, double);
 

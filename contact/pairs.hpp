@@ -36,9 +36,7 @@ struct PairPosition {
 template <int Dim>
 class PairList {
 public:
-    /// The normal n_12 of two faces is (n_1 - n_2)/|n_1 - n_2|; where one face is rigid it is the normal of that face,
-    /// because an obstacle's face may be far larger than its partner and a gap read at its centroid along a tilted
-    /// normal would mean nothing.
+    /// Pairs come in increasing order.
     void append(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, Weights weights);
     void clear();
 
@@ -66,6 +64,15 @@ private:
     std::vector<ContactPair<Dim>> pairs_;
     std::vector<PlaneVector<Dim>> corners_;  // of each pair: face 1, then face 2, about their own centroids
 };
+
+/// n_12, unit, from face 1's body into face 2's: (n_1 - n_2)/|n_1 - n_2|, or the normal of the face that is rigid, because an
+/// obstacle's face may be far larger than its partner and a gap read at its centroid along a tilted normal would mean nothing.
+template <int Dim>
+[[nodiscard]] Vector<Dim> pair_normal(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2);
+
+/// Largest distance of a corner from the centroid [m].
+template <int Dim>
+[[nodiscard]] double circumradius(const SurfaceView<Dim>& surface, std::int32_t face);
 
 /// Whether two faces look at each other: n_1 . n_2 < facing_cosine.
 template <int Dim>

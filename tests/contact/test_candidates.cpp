@@ -127,7 +127,7 @@ TEMPLATE_TEST_CASE_SIG("the list stays a superset while no face moves by more th
         }
     }
     CHECK(active > 1000);
-    INFO("pairs that only the skin has kept: " << beyond_the_bare_list);
+    CHECK(beyond_the_bare_list > 0);  // some pairs only the skin has kept
 }
 
 TEMPLATE_TEST_CASE_SIG("every broad phase gives the same list", "[contact][candidates]", ((int Dim), Dim), 2, 3) {
