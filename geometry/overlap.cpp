@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "abut/geometry/overlap_kernels.hpp"
 
@@ -12,6 +13,62 @@ namespace abut::geometry {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// What rounding takes off a + b: a + b = fl(a + b) + sum_error(a, b) exactly (Knuth).
+double sum_error(double a, double b) {
+    const double sum = a + b, of_b = sum - a;
+    return (a - (sum - of_b)) + (b - of_b);
+}
+
+// Sign of a b - c d, without rounding; nothing where products may underflow. Rounding keeps the order of two numbers, so that
+// only equal products leave the decision to what rounding took off them.
+std::optional<int> sign_of_difference(double a, double b, double c, double d) {
+    constexpr double smallest = 1e-280;  // of a product whose rounding error is still a double
+    const double ab = a * b, cd = c * d;
+    if ((std::abs(ab) < smallest && a != 0.0 && b != 0.0) || (std::abs(cd) < smallest && c != 0.0 && d != 0.0)) return std::nullopt;
+    const double difference = ab != cd ? ab - cd : std::fma(a, b, -ab) - std::fma(c, d, -cd);
+    return (difference > 0.0) - (difference < 0.0);
+}
+
+// The side of the line from a to b on which c + shift lies, as `exact_side`: at once where doubles can tell, and with little
+// more work where the differences of the coordinates are doubles, as on meshes that match.
+int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift) {
+    const PlaneVector<3> along = b - a, arm_before = c - a, arm = arm_before + shift;
+    const double left = along.x() * arm.y(), right = along.y() * arm.x();
+    const double error = 4 * epsilon * (std::abs(left) + std::abs(right) + std::abs(along.x() * shift.y()) + std::abs(along.y() * shift.x())) +
+                         std::numeric_limits<double>::min();
+    if (std::abs(left - right) > error) return left > right ? 1 : -1;
+    bool is_rounded = false;
+    for (int i = 0; i < 2; ++i)
+        is_rounded = is_rounded || sum_error(b[i], -a[i]) != 0.0 || sum_error(c[i], -a[i]) != 0.0 || sum_error(arm_before[i], shift[i]) != 0.0;
+    if (!is_rounded)
+        if (const auto sign = sign_of_difference(along.x(), arm.y(), along.y(), arm.x())) return *sign;
+    return exact_side(a, b, c, shift);
+}
+
+// Whether the line of an edge has all of `other`, shifted, on it or on its outer side. An edge without length separates nothing.
+bool edge_separates(ProjectedFace<3> face, std::size_t edge, ProjectedFace<3> other, const PlaneVector<3>& shift) {
+    const PlaneVector<3>&a = face[edge], &b = face[edge + 1 == face.size() ? 0 : edge + 1];
+    return a != b && std::all_of(other.begin(), other.end(), [&](const PlaneVector<3>& point) { return side(a, b, point, shift) <= 0; });
+}
+
+bool an_edge_separates(ProjectedFace<3> face, ProjectedFace<3> other, const PlaneVector<3>& shift) {
+    for (std::size_t i = 0; i < face.size(); ++i)
+        if (edge_separates(face, i, other, shift)) return true;
+    return false;
+}
+
+bool has_interior(ProjectedFace<3> face) {
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+        if (side(face[0], face[i], face[i + 1], PlaneVector<3>::Zero()) > 0) return true;
+    return false;
+}
+
+// Whether the interiors of face 1 and of face 2, shifted, meet: decided on the coordinates and the shift as given.
+bool interiors_meet(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+    return !an_edge_separates(face_1, face_2, shift) && !an_edge_separates(face_2, face_1, -shift) && has_interior(face_1) &&
+           has_interior(face_2);
+}
 
 // An edge of the clipped polygon starts at each corner. It comes from an edge of one of the two faces.
 struct Corner {
@@ -52,13 +109,26 @@ struct Polygon {
         for (int i = 0; i < size; ++i) largest = std::max({largest, std::abs(vertices[i].x()), std::abs(vertices[i].y())});
         return largest;
     }
-    std::span<const PlaneVector<3>> view() const { return {vertices.data(), static_cast<std::size_t>(size)}; }
 };
 
 double size_of(const Polygon& polygon) {
     double largest = 0.0;
     for (int i = 1; i < polygon.size; ++i) largest = std::max(largest, (polygon.vertices[i] - polygon.vertices[0]).cwiseAbs().maxCoeff());
     return largest;
+}
+
+// Whether all of `other` lies more than `margin` [m^2], the rounding error of a height, on the outer side of edge i.
+bool lies_beyond(const Polygon& polygon, int i, const Polygon& other, double margin) {
+    const PlaneVector<3> start = polygon.vertices[i], edge = polygon.edge(i);
+    for (int k = 0; k < other.size; ++k)
+        if (cross(edge, other.vertices[k] - start) >= -margin) return false;
+    return true;
+}
+
+bool lies_beyond_an_edge(const Polygon& polygon, const Polygon& other, double margin) {
+    for (int i = 0; i < polygon.size; ++i)
+        if (lies_beyond(polygon, i, other, margin)) return true;
+    return false;
 }
 
 // Sutherland-Hodgman: keeps what lies left of edge `line` of face 1. Returns the largest height above that line,
@@ -132,7 +202,8 @@ SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
     const Polygon polygon_1(face_1, face_1[0], PlaneVector<3>::Zero());
     const Polygon polygon_2(face_2, face_1[0], shift);
     const double extent = std::max(polygon_1.extent(), polygon_2.extent());
-    const double distance_error = 16 * epsilon * extent;
+    const double distance_error = 16 * epsilon * (extent + shift.cwiseAbs().maxCoeff());  // a long shift rounds more than what is left of it
+    const double area_error = distance_error * extent * (polygon_1.size + polygon_2.size);  // also of a height over an edge
 
     std::array<Clipped, 2> buffers;
     Clipped *overlap = &buffers[0], *clipped = &buffers[1];
@@ -140,30 +211,38 @@ SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
     for (int i = 0; i < polygon_1.size && overlap->size > 0; ++i) {
         const PlaneVector<3> edge = polygon_1.edge(i);
         const double highest = clip(*overlap, polygon_1.vertices[i], edge, i, *clipped);
-        if (highest < -distance_error * edge.cwiseAbs().sum()) return {};
+        const bool is_empty = highest < -distance_error * edge.cwiseAbs().sum();
+        if (is_empty && lies_beyond(polygon_1, i, polygon_2, area_error)) return {};
         std::swap(overlap, clipped);
     }
     if (buffers[0].full || buffers[1].full) return exact_shared_area(face_1, face_2, shift);
 
     const double area = area_of(*overlap);
-    const double area_error = distance_error * extent * (polygon_1.size + polygon_2.size);
-    if (area <= area_error && !interiors_meet(polygon_1.view(), polygon_2.view())) return {};
+    if (area <= area_error && (lies_beyond_an_edge(polygon_2, polygon_1, area_error) || !interiors_meet(face_1, face_2, shift))) return {};
     const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
     return {std::max(area, std::numeric_limits<double>::min()), shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
+}
+
+// Whether a + b < c, without rounding: the rounded sum decides unless it is c itself.
+bool sum_is_below(double a, double b, double c) { return a + b < c || (a + b == c && sum_error(a, b) < 0.0); }
+
+bool interiors_meet(ProjectedFace<2> face_1, ProjectedFace<2> face_2, double shift) {
+    return face_1[0].x() < face_1[1].x() && face_2[0].x() < face_2[1].x() && sum_is_below(face_2[0].x(), shift, face_1[1].x()) &&
+           sum_is_below(-face_2[1].x(), -shift, -face_1[0].x());
 }
 
 // 1 where the end of segment 2 cuts segment 1, 0 where segment 1 ends first, half where both end together.
 double weight_of_end(double room, double tolerance) { return std::abs(room) <= tolerance ? 0.5 : (room > 0.0 ? 1.0 : 0.0); }
 
 SharedArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
+    if (!interiors_meet(face_1, face_2, shift.x())) return {};
     const double length_1 = face_1[1].x() - face_1[0].x();
     const double lower_2 = (face_2[0].x() - face_1[0].x()) + shift.x();
     const double upper_2 = (face_2[1].x() - face_1[0].x()) + shift.x();
     const double area = std::min(length_1, upper_2) - std::max(0.0, lower_2);
-    if (area <= 0.0) return {};
     const double tolerance = coincidence_tolerance * std::max(length_1, upper_2 - lower_2);
     const double derivative = weight_of_end(length_1 - upper_2, tolerance) - weight_of_end(lower_2, tolerance);
-    return {area, PlaneVector<2>(derivative)};
+    return {std::max(area, std::numeric_limits<double>::min()), PlaneVector<2>(derivative)};
 }
 
 }  // namespace

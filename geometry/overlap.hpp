@@ -8,7 +8,7 @@ namespace abut::geometry {
 
 /// How the area that two faces share is computed.
 enum class AreaMethod {
-    fast,   ///< double arithmetic; whether the faces overlap at all is decided exactly where doubles cannot tell
+    fast,   ///< double arithmetic; whether the faces overlap at all is decided exactly
     exact,  ///< CGAL exact constructions, rounded to double at the end: the reference
 };
 
@@ -26,7 +26,9 @@ struct SharedArea {
     PlaneVector<Dim> shift_derivative = PlaneVector<Dim>::Zero();  ///< dA/ds [m^(Dim-2)]
 };
 
-/// A_12(s) and its derivative. dA/ds is the sum over the edges of face 2 inside face 1 of (length) (outward in-plane
+/// A_12(s) and its derivative. Whether A_12 > 0 is decided exactly, on the given coordinates and the shift as they stand:
+/// nothing is rounded before, so both methods always agree on it, and so do the faces swapped with the shift reversed.
+/// The area is then rounded to double, to no less than the smallest normal one. dA/ds is the sum over the edges of face 2 inside face 1 of (length) (outward in-plane
 /// normal); an edge of 2 that lies on an edge of 1 (within 1e-12 of the face size, matching meshes) counts half, and not at
 /// all if it runs the other way: such faces lie side by side. Zero area gives a zero derivative. METHOD.md, section 3.
 /// `exact` takes the half only where the edges are exactly collinear: on meshes that match up to rounding the derivatives

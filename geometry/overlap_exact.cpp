@@ -1,6 +1,6 @@
-// Only the LGPL parts of CGAL: the kernels and their intersections.
+// Only the LGPL parts of CGAL: number types, kernels and their intersections.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mpzf.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
@@ -79,29 +79,6 @@ PlaneVector<3> shift_derivative_of(const std::vector<Point>& polygon_1, const st
     return {rounded(along.y()), -rounded(along.x())};
 }
 
-using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-CGAL::Sign orientation(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c) {
-    using P = Predicates::Point_2;
-    return CGAL::orientation(P(a.x(), a.y()), P(b.x(), b.y()), P(c.x(), c.y()));
-}
-
-bool has_interior(std::span<const PlaneVector<3>> polygon) {
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-        if (orientation(polygon[0], polygon[i], polygon[i + 1]) == CGAL::POSITIVE) return true;
-    return false;
-}
-
-// Whether the line of some edge of `polygon` has all of `other` on it or on its outer side.
-bool an_edge_separates(std::span<const PlaneVector<3>> polygon, std::span<const PlaneVector<3>> other) {
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const PlaneVector<3>&a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const auto is_outside = [&](const PlaneVector<3>& point) { return orientation(a, b, point) != CGAL::POSITIVE; };
-        if (a != b && std::all_of(other.begin(), other.end(), is_outside)) return true;
-    }
-    return false;
-}
-
 }  // namespace
 
 SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
@@ -124,9 +101,11 @@ SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2
     return {rounded(area), shift_derivative_of(polygon_1, polygon_2)};
 }
 
-bool interiors_meet(std::span<const PlaneVector<3>> polygon_1, std::span<const PlaneVector<3>> polygon_2) {
-    return has_interior(polygon_1) && has_interior(polygon_2) && !an_edge_separates(polygon_1, polygon_2) &&
-           !an_edge_separates(polygon_2, polygon_1);
+int exact_side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift) {
+    using Sum = CGAL::Mpzf;  // sums and products of doubles, without rounding
+    const Sum along_x = Sum(b.x()) - Sum(a.x()), along_y = Sum(b.y()) - Sum(a.y());
+    const Sum arm_x = Sum(c.x()) - Sum(a.x()) + Sum(shift.x()), arm_y = Sum(c.y()) - Sum(a.y()) + Sum(shift.y());
+    return CGAL::sign(along_x * arm_y - along_y * arm_x);
 }
 
 }  // namespace abut::geometry

@@ -14,8 +14,8 @@ inline double cross(const PlaneVector<3>& a, const PlaneVector<3>& b) { return a
 SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift);
 SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift);
 
-/// Whether the interiors of two convex, counter-clockwise polygons meet, decided by exact predicates on the given
-/// doubles. A polygon without area has no interior.
-bool interiors_meet(std::span<const PlaneVector<3>> polygon_1, std::span<const PlaneVector<3>> polygon_2);
+/// The side of the line from a to b on which c + shift lies: 1 left, 0 on it, -1 right. Exact, the shift is added without
+/// rounding. Slow: to be asked where doubles cannot tell.
+int exact_side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift);
 
 }  // namespace abut::geometry

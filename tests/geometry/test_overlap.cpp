@@ -41,6 +41,22 @@ Point central_difference(const Polygon& face_1, const Polygon& face_2, const Poi
     return result;
 }
 
+Polygon counter_clockwise(Polygon polygon) {
+    if (area_of(polygon) < 0.0) std::reverse(polygon.begin() + 1, polygon.end());
+    return polygon;
+}
+
+// The answer, which must be the same with the faces swapped.
+bool check_same_decision(const Polygon& face_1, const Polygon& face_2, const Point& shift) {
+    const SharedArea<3> fast = shared(face_1, face_2, shift), swapped = shared(face_2, face_1, -shift);
+    const SharedArea<3> exact = shared(face_1, face_2, shift, AreaMethod::exact);
+    const double size = std::max(size_of(face_1), size_of(face_2)), largest = std::max(size, shift.cwiseAbs().maxCoeff());
+    CHECK((fast.area > 0.0) == (exact.area > 0.0));
+    CHECK((swapped.area > 0.0) == (exact.area > 0.0));
+    CHECK(std::abs(fast.area - exact.area) <= 1e-15 * size * largest);
+    return exact.area > 0.0;
+}
+
 }  // namespace
 
 TEST_CASE("a unit square and itself turned by 45 degrees share an octagon of area 2(sqrt 2 - 1)", "[overlap]") {
@@ -51,12 +67,22 @@ TEST_CASE("a unit square and itself turned by 45 degrees share an octagon of are
 
 TEST_CASE("two unit squares shifted by s share an area of 1 - s", "[overlap]") {
     const auto method = GENERATE(from_range(methods));
-    const double s = GENERATE(0.25, 0.5, 1e-9, 1.0 - 1e-11);
+    const double s = GENERATE(0.0, 0x1p-30, 1e-9, 0.25, 0.5, 1.0 - 1e-11, 1.0 - 1e-12);
     CAPTURE(s);
     const SharedArea<3> result = shared(unit_square(), unit_square(), {s, 0.0}, method);
-    CHECK(result.area == Approx(1.0 - s).epsilon(1e-14).margin(1e-16));
-    CHECK(result.shift_derivative.x() == Approx(-1.0).epsilon(1e-12));
-    CHECK(std::abs(result.shift_derivative.y()) < 1e-12);  // both faces end together: half of + and half of -
+    CHECK(result.area == Approx(1.0 - s).epsilon(s < 0.5 ? 1e-15 : 1e-16 / (1.0 - s)));
+    if (s == 1.0 - 1e-12) return;  // what is left is as thin as the tolerance of `fast` for coinciding edges
+    CHECK(result.shift_derivative.x() == Approx(s > 0.0 ? -1.0 : 0.0).epsilon(1e-12));  // identical: half of + and half of -
+    CHECK(std::abs(result.shift_derivative.y()) < 1e-12);                               // both end together: the same
+}
+
+TEST_CASE("two unit squares shifted by s share exactly 1 - s where that is a double, and nothing from 1 on", "[overlap]") {
+    const auto method = GENERATE(from_range(methods));
+    for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0 - 0x1p-20, 1.0 - 0x1p-52, 1.0 - 0x1p-53, 1.0, 1.0 + 0x1p-52, 2.0}) {
+        CAPTURE(s);
+        for (const Point& shift : {Point(s, 0), Point(-s, 0), Point(0, s), Point(0, -s)})
+            CHECK(shared(unit_square(), unit_square(), shift, method).area == std::max(0.0, 1.0 - s));
+    }
 }
 
 TEST_CASE("special positions share the area of elementary geometry, at every scale and place", "[overlap]") {
@@ -195,15 +221,48 @@ TEST_CASE("fast and exact agree on special positions", "[overlap]") {
 TEST_CASE("slivers: the sign of the exact area decides, however thin", "[overlap]") {
     std::mt19937 random(7);
     for (int trial = 0; trial < 500; ++trial) {
-        CAPTURE(trial);
         const Point a(0, 0), b(uniform(random, 0.5, 1), uniform(random, -1, 1)), c(uniform(random, -0.3, 0.3), 1.0);
         // Moves the neighbour across the shared edge by about the last digit, either way.
         const Point nudge = uniform(random, -3e-16, 3e-16) * Point(1, 1);
-        const Polygon neighbour = {b + nudge, a + nudge, Point(0.1, -1.5)};
-        const SharedArea<3> fast = shared({a, b, c}, neighbour), exact = shared({a, b, c}, neighbour, Point::Zero(), AreaMethod::exact);
-        CHECK((fast.area > 0.0) == (exact.area > 0.0));
-        CHECK(std::abs(fast.area - exact.area) < 1e-15);
+        check_same_decision({a, b, c}, {b + nudge, a + nudge, Point(0.1, -1.5)}, Point::Zero());
     }
+    int tested = 0;
+    // Needles along one line, each a few last digits wide, so that hardly any of their corners is right of all edges.
+    for (int trial = 0; trial < 2000; ++trial) {
+        const Point along(uniform(random, 0.5, 1), uniform(random, -1, 1)), left(-along.y(), along.x());
+        const auto needle = [&] {
+            const double start = uniform(random, -0.5, 0.5), width = std::pow(10.0, uniform(random, -16, -14));
+            return Polygon{start * along, (start + uniform(random, 0.2, 1)) * along + uniform(random, -1, 1) * width * left,
+                           (start + uniform(random, 0.0, 0.2)) * along + width * left};
+        };
+        const Polygon face_1 = counter_clockwise(needle()), face_2 = counter_clockwise(needle());
+        if (std::min(area_of(face_1), area_of(face_2)) < 4e-16) continue;  // too thin to tell which way it runs
+        check_same_decision(face_1, face_2, Point::Zero());
+        ++tested;
+    }
+    CHECK(tested > 200);
+}
+
+TEST_CASE("fast and exact agree on whether faces that touch overlap, wherever they are and however they are shifted", "[overlap]") {
+    const double largest_offset = GENERATE(0.0, 1.0, 1e3, 1e7), largest_shift = GENERATE(0.0, 1e-16, 0.1, 10.0, 1e7);
+    CAPTURE(largest_offset, largest_shift);
+    std::mt19937 random(9);
+    int overlapping = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        CAPTURE(trial);
+        const auto any_point = [&](double size) { return Point(uniform(random, -size, size), uniform(random, -size, size)); };
+        const Point a = any_point(largest_offset), b = a + Point(uniform(random, 0.1, 1), uniform(random, -1, 1)), left(a.y() - b.y(), b.x() - a.x());
+        const Point above = a + uniform(random, 0.1, 2) * left, below = b - uniform(random, 0.1, 2) * left;
+        // The neighbour's edge is the whole edge, a part of it, or goes on beyond its end. It is put back by the shift.
+        const Point end_1 = trial % 3 == 0 ? b : a + uniform(random, 0.5, 2) * (b - a), end_2 = trial % 3 == 1 ? a + uniform(random, -1, 0.4) * (b - a) : a;
+        const Point shift = any_point(largest_shift);
+        const Polygon neighbour = counter_clockwise({end_1 - shift, end_2 - shift, below - shift});
+        const Polygon quadrangle = counter_clockwise({end_1 - shift, end_2 - shift, end_2 - left - shift, end_1 - left - shift});
+        overlapping += check_same_decision({a, b, above}, trial % 2 == 0 ? neighbour : quadrangle, shift);
+    }
+    const bool is_exact = largest_offset == 0.0 && largest_shift == 0.0;
+    CHECK(overlapping < 300);
+    if (largest_shift > 0.0 && !is_exact) CHECK(overlapping > 0);  // the sample holds both answers
 }
 
 TEST_CASE("the derivative is that of central differences away from events", "[overlap]") {
@@ -279,4 +338,27 @@ TEST_CASE("2D: segments share the length of elementary geometry", "[overlap][2d]
     if (row.length > 1e-12) CHECK(result.shift_derivative.x() == row.derivative);
     const SharedArea<2> shifted = shared_length(segment(0, scale), segment(scale * (row.lower - 0.5), scale * (row.upper - 0.5)), 0.5 * scale, method);
     CHECK(shifted.area == Approx(scale * row.length).margin(1e-15 * scale));
+}
+
+TEST_CASE("2D: fast and exact agree on whether segments that touch overlap, wherever they are and however they are shifted", "[overlap][2d]") {
+    std::mt19937 random(10);
+    int overlapping = 0;
+    for (int trial = 0; trial < 20000; ++trial) {
+        const double offset = std::pow(10.0, uniform(random, -3, 7)), shift = std::pow(10.0, uniform(random, -17, 3)) * (trial % 2 == 0 ? 1 : -1);
+        const double end = offset + uniform(random, 0, 1), length_1 = uniform(random, 0.1, 1), length_2 = uniform(random, 0.1, 1);
+        const bool on_the_left = trial % 4 < 2;
+        const Segment face_1 = segment(end - length_1, end);
+        const Segment face_2 = on_the_left ? segment(face_1[0].x() - shift - length_2, face_1[0].x() - shift) : segment(end - shift, end - shift + length_2);
+        const SharedArea<2> fast = shared_length(face_1, face_2, shift, AreaMethod::fast), swapped = shared_length(face_2, face_1, -shift, AreaMethod::fast);
+        const SharedArea<2> exact = shared_length(face_1, face_2, shift, AreaMethod::exact);
+        const bool same = (fast.area > 0.0) == (exact.area > 0.0) && (swapped.area > 0.0) == (exact.area > 0.0);
+        if (same && std::abs(fast.area - exact.area) <= 1e-15 * (std::abs(shift) + 1.0)) {
+            overlapping += exact.area > 0.0;
+            continue;
+        }
+        CAPTURE(trial, offset, shift, fast.area, exact.area);
+        CHECK(same);
+    }
+    CHECK(overlapping > 1000);
+    CHECK(overlapping < 19000);
 }
