@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -12,13 +13,13 @@ struct Box {
     Vector<Dim> lower = Vector<Dim>::Constant(std::numeric_limits<double>::infinity());
     Vector<Dim> upper = Vector<Dim>::Constant(-std::numeric_limits<double>::infinity());
 
-    void extend(const Vector<Dim>& point) {
-        lower = lower.cwiseMin(point);
-        upper = upper.cwiseMax(point);
-    }
+    /// A NaN stays: whoever checks the bounds sees that a point was none.
+    void extend(const Vector<Dim>& point) { extend(Box{point, point}); }
     void extend(const Box& other) {
-        lower = lower.cwiseMin(other.lower);
-        upper = upper.cwiseMax(other.upper);
+        for (int i = 0; i < Dim; ++i) {
+            lower[i] = lower[i] < other.lower[i] || std::isnan(lower[i]) ? lower[i] : other.lower[i];
+            upper[i] = upper[i] > other.upper[i] || std::isnan(upper[i]) ? upper[i] : other.upper[i];
+        }
     }
     /// The box moved outwards by `margin` >= 0 [m] on every side.
     [[nodiscard]] Box grown(double margin) const {

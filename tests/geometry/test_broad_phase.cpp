@@ -203,6 +203,25 @@ TEST_CASE("a bound that is not finite is an error that names the box", "[broad_p
     }
 }
 
+TEMPLATE_TEST_CASE_SIG("a box around a point that is no number is no empty box, and an error", "[broad_phase][errors]", ((int Dim), Dim), 2, 3) {
+    using Catch::Matchers::Contains;
+    const Vector<Dim> no_number = Vector<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()), point = Vector<Dim>::Ones();
+    const auto around = [](const std::vector<Vector<Dim>>& points) {
+        Box<Dim> box;
+        for (const Vector<Dim>& p : points) box.extend(p);
+        return box;
+    };
+    Vector<Dim> half_a_number = point;
+    half_a_number[1] = no_number[1];
+    Box<Dim> of_boxes = around({point});
+    of_boxes.extend(around({no_number}));
+    of_boxes.extend(around({point}));
+    for (const Box<Dim>& bad : {around({no_number}), around({no_number, point}), around({point, no_number}), around({point, half_a_number, point}), of_boxes}) {
+        CHECK_FALSE(bad.empty());
+        for (const BroadPhase method : all_methods) CHECK_THROWS_WITH(within(method, Boxes<Dim>{around({point}), bad}), Contains("box 1") && Contains("nan"));
+    }
+}
+
 TEST_CASE("queries from several threads at once give the same answers", "[broad_phase]") {
     const Boxes<3> boxes_1 = random_boxes<3>(3000, 8, 0.05), boxes_2 = random_boxes<3>(3000, 9, 0.05);
     const std::vector<IndexPair> expected = between(BroadPhase::brute_force, boxes_1, boxes_2);
