@@ -67,7 +67,7 @@ TEST_CASE("cubes that interlock by d have the depth d", "[convex_distance]") {
         const ConvexProximity<3> result = proximity(body_1, body_2);
         CAPTURE(depth, trial);
         CHECK(result.distance == 0.0);
-        CHECK(result.depth == Approx(depth).margin(1e-6));
+        CHECK(result.depth == Approx(depth).epsilon(1e-9).margin(1e-13));
         CHECK((result.direction - turn.col(0)).norm() < 1e-3);
     }
 }
@@ -79,8 +79,8 @@ TEST_CASE("touching cubes are neither apart nor interlocked", "[convex_distance]
         const Matrix<3> turn = trial == 0 ? Matrix<3>(Matrix<3>::Identity()) : random_turn(random);
         for (const Vector<3>& corner : {Vector<3>(1, 0, 0), Vector<3>(1, 0.3, 0.4), Vector<3>(1, 1, 0.2), Vector<3>(1, 1, 1)}) {
             const ConvexProximity<3> result = proximity(moved(cube(Vector<3>::Zero(), 1.0), turn, {0, 0, 0}), moved(cube(corner, 1.0), turn, {0, 0, 0}));
-            CHECK(result.distance < 1e-6);
-            CHECK(result.depth < 1e-6);
+            CHECK(result.distance < 1e-9);
+            CHECK(result.depth < 1e-9);
         }
     }
 }
@@ -135,5 +135,7 @@ TEST_CASE("single points and coinciding bodies give an answer", "[convex_distanc
 TEST_CASE("bodies without points and coordinates that are not finite are errors", "[convex_distance][errors]") {
     const Points body = cube({0, 0, 0}, 1.0), bad = {{0, std::numeric_limits<double>::quiet_NaN(), 0}};
     CHECK_THROWS_AS(proximity(body, {}), std::invalid_argument);
+    CHECK_THROWS_WITH(proximity(body, {}), "convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
     CHECK_THROWS_AS(proximity(bad, body), std::invalid_argument);
+    CHECK_THROWS_WITH(proximity(bad, body), Catch::Contains("point 0 has the y coordinate nan, a finite number is needed."));
 }
