@@ -1,7 +1,6 @@
 #include "abut/dynamics/ccg.hpp"
 
-#include <oneapi/tbb/parallel_reduce.h>
-
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -13,10 +12,10 @@
 namespace abut::dynamics {
 namespace {
 
-/// The largest absolute row sum: bounds the operator in the largest-component norm.
+/// The largest stretch of a vector.
 template <int Dim>
-double row_sum_norm(const Matrix<Dim>& m) {
-    return m.cwiseAbs().rowwise().sum().maxCoeff();
+double spectral_norm(const Matrix<Dim>& m) {
+    return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
 }
 
 }  // namespace
@@ -32,7 +31,7 @@ struct Ccg<Dim>::Impl {
     std::vector<double> boundary_stiffness;
     bool varies = false;
     std::vector<std::array<std::int32_t, 2>> body_boundary_cells;  // ranges of arrays.boundary_cells, one a body
-    std::vector<double> body_amplification;                        // largest sum of |weights| of a boundary face
+    std::vector<double> body_amplification;                        // largest sum of the norms of a boundary face's weights
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& boundary_conditions);
     void set_motion_bound(const mesh::Mesh<Dim>& mesh);
@@ -60,7 +59,7 @@ void Ccg<Dim>::Impl::set_motion_bound(const mesh::Mesh<Dim>& mesh) {
     const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
     for (std::int32_t b = 0; b < boundary.size(); ++b) {
         double sum = 0.0;
-        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) sum += row_sum_norm<Dim>(boundary.weights[i]);
+        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) sum += spectral_norm<Dim>(boundary.weights[i]);
         double& largest = body_amplification[mesh.cell_body[arrays.cell_of(b)]];
         largest = std::max(largest, sum);
     }
@@ -74,21 +73,24 @@ void Ccg<Dim>::Impl::set_motion_bound(const mesh::Mesh<Dim>& mesh) {
     }
 }
 
-/// û_f moves as sum_j W_j du_j, and the weights of a row sum to the identity: with the motion m of one cell of the body
-/// taken out, |dû_f - m| <= sum |W_j| max |du_j - m|.
+/// û_f moves as sum_j W_j du_j, and the weights of a row sum to the identity: with any motion m of the body taken out,
+/// |dû_f - m| <= sum |W_j| max |du_j - m|. The mean of a few cells is a good m.
 template <int Dim>
 double Ccg<Dim>::Impl::free_motion_bound(std::span<const Vector<Dim>> from, std::span<const Vector<Dim>> to) const {
     double bound = 0.0;
     for (std::size_t body = 0; body < body_boundary_cells.size(); ++body) {
         const auto [begin, end] = body_boundary_cells[body];
         if (begin == end) continue;
-        const Vector<Dim> common = to[arrays.boundary_cells[begin]] - from[arrays.boundary_cells[begin]];
-        double deviation = 0.0;
-        for (std::int32_t i = begin; i < end; ++i) {
-            const std::int32_t c = arrays.boundary_cells[i];
-            deviation = std::max(deviation, (to[c] - from[c] - common).cwiseAbs().maxCoeff());
-        }
-        bound = std::max(bound, common.norm() + std::sqrt(static_cast<double>(Dim)) * body_amplification[body] * deviation);
+        const auto motion = [&](std::ptrdiff_t i) -> Vector<Dim> {
+            const std::int32_t c = arrays.boundary_cells[static_cast<std::size_t>(begin + i)];
+            return to[c] - from[c];
+        };
+        const std::ptrdiff_t n = end - begin;
+        const std::ptrdiff_t few = std::min<std::ptrdiff_t>(n, 64);
+        Vector<Dim> mean = Vector<Dim>::Zero();
+        for (std::ptrdiff_t k = 0; k < few; ++k) mean += motion(k * n / few) / static_cast<double>(few);
+        const double deviation = std::sqrt(largest(n, [&](std::ptrdiff_t i) { return (motion(i) - mean).squaredNorm(); }));
+        bound = larger(bound, mean.norm() + body_amplification[body] * deviation);
     }
     return bound;
 }
@@ -228,19 +230,13 @@ double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const Boundar
 template <int Dim>
 double Ccg<Dim>::largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from, std::span<const Vector<Dim>> u_to,
                                 const BoundaryLoad<Dim>& load_to) const {
-    const auto motion_of = [&](std::int32_t b) {
+    const auto squared_motion = [&](std::ptrdiff_t i) {
+        const auto b = static_cast<std::int32_t>(i);
         Vector<Dim> motion = impl_->sweeps.boundary_motion(b, u_from, u_to);
         if (!load_to.displacement.empty()) motion += load_to.displacement[b] - load_from.displacement[b];
         return motion.squaredNorm();
     };
-    const double largest = oneapi::tbb::parallel_reduce(
-        oneapi::tbb::blocked_range<std::int32_t>(0, n_boundary(), parallel_grain), 0.0,
-        [&](const oneapi::tbb::blocked_range<std::int32_t>& range, double so_far) {
-            for (std::int32_t b = range.begin(); b < range.end(); ++b) so_far = std::max(so_far, motion_of(b));
-            return so_far;
-        },
-        [](double a, double b) { return std::max(a, b); });
-    return std::sqrt(largest);
+    return std::sqrt(largest(n_boundary(), squared_motion));
 }
 
 template <int Dim>

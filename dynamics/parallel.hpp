@@ -3,11 +3,14 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace abut::dynamics {
@@ -60,6 +63,20 @@ Value ordered_sum(std::ptrdiff_t n, const Value& zero, const Term& term) {
     Value total = zero;
     for (const Value& sum : sums) total += sum;
     return total;
+}
+
+/// The larger of two; NaN if one of them is: a state that has diverged must not pass for a small one.
+inline double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
+
+/// Largest value(i) >= 0 over [0, n), 0 for n = 0; NaN if one of them is.
+template <class Value>
+double largest(std::ptrdiff_t n, const Value& value) {
+    const auto in_range = [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range, double so_far) {
+        for (std::ptrdiff_t i = range.begin(); i < range.end(); ++i) so_far = larger(so_far, value(i));
+        return so_far;
+    };
+    const oneapi::tbb::blocked_range<std::ptrdiff_t> all(0, n, parallel_grain);
+    return n <= 2 * parallel_grain ? in_range(all, 0.0) : oneapi::tbb::parallel_reduce(all, 0.0, in_range, larger);
 }
 
 }  // namespace abut::dynamics
