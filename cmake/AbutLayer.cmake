@@ -51,8 +51,12 @@ function(abut_layer name)
   if(NOT ABUT_SANITIZE)
     target_link_options(${target} PRIVATE -Wl,--no-undefined)  # found here, not where a user links
   endif()
-  # Eigen's allocations must not depend on the -march of whoever includes a header.
-  target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16)
+  # Public headers hold only Eigen types of fixed size without an alignment demand, so a host may compile Eigen as it likes.
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL SHARED_LIBRARY)
+    target_link_options(${target} PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/hide_eigen.map)
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/hide_eigen.map)
+  endif()
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
