@@ -101,5 +101,5 @@ function(abut_install_package)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/package/abutConfig.cmake ${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake DESTINATION ${abut_package_dir})
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC)
 endfunction()
