@@ -8,6 +8,8 @@
 
 int main(int argc, char** argv) {
     return abut::examples::run_two_cylinders(
-        argc, argv, {.program = "slipping_cylinders", .purpose = "Two elastic cylinders collide off-centre, slip over each other and part.",
-                     .offset_over_radius = 0.8});
+        argc, argv,
+        {.program = "slipping_cylinders",
+         .purpose = "Two elastic cylinders collide off-centre, slip over each other and part.",
+         .offset_over_radius = abut::examples::slipping_offset});
 }

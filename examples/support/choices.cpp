@@ -18,10 +18,12 @@ std::string allowed(const Limits& limits) {
     std::string text = "it must be a finite number";
     const char* joint = ", ";
     if (std::isfinite(limits.above)) {
-        text += fmt::format("{}{} {}", joint, limits.zero && limits.above == 0.0 ? "not below" : "above", with_unit(limits.above, limits));
+        text += fmt::format("{}{} {}", joint, limits.zero && limits.above == 0.0 ? "not below" : "above",
+                            with_unit(limits.above, limits));
         joint = " and ";
     }
-    if (std::isfinite(limits.below)) text += fmt::format("{}{} {}", joint, limits.closed ? "not above" : "below", with_unit(limits.below, limits));
+    if (std::isfinite(limits.below))
+        text += fmt::format("{}{} {}", joint, limits.closed ? "not above" : "below", with_unit(limits.below, limits));
     return text;
 }
 
@@ -32,7 +34,8 @@ bool allows(const Limits& limits, double value) {
 }
 
 [[noreturn]] void refuse(const std::string& option, const std::string& what, const Limits& limits) {
-    throw CLI::ValidationError(option, fmt::format("{}; {}.{}{}", what, allowed(limits), *limits.remedy == '\0' ? "" : " ", limits.remedy));
+    throw CLI::ValidationError(
+        option, fmt::format("{}; {}.{}{}", what, allowed(limits), *limits.remedy == '\0' ? "" : " ", limits.remedy));
 }
 
 BodyValues parse_body_values(const std::string& text, const std::string& option, const Limits& limits) {
@@ -42,7 +45,9 @@ BodyValues parse_body_values(const std::string& text, const std::string& option,
         return {value, value};
     }
     if (text.find(',', comma + 1) != std::string::npos)
-        throw CLI::ValidationError(option, fmt::format("'{}' holds more than two values; give one for both bodies, or two separated by a comma.", text));
+        throw CLI::ValidationError(
+            option,
+            fmt::format("'{}' holds more than two values; give one for both bodies, or two separated by a comma.", text));
     return {parse_number(text.substr(0, comma), option, limits), parse_number(text.substr(comma + 1), option, limits)};
 }
 
@@ -73,7 +78,8 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
     const std::string& by_default = option->get_default_str();
-    return by_default.empty() ? option->get_description() : fmt::format("{} (default {})", option->get_description(), by_default);
+    return by_default.empty() ? option->get_description()
+                              : fmt::format("{} (default {})", option->get_description(), by_default);
 }
 
 std::string shown(double value) { return fmt::format("{:g}", value); }
@@ -86,14 +92,18 @@ double parse_number(const std::string& text, const std::string& option, const Li
     return value;
 }
 
-CLI::Option* add_number(CLI::App& app, const std::string& option, double& value, const std::string& help, const Limits& limits) {
+CLI::Option* add_number(CLI::App& app, const std::string& option, double& value, const std::string& help,
+                        const Limits& limits) {
     const auto read = [&value, option, limits](const std::string& text) { value = parse_number(text, option, limits); };
     auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X");
     return std::isnan(value) ? added : added->default_str(shown(value));
 }
 
-CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help, const Limits& limits) {
-    const auto read = [&values, option, limits](const std::string& text) { values = parse_body_values(text, option, limits); };
+CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help,
+                             const Limits& limits) {
+    const auto read = [&values, option, limits](const std::string& text) {
+        values = parse_body_values(text, option, limits);
+    };
     auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X[,X]");
     return added->default_str(default_text(values));
 }
@@ -102,10 +112,15 @@ CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, con
     const auto in_range = [least](std::string& text) {
         char* end = nullptr;
         const long number = std::strtol(text.c_str(), &end, 10);
-        if (!text.empty() && end == text.c_str() + text.size() && number >= least && number <= std::numeric_limits<int>::max()) return std::string();
+        if (!text.empty() && end == text.c_str() + text.size() && number >= least &&
+            number <= std::numeric_limits<int>::max())
+            return std::string();
         return fmt::format("'{}' is not allowed; it must be a whole number of at least {}.", text, least);
     };
-    return app.add_option(option, value, help)->type_name("N")->check(CLI::Validator(in_range, ""))->capture_default_str();
+    return app.add_option(option, value, unit_after(help, {}))
+        ->type_name("N")
+        ->check(CLI::Validator(in_range, ""))
+        ->capture_default_str();
 }
 
 }  // namespace abut::examples

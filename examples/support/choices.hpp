@@ -27,8 +27,10 @@ using BodyValues = std::array<double, 2>;
 /// A finite number, without surplus characters, within the limits; `option` is what the message names.
 [[nodiscard]] double parse_number(const std::string& text, const std::string& option, const Limits& limits);
 
-CLI::Option* add_number(CLI::App& app, const std::string& option, double& value, const std::string& help, const Limits& limits);
-CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help, const Limits& limits);
+CLI::Option* add_number(CLI::App& app, const std::string& option, double& value, const std::string& help,
+                        const Limits& limits);
+CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help,
+                             const Limits& limits);
 CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least);
 
 /// "1", "0.25": as --help shows a default.
@@ -58,7 +60,8 @@ template <class Value>
 
 /// One of a few names; the present value of `value` is the default.
 template <class Value>
-CLI::Option* add_choice(CLI::App& app, const std::string& option, Value& value, const std::string& help, const Choices<Value>& choices) {
+CLI::Option* add_choice(CLI::App& app, const std::string& option, Value& value, const std::string& help,
+                        const Choices<Value>& choices) {
     std::vector<std::string> names;
     for (const auto& [name, choice] : choices) names.push_back(name);
     const auto choose = [&value, choices](const std::string& text) {

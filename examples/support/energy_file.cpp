@@ -37,7 +37,7 @@ void EnergyFile<Dim>::finish() {
 
 template <int Dim>
 void EnergyFile<Dim>::check() const {
-    if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written. Check permissions and free space of its folder.", partial_.string()));
+    if (!file_) throw std::runtime_error(cannot_be_written(partial_));
 }
 
 template class EnergyFile<2>;

@@ -8,11 +8,12 @@ namespace abut::examples {
 struct EnergyPicture {
     std::string title;
     double pseudo_energy;  ///< H~ at the start [J]
-    double kinetic;        ///< K0 [J]
+    double scale;          ///< what drifts are divided by [J]
+    std::string scale_name;   ///< "K0": a letter and its index
 };
 
 /// energy.gp beside energy.csv, and energy.png, which gnuplot makes of it: above kinetic and potential energy, H and H~;
-/// below |H~ - H~0| and H - H~ over K0, logarithmic. Says why there is no picture; empty if there is one.
+/// below |H~ - H~0| and H - H~ over the scale, logarithmic. Says why there is no picture; empty if there is one.
 [[nodiscard]] std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture);
 
 }  // namespace abut::examples

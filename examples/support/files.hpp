@@ -8,10 +8,17 @@ namespace abut::examples {
 /// folder, the reason and what to do.
 void prepare_directory(const std::filesystem::path& directory);
 
+/// Removes what an earlier run may have left: summary.json, energy.csv, its picture, and the lists and frames of `series`.
+/// Everything else stays. Throws std::runtime_error naming the file.
+void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
+
 /// Writes a file beside its place, then moves it there: it is never seen half-written. Throws std::runtime_error.
 void write_whole(const std::filesystem::path& path, const std::string& text);
 
 /// Throws std::runtime_error naming the file.
 void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// What is said wherever a file cannot be written.
+[[nodiscard]] std::string cannot_be_written(const std::filesystem::path& path, const std::string& reason = "");
 
 }  // namespace abut::examples

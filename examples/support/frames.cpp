@@ -8,8 +8,6 @@
 namespace abut::examples {
 namespace {
 
-constexpr const char* series_name = "cylinders";
-
 template <int Dim>
 Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
     Matrix<3> full = Matrix<3>::Zero();
@@ -20,7 +18,8 @@ Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
 
 /// v = M^-1 (p^- + p^+)/2 by cell [m/s].
 template <int Dim>
-std::vector<Vector<Dim>> velocities(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, const dynamics::Solid<Dim>& solid) {
+std::vector<Vector<Dim>> velocities(const dynamics::Memm<dynamics::Solid<Dim>>& integrator,
+                                    const dynamics::Solid<Dim>& solid) {
     const auto before = dynamics::as_vectors<Dim>(integrator.p_before());
     const auto after = dynamics::as_vectors<Dim>(integrator.p_after());
     std::vector<Vector<Dim>> velocity(before.size());
@@ -39,7 +38,8 @@ template <int Dim>
 struct Stresses {
     explicit Stresses(dynamics::Solid<Dim>& solid) {
         for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-            const double poisson = solid.options().materials[static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(c)])].poisson;
+            const auto body = static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(c)]);
+            const double poisson = solid.options().materials[body].poisson;
             stress.push_back(solid.ccg().stress(c));
             equivalent.push_back(von_mises<Dim>(stress.back(), poisson));
             out_of_plane.push_back(full_stress<Dim>(stress.back(), poisson)(2, 2));
@@ -60,8 +60,9 @@ double von_mises(const Matrix<Dim>& stress, double poisson) {
 }
 
 template <int Dim>
-Frames<Dim>::Frames(const std::filesystem::path& directory, const mesh::Mesh<Dim>& mesh, int n_frames, std::int64_t n_steps)
-    : series_(directory, series_name, mesh), n_frames_(n_frames), n_steps_(n_steps) {}
+Frames<Dim>::Frames(const std::filesystem::path& directory, const std::string& series, const mesh::Mesh<Dim>& mesh,
+                    int n_frames, std::int64_t n_steps)
+    : series_(directory, series, mesh), n_frames_(n_frames), n_steps_(n_steps) {}
 
 template <int Dim>
 void Frames<Dim>::write_if_due(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid) {
@@ -79,13 +80,14 @@ void Frames<Dim>::write(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, 
     const Stresses<Dim> stresses(solid);
     const auto velocity = velocities(integrator, solid);
     mesh::Frame<Dim> frame{.time = integrator.time(), .displacement = dynamics::as_vectors<Dim>(integrator.q())};
-    frame.cell_fields = {{"velocity [m/s]", velocity}, {"stress [Pa]", stresses.stress}, {"von Mises [Pa]", stresses.equivalent}};
+    frame.cell_fields = {
+        {"velocity [m/s]", velocity}, {"stress [Pa]", stresses.stress}, {"von Mises [Pa]", stresses.equivalent}};
     if constexpr (Dim == 2) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});
     frame.boundary_fields = {{"contact pressure [Pa]", contact.pressure}, {"gap [m]", gap}};
     series_.write(frame);
 }
 
-#define ABUT_INSTANTIATE(Dim) \
+#define ABUT_INSTANTIATE(Dim)   \
     template class Frames<Dim>; \
     template double von_mises<Dim>(const Matrix<Dim>&, double);
 ABUT_INSTANTIATE(2)

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/solid.hpp"
@@ -10,10 +11,12 @@ namespace abut::examples {
 
 /// A run as a series for ParaView: displacement, velocity, stress and von Mises stress on cells, contact pressure and gap on
 /// boundary faces (a face that nothing faces has the gap NaN). `n_frames` equally far apart, first and last step included.
+/// `series` is what the files are called by, see mesh::VtuSeries.
 template <int Dim>
 class Frames {
 public:
-    Frames(const std::filesystem::path& directory, const mesh::Mesh<Dim>& mesh, int n_frames, std::int64_t n_steps);
+    Frames(const std::filesystem::path& directory, const std::string& series, const mesh::Mesh<Dim>& mesh, int n_frames,
+           std::int64_t n_steps);
 
     /// Writes a frame if one is due at the integrator's step.
     void write_if_due(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid);

@@ -26,7 +26,11 @@ std::int64_t next_tenth(std::int64_t step, std::int64_t n_steps) {
 }  // namespace
 
 Progress::Progress(std::int64_t n_steps)
-    : n_steps_(n_steps), terminal_(isatty(STDOUT_FILENO) == 1), next_step_(next_tenth(0, n_steps)), start_(Clock::now()), last_(start_) {}
+    : n_steps_(n_steps),
+      terminal_(isatty(STDOUT_FILENO) == 1),
+      next_step_(next_tenth(0, n_steps)),
+      start_(Clock::now()),
+      last_(start_) {}
 
 Progress::~Progress() {
     if (!line_open_) return;
@@ -40,8 +44,8 @@ void Progress::show(std::int64_t step, double time, double drift) {
     if (!due) return;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = elapsed * static_cast<double>(n_steps_ - step) / static_cast<double>(step);
-    const std::string line = fmt::format("step {:>{}}/{}  t = {:.4g} s  energy drift {:.1e}  {} left", step, std::to_string(n_steps_).size(),
-                                         n_steps_, time, drift, duration(left));
+    const std::string line = fmt::format("step {:>{}}/{}  t = {:.4g} s  energy drift {:.1e}  {} left", step,
+                                         std::to_string(n_steps_).size(), n_steps_, time, drift, duration(left));
     last_ = now;
     next_step_ = next_tenth(step, n_steps_);
     line_open_ = terminal_;

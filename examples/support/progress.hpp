@@ -12,7 +12,7 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `drift` is |H~ - H~0| / K0 as last measured [-].
+    /// `drift` is |H~ - H~0| over the energy scale of the run as last measured [-].
     void show(std::int64_t step, double time, double drift);
 
 private:

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 
@@ -23,6 +22,8 @@
 
 namespace abut::examples {
 namespace {
+
+using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
@@ -40,20 +41,9 @@ private:
     Clock::time_point start_;
 };
 
-void remove_earlier_results(const std::filesystem::path& directory) {
-    for (const char* name : {"summary.json", "energy.csv", "energy.csv.partial", "energy.png", "energy.gp", "cylinders.pvd", "cylinders_surface.pvd"}) {
-        std::error_code error;
-        std::filesystem::remove(directory / name, error);
-        if (error)
-            throw std::runtime_error(fmt::format("{}: the result of an earlier run cannot be removed: {}. Choose another folder with --out.",
-                                                 (directory / name).string(), error.message()));
-    }
-}
-
 template <int Dim>
 dynamics::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
-    dynamics::SolidOptions<Dim> solid;
-    solid.materials = scene.materials;
+    dynamics::SolidOptions<Dim> solid = scene.solid;
     solid.boundary.neumann = options.neumann;
     solid.contact = options.contact;
     return solid;
@@ -62,19 +52,26 @@ dynamics::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOpti
 double choose_step(const RunOptions& options, const dynamics::StableStep& stable) {
     if (std::isnan(options.dt)) return options.cfl * stable.dt;
     if (options.dt > stable.dt && !options.allow_unstable)
-        throw std::invalid_argument(fmt::format("--dt: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl; --allow-unstable "
-                                                "takes it all the same.",
-                                                options.dt, stable.dt));
+        throw std::invalid_argument(
+            fmt::format("--dt: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl; --allow-unstable "
+                        "takes it all the "
+                        "same.",
+                        options.dt, stable.dt));
     return options.dt;
 }
 
-template <int Dim>
-void check_alive(const dynamics::LedgerEntry<Dim>& entry, const dynamics::LedgerEntry<Dim>& first, double dt, double stable_dt) {
-    if (std::isfinite(entry.pseudo_energy) && entry.energy <= divergence_factor * first.energy) return;
-    throw std::runtime_error(fmt::format("step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J and H~ {:.3g} J, {:.3g} J at the start, at most "
-                                         "{:g} times that is allowed. Steps are {:.4g} s long, stable are {:.4g} s: lower --cfl or --dt. energy.csv.partial "
-                                         "holds the records so far.",
-                                         entry.step, entry.time, entry.energy, entry.pseudo_energy, first.energy, divergence_factor, dt, stable_dt));
+std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
+    if (std::isnan(options.time) && options.steps > 0) return options.steps;
+    return static_cast<std::int64_t>(std::ceil((std::isnan(options.time) ? time_of_scene : options.time) / dt));
+}
+
+EnergyScale known_scale(EnergyScale scale, double kinetic) {
+    if (scale.value == 0.0) scale.value = kinetic;
+    if (!(scale.value > 0.0))
+        throw std::invalid_argument(
+            "the scene is at rest at the start: it has to say by Scene::energy_scale what energies are "
+            "measured with, a value above 0 J.");
+    return scale;
 }
 
 /// One run, from the operators to the last step.
@@ -82,23 +79,26 @@ template <int Dim>
 class Simulation {
 public:
     Simulation(const Scene<Dim>& scene, const RunOptions& options)
-        : options_(options), solid_(scene.mesh, solid_options(scene, options)), filter_(solid_) {
+        : scene_(scene), options_(options), solid_(scene.mesh, solid_options(scene, options)), filter_(solid_) {
         result_.stable = dynamics::stable_step(solid_);
         result_.dt = choose_step(options, result_.stable);
-        result_.steps = static_cast<std::int64_t>(std::ceil(scene.time / result_.dt));
+        result_.steps = choose_steps(options, scene.time, result_.dt);
         result_.stencils = solid_.ccg().stencil_report();
+        result_.contact_faces_left_out = solid_.contact_faces_left_out();
+        result_.skin = solid_.contact()->skin();
         const std::vector<double> at_rest(solid_.size(), 0.0);
         integrator_.emplace(solid_, at_rest, dynamics::uniform_momentum<Dim>(solid_, scene.velocity), result_.dt);
         if (options.filter)
-            integrator_->set_after_step([this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+            integrator_->set_after_step(
+                [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
     }
 
     [[nodiscard]] RunResult<Dim>& result() { return result_; }
 
-    void run() {
+    void run(const std::string& series) {
         EnergyFile<Dim> energies(options_.out / "energy.csv");
         std::optional<Frames<Dim>> frames;
-        if (options_.frames > 0) frames.emplace(options_.out, solid_.mesh(), options_.frames, result_.steps);
+        if (options_.frames > 0) frames.emplace(options_.out, series, solid_.mesh(), options_.frames, result_.steps);
         Progress progress(result_.steps);
         result_.start = dynamics::body_motions(*integrator_, solid_);
         record(energies);
@@ -107,7 +107,8 @@ public:
             step();
             if (integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps) record(energies);
             write(frames);
-            progress.show(integrator_->steps(), integrator_->time(), result_.ledger.pseudo_energy_drift() / result_.ledger.entries().front().kinetic);
+            progress.show(integrator_->steps(), integrator_->time(),
+                          result_.ledger.pseudo_energy_drift() / result_.scale.value);
         }
         result_.end = dynamics::body_motions(*integrator_, solid_);
         result_.contact = solid_.contact_report();
@@ -120,21 +121,48 @@ private:
         try {
             integrator_->step();
         } catch (const std::exception& error) {
-            throw std::runtime_error(fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {} energy.csv.partial holds the records so far.",
-                                                 integrator_->steps() + 1, integrator_->time(), result_.dt, result_.stable.dt, error.what()));
+            throw std::runtime_error(
+                fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {} "
+                            "energy.csv.partial holds the records so far.",
+                            integrator_->steps() + 1, integrator_->time(), result_.dt, result_.stable.dt, error.what()));
         }
+        if (scene_.after_step) scene_.after_step(solid_, result_.dt);
     }
 
     void record(EnergyFile<Dim>& energies) {
         {
             const Stopwatch watch(result_.seconds.ledger);
             result_.ledger.record(dynamics::measure(*integrator_, solid_));
-            result_.candidates_max = std::max(result_.candidates_max, solid_.contact_report().candidates);
+            const auto contact = solid_.contact_report();
+            result_.candidates_max = std::max(result_.candidates_max, contact.candidates);
+            result_.not_admitted_max = std::max(result_.not_admitted_max, contact.not_admitted);
+            warn_once(contact);
         }
         const Stopwatch watch(result_.seconds.output);
         const auto& entries = result_.ledger.entries();
+        if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
         energies.append(entries.back());
-        check_alive(entries.back(), entries.front(), result_.dt, result_.stable.dt);
+        check_alive(entries.back(), std::max(entries.front().energy, result_.scale.value));
+    }
+
+    void warn_once(const contact::ContactReport& contact) {
+        if (warned_ || contact.compressed_steps == 0) return;
+        warned_ = true;
+        spdlog::warn(
+            "by step {} faces are pressed {:.2g} of the skin D into each other, more than {:g}; above {:g} the run stops. "
+            "A lower speed or load makes it less",
+            integrator_->steps(), contact.compression_max, options_.contact.compression_warning,
+            options_.contact.compression_limit);
+    }
+
+    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) const {
+        if (std::isfinite(entry.pseudo_energy) && entry.energy <= divergence_factor * scale) return;
+        throw std::runtime_error(fmt::format(
+            "step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J and H~ {:.3g} J; {:g} times {:.3g} J is allowed. "
+            "Steps are "
+            "{:.4g} s long, stable are {:.4g} s: lower --cfl or --dt. energy.csv.partial holds the records so far.",
+            entry.step, entry.time, entry.energy, entry.pseudo_energy, divergence_factor, scale, result_.dt,
+            result_.stable.dt));
     }
 
     void write(std::optional<Frames<Dim>>& frames) {
@@ -142,65 +170,99 @@ private:
         if (frames) frames->write_if_due(*integrator_, solid_);
     }
 
+    const Scene<Dim>& scene_;
     const RunOptions& options_;
     dynamics::Solid<Dim> solid_;
     dynamics::NeutralFilter<Dim> filter_;
     std::optional<dynamics::Memm<dynamics::Solid<Dim>>> integrator_;
     RunResult<Dim> result_;
+    bool warned_ = false;
 };
 
+/// What was found at set-up and is not as it should be.
 template <int Dim>
-void draw(const Scene<Dim>& scene, const RunOptions& options, RunResult<Dim>& result) {
+void log_start(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    spdlog::info("{} cells, {} boundary faces; {} steps of {:.4g} s", scene.mesh.n_cells(), scene.mesh.boundary_faces.size(),
+                 result.steps, result.dt);
+    if (const auto& stencils = result.stencils; stencils.extrapolated > 0)
+        spdlog::warn(
+            "{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is shorter",
+            stencils.extrapolated, stencils.faces, stencils.worst_weight);
+    if (result.contact_faces_left_out > 0)
+        spdlog::info("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out);
+}
+
+template <int Dim>
+void log_end(const RunResult<Dim>& result) {
+    if (result.contact.compressed_steps > 0)
+        spdlog::warn("strongly compressed in {} of {} steps, at most {:.2g} of the skin D", result.contact.compressed_steps,
+                     result.steps, result.contact.compression_max);
+    if (result.not_admitted_max > 0)
+        spdlog::info("up to {} pairs of faces overlap without being contacts: far sides of bodies", result.not_admitted_max);
+    if (result.contact.lost_contacts > 0)
+        spdlog::warn("{} contacts were lost, 0 are allowed: the energy is not exact", result.contact.lost_contacts);
+}
+
+template <int Dim>
+void draw(const std::string& program, const Scene<Dim>& scene, const RunOptions& options, RunResult<Dim>& result) {
     const Stopwatch watch(result.seconds.output);
-    const auto& first = result.ledger.entries().front();
-    const std::string title = fmt::format("{}, {}D, {} cells, {} steps", scene.program, Dim, scene.mesh.n_cells(), result.steps);
-    result.without_picture = draw_energy(options.out, {title, first.pseudo_energy, first.kinetic});
+    const std::string title = fmt::format("{}, {}D, {} cells, {} steps", program, Dim, scene.mesh.n_cells(), result.steps);
+    result.without_picture = draw_energy(
+        options.out, {title, result.ledger.entries().front().pseudo_energy, result.scale.value, result.scale.name});
+}
+
+/// The same for every dimension on the command line, but not here.
+template <int Dim>
+RunOptions with_defaults(RunOptions options) {
+    if (options.interval == 0) options.interval = Dim == 2 ? 1 : 10;
+    if (options.contact.quadrature == 0) options.contact.quadrature = Dim;
+    return options;
+}
+
+template <int Dim>
+Scene<Dim> timed_scene(const std::function<Scene<Dim>()>& make_scene, double& seconds) {
+    const Stopwatch watch(seconds);
+    return make_scene();
 }
 
 }  // namespace
 
 template <int Dim>
-void run(const Scene<Dim>& scene, const RunOptions& options) {
-    std::optional<oneapi::tbb::global_control> threads;
-    if (options.threads > 0) threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+void run(const Program& program, const RunOptions& given, const std::function<Scene<Dim>()>& make_scene) {
+    const RunOptions options = with_defaults<Dim>(given);
+    std::optional<global_control> threads;
+    if (options.threads > 0)
+        threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
 
-    double total = 0.0;
-    double setup = 0.0;
+    prepare_directory(options.out);
+    remove_earlier_results(options.out, program.series);
+    RunSeconds seconds;
+    std::optional<Scene<Dim>> scene;
     std::optional<Simulation<Dim>> simulation;
     {
-        const Stopwatch whole(total);
+        const Stopwatch whole(seconds.total);
+        scene = timed_scene(make_scene, seconds.mesh);
         {
-            const Stopwatch watch(setup);
-            prepare_directory(options.out);
-            mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.broad_phase);
-            simulation.emplace(scene, options);
+            const Stopwatch watch(seconds.setup);
+            mesh::check_apart(scene->mesh, scene->remedy_if_overlapping, options.contact.broad_phase);
+            simulation.emplace(*scene, options);
         }
-        spdlog::info("{} cells, {} boundary faces; {} steps of {:.4g} s", scene.mesh.n_cells(), scene.mesh.boundary_faces.size(),
-                     simulation->result().steps, simulation->result().dt);
-        remove_earlier_results(options.out);
-        simulation->run();
-        draw(scene, options, simulation->result());
+        log_start(*scene, simulation->result());
+        simulation->run(program.series);
+        draw(program.name, *scene, options, simulation->result());
     }
     auto& result = simulation->result();
-    result.seconds.total = total;
-    result.seconds.setup = setup;
-    write_whole(options.out / "summary.json", summary(scene, options, result).dump(2) + "\n");
-    print_table(scene, options, result);
+    result.seconds.total = seconds.total;
+    result.seconds.mesh = seconds.mesh;
+    result.seconds.setup = seconds.setup;
+    result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+    if (scene->findings) result.findings = scene->findings(result);
+    write_whole(options.out / "summary.json", summary(program, *scene, options, result).dump(2) + "\n");
+    log_end(result);
+    print_table(program, *scene, options, result);
 }
 
-int report_errors(const std::string& name, const std::function<void()>& program) {
-    try {
-        spdlog::set_default_logger(spdlog::stdout_color_mt(name));
-        spdlog::set_pattern("[%T] %v");
-        program();
-        return 0;
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: error: {}\n", name, error.what());
-        return 1;
-    }
-}
-
-template void run<2>(const Scene<2>&, const RunOptions&);
-template void run<3>(const Scene<3>&, const RunOptions&);
+template void run<2>(const Program&, const RunOptions&, const std::function<Scene<2>()>&);
+template void run<3>(const Program&, const RunOptions&, const std::function<Scene<3>()>&);
 
 }  // namespace abut::examples

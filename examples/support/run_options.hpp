@@ -14,7 +14,8 @@ inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// How a scene is run: what all examples share.
 struct RunOptions {
-    double time = not_given;         ///< end of the run [s]; not given: the scene's own
+    double time = not_given;         ///< end of the run [s]; not given: as many steps as `steps`, or the scene's own time
+    int steps = 0;                   ///< of the run where no time is given; 0: not given
     double cfl = 0.9;                ///< time step over the stable step [-]
     double dt = not_given;           ///< time step [s], instead of `cfl`
     bool allow_unstable = false;
@@ -27,10 +28,15 @@ struct RunOptions {
     int frames = 21;                 ///< of the VTU series, the first and the last included; 0: none
 };
 
-/// Adds the options to a program; `default_of_time` says in --help what the end of the run is by default.
-void add_run_options(CLI::App& app, RunOptions& options, const std::string& default_of_time);
+/// Groups of options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of
+/// the run is by default.
+void add_time_options(CLI::App& app, RunOptions& options, const std::string& default_of_time);
+void add_contact_options(CLI::App& app, RunOptions& options);
+void add_compression_limit(CLI::App& app, RunOptions& options);
+void add_output_options(CLI::App& app, RunOptions& options);
 
-/// The options as they were used, by the names of the command line.
+/// The options as given, by the names of the command line: either --dt or --cfl, whichever decided. Of the end of the run,
+/// skin and threads only the run knows what they were.
 [[nodiscard]] nlohmann::ordered_json to_json(const RunOptions& options);
 
 }  // namespace abut::examples

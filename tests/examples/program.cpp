@@ -17,23 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder for this process alone: CTest runs the cases side by side.
-fs::path own_folder(const std::string& folder) { return fs::path(ABUT_EXAMPLE_RESULTS) / fmt::format("{}.{}", folder, getpid()); }
-
-struct TemporaryFiles {
-    fs::path out, error;
-    explicit TemporaryFiles(const std::string& name) : out(own_folder(name + ".stdout")), error(own_folder(name + ".stderr")) {
-        fs::create_directories(out.parent_path());
-    }
-    TemporaryFiles(const TemporaryFiles&) = delete;
-    TemporaryFiles& operator=(const TemporaryFiles&) = delete;
-    ~TemporaryFiles() {
-        std::error_code ignored;
-        fs::remove(out, ignored);
-        fs::remove(error, ignored);
-    }
-};
-
 std::vector<std::string> split(const std::string& line) {
     std::vector<std::string> parts;
     std::istringstream stream(line);
@@ -43,19 +26,32 @@ std::vector<std::string> split(const std::string& line) {
 
 }  // namespace
 
-Outcome run_program(const std::string& program, const std::string& arguments, const std::string& folder, const std::string& environment) {
-    const TemporaryFiles files(folder.empty() ? program : folder);
-    const fs::path directory = own_folder(folder);
-    if (!folder.empty()) fs::remove_all(directory);
-    const std::string out = folder.empty() ? "" : fmt::format("--out '{}'", directory.string());
-    const int status = std::system(fmt::format("{} '{}/{}' {} {} >'{}' 2>'{}' </dev/null", environment, ABUT_EXAMPLE_PROGRAMS, program, arguments, out,
-                                               files.out.string(), files.error.string())
-                                       .c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(files.out), read_text(files.error), directory};
+Folder::Folder(const std::string& name) : path_(fs::path(ABUT_EXAMPLE_RESULTS) / fmt::format("{}.{}", name, getpid())) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
 }
 
-Outcome run_well(const std::string& program, const std::string& arguments, const std::string& folder, const std::string& environment) {
-    Outcome outcome = run_program(program, arguments, folder, environment);
+Folder::~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+Outcome run_program(const std::string& program, const std::string& arguments, const std::string& folder,
+                    const std::string& before) {
+    const Folder streams(folder + ".streams");
+    const auto out = streams.path() / "out", error = streams.path() / "error";
+    const auto results = folder.empty() ? nullptr : std::make_shared<const Folder>(folder);
+    const auto directory = results ? results->path() : fs::path();
+    const std::string to = results ? fmt::format("--out '{}'", directory.string()) : "";
+    const int status = std::system(fmt::format("{} '{}/{}' {} {} >'{}' 2>'{}' </dev/null", before, ABUT_EXAMPLE_PROGRAMS,
+                                               program, arguments, to, out.string(), error.string())
+                                       .c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(error), directory, results};
+}
+
+Outcome run_well(const std::string& program, const std::string& arguments, const std::string& folder,
+                 const std::string& before) {
+    Outcome outcome = run_program(program, arguments, folder, before);
     INFO(program << " " << arguments << "\n" << outcome.error);
     REQUIRE(outcome.exit_code == 0);
     return outcome;
@@ -67,7 +63,16 @@ std::string read_text(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-nlohmann::json read_summary(const Outcome& outcome) { return nlohmann::json::parse(read_text(outcome.directory / "summary.json")); }
+nlohmann::json read_summary(const Outcome& outcome) {
+    return nlohmann::json::parse(read_text(outcome.directory / "summary.json"));
+}
+
+std::vector<std::string> files_in(const fs::path& directory) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
 
 std::vector<double> Table::column(const std::string& name) const {
     const auto place = std::ranges::find(columns, name) - columns.begin();
@@ -87,6 +92,11 @@ Table read_energies(const Outcome& outcome) {
         for (const std::string& value : split(line)) table.rows.back().push_back(std::stod(value));
     }
     return table;
+}
+
+double relative_drift(const Outcome& outcome) {
+    const auto summary = read_summary(outcome);
+    return summary["pseudo_energy_drift"].get<double>() / summary["energy_scale"]["value"].get<double>();
 }
 
 }  // namespace abut::examples::test

@@ -1,31 +1,50 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 namespace abut::examples::test {
 
-/// What a run of an example left behind.
-struct Outcome {
-    int exit_code;
-    std::string out;                   ///< standard output
-    std::string error;                 ///< standard error
-    std::filesystem::path directory;   ///< of the results
+/// A folder for this process alone, since CTest runs the cases side by side; empty at first, removed with the object.
+class Folder {
+public:
+    explicit Folder(const std::string& name);
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
 };
 
-/// Runs an example in the shell: `program` is its name, `arguments` are passed on, with --out to an empty folder of that name.
-/// With an empty folder name the arguments hold their own --out, if any. `environment` goes in front: "PATH=/nowhere".
+/// What a run of an example left behind.
+struct Outcome {
+    int exit_code;                          ///< -1 if a signal ended it
+    std::string out;                        ///< standard output
+    std::string error;                      ///< standard error
+    std::filesystem::path directory;        ///< of the results; gone with the last copy of the outcome
+    std::shared_ptr<const Folder> folder;
+};
+
+/// Runs an example in the shell: `program` is its name, `arguments` are passed on, with --out to an empty folder of that
+/// name. With an empty folder name the arguments hold their own --out, if any. `before` goes in front: "PATH=/nowhere".
 [[nodiscard]] Outcome run_program(const std::string& program, const std::string& arguments, const std::string& folder,
-                                  const std::string& environment = "");
+                                  const std::string& before = "");
 
 /// The same, and the exit code has to be 0.
 [[nodiscard]] Outcome run_well(const std::string& program, const std::string& arguments, const std::string& folder,
-                                  const std::string& environment = "");
+                               const std::string& before = "");
 
 /// Throws std::runtime_error if the file is missing.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 [[nodiscard]] nlohmann::json read_summary(const Outcome& outcome);
+
+/// Names of all files in a folder, in order.
+[[nodiscard]] std::vector<std::string> files_in(const std::filesystem::path& directory);
 
 /// energy.csv: names of the columns and all rows.
 struct Table {
@@ -34,5 +53,8 @@ struct Table {
     [[nodiscard]] std::vector<double> column(const std::string& name) const;
 };
 [[nodiscard]] Table read_energies(const Outcome& outcome);
+
+/// Largest |H~ - H~0| over K0, or what else the run measures energies with.
+[[nodiscard]] double relative_drift(const Outcome& outcome);
 
 }  // namespace abut::examples::test

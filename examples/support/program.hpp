@@ -1,0 +1,22 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+
+namespace abut::examples {
+
+/// What a program is called and what it leaves behind.
+struct Program {
+    std::string name;      ///< as it is typed; results go to out/<name> by default
+    std::string purpose;   ///< one sentence for --help
+    std::string series;    ///< of its files for ParaView: <series>.pvd, <series>_surface.pvd and their frames
+    std::string footer;    ///< ends --help
+};
+
+/// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either
+/// fails; 0 after --help or a good end. A command line that cannot be read touches no file.
+int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+                const std::function<void()>& body);
+
+}  // namespace abut::examples

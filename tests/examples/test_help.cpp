@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "examples/program.hpp"
+
+namespace {
+
+using namespace abut::examples::test;
+
+/// One for each option; where a long list of names has pushed the explanation to the next line, both in one.
+std::vector<std::string> option_lines(const std::string& help) {
+    std::vector<std::string> lines;
+    std::istringstream text(help);
+    bool open = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line.starts_with("  --"))
+            lines.push_back(line);
+        else if (open && line.starts_with("      "))
+            lines.back() += line;
+        open = line.starts_with("  --");
+    }
+    return lines;
+}
+
+bool holds(const std::string& line, const std::string& word) { return line.find(word) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("--help explains every option in one line with unit and default", "[examples]") {
+    const auto [program, options] = GENERATE(
+        table<std::string, std::vector<std::string>>({{"slipping_cylinders",
+                                                       {"--dim",
+                                                        "--radius",
+                                                        "--length",
+                                                        "--young",
+                                                        "--poisson",
+                                                        "--density",
+                                                        "--speed",
+                                                        "--offset",
+                                                        "--gap",
+                                                        "--size",
+                                                        "--cfl",
+                                                        "--time",
+                                                        "--steps",
+                                                        "--dt",
+                                                        "--skin",
+                                                        "--mesh",
+                                                        "--overlap",
+                                                        "--weights",
+                                                        "--area",
+                                                        "--events",
+                                                        "--quadrature",
+                                                        "--neumann",
+                                                        "--eta",
+                                                        "--filter",
+                                                        "--frames",
+                                                        "--threads",
+                                                        "--out",
+                                                        "--broad-phase",
+                                                        "--interval",
+                                                        "--allow-unstable",
+                                                        "--compression-limit"}},
+                                                      {"rebounding_cylinders", {"--dim", "--offset", "--out"}},
+                                                      {"bouncing_bar",
+                                                       {"--cells", "--eta", "--steps", "--cfl", "--dt", "--filter",
+                                                        "--compression-limit", "--out", "--interval", "--frames"}}}));
+    const auto outcome = run_program(program, "--help", "");
+    CHECK(outcome.exit_code == 0);
+    CHECK(outcome.error.empty());
+    const auto lines = option_lines(outcome.out);
+    for (const auto& option : options) {
+        INFO(option);
+        CHECK(std::ranges::count_if(lines, [&](const auto& line) { return line.starts_with("  " + option + " "); }) == 1);
+    }
+    for (const auto& line : lines) {
+        INFO(line);
+        CHECK((holds(line, "(default ") || holds(line, "by default ")));
+        if (holds(line, " X ") || holds(line, " X[,X] ") || holds(line, " N "))
+            CHECK((holds(line, "[") && holds(line, "]")));
+    }
+}
+
+TEST_CASE("--help names the default that a run uses", "[examples]") {
+    const auto help = run_program("slipping_cylinders", "--help", "").out;
+    const auto outcome = run_well("slipping_cylinders", "--size 0.25 --steps 1 --frames 0", "defaults");
+    const auto used = read_summary(outcome)["options"];
+    for (const auto& [option, key] :
+         std::vector<std::pair<std::string, std::string>>{{"--dim", "dim"},
+                                                          {"--cfl", "cfl"},
+                                                          {"--gap", "gap"},
+                                                          {"--overlap", "overlap"},
+                                                          {"--weights", "weights"},
+                                                          {"--neumann", "neumann"},
+                                                          {"--filter", "filter"},
+                                                          {"--compression-limit", "compression_limit"}}) {
+        INFO(option);
+        std::ostringstream value;
+        if (used[key].is_string())
+            value << used[key].get<std::string>();
+        else
+            value << used[key].get<double>();
+        for (const auto& line : option_lines(help))
+            if (line.starts_with("  " + option + " ")) CHECK(holds(line, "(default " + value.str() + ")"));
+    }
+}
