@@ -57,7 +57,8 @@ nlohmann::json measure(int faces, const Choices& choices) {
     const auto expected = pairs_of(methods.back());
     for (const BroadPhase method : methods)
         if (pairs_of(method) != expected)
-            throw std::runtime_error(fmt::format("{} and {} find different pairs: nothing is timed.", name(method), name(methods.back())));
+            throw std::runtime_error(
+                fmt::format("{} and {} find different pairs: nothing is timed.", name(method), name(methods.back())));
 
     std::vector<std::function<void()>> works;
     for (const BroadPhase method : methods) works.emplace_back([&, method] { (void)pairs_of(method); });
@@ -83,7 +84,8 @@ int run(int argc, char** argv) {
     app.add_option("--json", choices.json, "file for the result");
     CLI11_PARSE(app, argc, argv);
 
-    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(choices.threads));
+    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(choices.threads));
     nlohmann::json result = benchmark::circumstances(argc, argv);
     for (const int faces : choices.faces) result["results"].push_back(measure(faces, choices));
     benchmark::write(result, choices.json);
@@ -92,11 +94,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "benchmark_broad_phase: {}\n", error.what());
-        return 1;
-    }
-}
+int main(int argc, char** argv) { return abut::benchmark::main(argc, argv, run); }

@@ -1,9 +1,10 @@
 // One step of the bulk, matrix-free, against one product with the assembled sparse matrix of the same operator.
 //
 // Mesh: Gmsh's cylinder (tetrahedra, numbered along a space-filling curve), free, one material, no contact. Step: position
-// update, force at the midpoint, momentum update of MEMM. Rival: y = K x alone, K in 3 x 3 blocks in compressed rows; Eigen's
-// scalar RowMajor matrix beside it. STREAM's triad in the same rounds says what the memory gives. One thread, processor time.
-// Expected: the answers agree to 1e-12; the step is several times faster than the product (issue: 5), below 150 ns a cell.
+// update, force at the midpoint, momentum update of MEMM. Rival: y = K x alone, K in 3 x 3 blocks in compressed rows;
+// Eigen's scalar RowMajor matrix beside it. STREAM's triad in the same rounds says what the memory gives. One thread,
+// processor time. Expected: the answers agree to 1e-12; the step is several times faster than the product, below
+// 150 ns a cell.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -64,24 +65,24 @@ Traffic step_traffic(const mesh::Mesh<3>& mesh, const dynamics::BoundaryReconstr
     const double faces = per_cell(static_cast<std::size_t>(mesh.n_faces())), slots = per_cell(mesh.cell_faces.values.size());
     const double stencils = faces - per_cell(mesh.boundary_faces.size());
     const double boundary_rows = per_cell(boundary.weights.size()) * (id + tensor);
-    const double cell_data = slots * 2 * id + id + 6 * number;  // slots, their offset, 1/|c|, Lame, x_c
+    const double cell_data = slots * 2 * id + id + 6 * number;                    // slots, their offset, 1/|c|, Lame, x_c
     const double constant = faces * (2 * id + 4 * (id + number)) + boundary_rows  // reconstruction: sides, stencils, R
                             + cell_data + faces * vector                          // gradients: area vectors
                             + faces * 4 * number                                  // jumps: x_f, k_f
                             + stencils * 4 * (id + number) + id + boundary_rows;  // cell gradients: transposed stencils, R^T
-    const double again = faces * 2 * id + 6 * number        // jumps: sides, x_c
-                         + cell_data + faces * 4 * number   // stresses
-                         + faces * (2 * id + vector);       // face forces: sides, area vectors
-    const double work = 4 * lane + 2 * faces * lane    // u: written and read by reconstruction, gradients, jumps; relative
-                        + 3 * tensor                   // g: jumps and stresses read it
-                        + 2 * faces * lane             // jump forces
-                        + 2 * tensor + 2 * lane        // S, direct part
-                        + 2 * faces * lane;            // face forces
-    const double state = 4 * vector      // q^{n+1}: q, p, 1/m; written
-                         + 3 * vector    // midpoint: both q; written
-                         + 2 * vector    // loaded; result
-                         + 2 * vector    // sign
-                         + 3 * vector;   // momentum: p, F; written
+    const double again = faces * 2 * id + 6 * number                              // jumps: sides, x_c
+                         + cell_data + faces * 4 * number                         // stresses
+                         + faces * (2 * id + vector);                             // face forces: sides, area vectors
+    const double work = 4 * lane + 2 * faces * lane  // u: written and read by reconstruction, gradients, jumps; relative
+                        + 3 * tensor                 // g: jumps and stresses read it
+                        + 2 * faces * lane           // jump forces
+                        + 2 * tensor + 2 * lane      // S, direct part
+                        + 2 * faces * lane;          // face forces
+    const double state = 4 * vector                  // q^{n+1}: q, p, 1/m; written
+                         + 3 * vector                // midpoint: both q; written
+                         + 2 * vector                // loaded; result
+                         + 2 * vector                // sign
+                         + 3 * vector;               // momentum: p, F; written
     return {constant + again + work + state, constant + state};
 }
 
@@ -110,7 +111,8 @@ Result measure(double size, const Choices& choices) {
     solid.stiffness_product(x, ours);
     matrix.multiply(x_rows, y_rows);
     y_eigen.noalias() = scalar * x_eigen;
-    const double difference = std::max(relative_difference(ours, theirs), relative_difference(ours, {y_eigen.data(), x.size()}));
+    const double difference =
+        std::max(relative_difference(ours, theirs), relative_difference(ours, {y_eigen.data(), x.size()}));
     benchmark::require_small("stiffness product, matrix-free against assembled", difference, 1e-12);
 
     dynamics::Memm<dynamics::Solid<3>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
@@ -120,9 +122,18 @@ Result measure(double size, const Choices& choices) {
         {[&] { integrator.step(); }, [&] { solid.stiffness_product(x, ours); }, [&] { matrix.multiply(x_rows, y_rows); },
          [&] { y_eigen.noalias() = scalar * x_eigen; }, [&] { triad.run(); }});
     const double rows = mesh.n_cells();
-    return {mesh.n_cells(), static_cast<double>(matrix.n_blocks()) / rows, static_cast<double>(matrix.bytes()), difference,
-            std::move(samples[0]), std::move(samples[1]), std::move(samples[2]), std::move(samples[3]), std::move(samples[4]),
-            product_bytes(matrix), triad.bytes(), step_traffic(mesh, solid.ccg().boundary())};
+    return {mesh.n_cells(),
+            static_cast<double>(matrix.n_blocks()) / rows,
+            static_cast<double>(matrix.bytes()),
+            difference,
+            std::move(samples[0]),
+            std::move(samples[1]),
+            std::move(samples[2]),
+            std::move(samples[3]),
+            std::move(samples[4]),
+            product_bytes(matrix),
+            triad.bytes(),
+            step_traffic(mesh, solid.ccg().boundary())};
 }
 
 nlohmann::json to_json(const Result& r) {
@@ -130,23 +141,28 @@ nlohmann::json to_json(const Result& r) {
     const auto nanoseconds_a_cell = [&](const benchmark::Samples& s) {
         return nlohmann::json{{"least", 1e9 * s.least() / cells}, {"median", 1e9 * s.median() / cells}};
     };
-    const auto gigabytes_a_second = [&](double bytes_a_cell, const benchmark::Samples& s) { return 1e-9 * bytes_a_cell * cells / s.least(); };
-    return {{"cells", r.cells},
-            {"blocks_a_row", r.blocks_a_row},
-            {"matrix_bytes", r.matrix_bytes},
-            {"difference", r.difference},
-            {"ns_a_cell",
-             {{"step", nanoseconds_a_cell(r.step)},
-              {"stiffness_product", nanoseconds_a_cell(r.stiffness)},
-              {"block_product", nanoseconds_a_cell(r.product)},
-              {"eigen_product", nanoseconds_a_cell(r.eigen)}}},
-            {"product_over_step", {{"least", r.product.least() / r.step.least()}, {"median", r.product.median() / r.step.median()}}},
-            {"bytes_a_cell", {{"step_touched", r.traffic.touched}, {"step_from_memory", r.traffic.memory}, {"block_product", r.product_bytes}}},
-            {"GB_a_second",
-             {{"step_touched", gigabytes_a_second(r.traffic.touched, r.step)},
-              {"step_from_memory", gigabytes_a_second(r.traffic.memory, r.step)},
-              {"block_product", gigabytes_a_second(r.product_bytes, r.product)},
-              {"triad", 1e-9 * r.triad_bytes / r.triad.least()}}}};
+    const auto gigabytes_a_second = [&](double bytes_a_cell, const benchmark::Samples& s) {
+        return 1e-9 * bytes_a_cell * cells / s.least();
+    };
+    return {
+        {"cells", r.cells},
+        {"blocks_a_row", r.blocks_a_row},
+        {"matrix_bytes", r.matrix_bytes},
+        {"difference", r.difference},
+        {"ns_a_cell",
+         {{"step", nanoseconds_a_cell(r.step)},
+          {"stiffness_product", nanoseconds_a_cell(r.stiffness)},
+          {"block_product", nanoseconds_a_cell(r.product)},
+          {"eigen_product", nanoseconds_a_cell(r.eigen)}}},
+        {"product_over_step",
+         {{"least", r.product.least() / r.step.least()}, {"median", r.product.median() / r.step.median()}}},
+        {"bytes_a_cell",
+         {{"step_touched", r.traffic.touched}, {"step_from_memory", r.traffic.memory}, {"block_product", r.product_bytes}}},
+        {"GB_a_second",
+         {{"step_touched", gigabytes_a_second(r.traffic.touched, r.step)},
+          {"step_from_memory", gigabytes_a_second(r.traffic.memory, r.step)},
+          {"block_product", gigabytes_a_second(r.product_bytes, r.product)},
+          {"triad", 1e-9 * r.triad_bytes / r.triad.least()}}}};
 }
 
 void print(const nlohmann::json& r) {
@@ -154,26 +170,32 @@ void print(const nlohmann::json& r) {
     fmt::print("{} cells, {:.1f} blocks a row, matrix {:.0f} MB, largest relative difference of the answers {:.1e}\n",
                r.at("cells").get<int>(), number("/blocks_a_row"), 1e-6 * number("/matrix_bytes"), number("/difference"));
     for (const char* name : {"step", "stiffness_product", "block_product", "eigen_product"})
-        fmt::print("  {:<18} {:8.1f} ns a cell (median {:.1f})\n", name, number(fmt::format("/ns_a_cell/{}/least", name).c_str()),
+        fmt::print("  {:<18} {:8.1f} ns a cell (median {:.1f})\n", name,
+                   number(fmt::format("/ns_a_cell/{}/least", name).c_str()),
                    number(fmt::format("/ns_a_cell/{}/median", name).c_str()));
-    fmt::print("  block product / step: {:.2f} (median {:.2f})\n", number("/product_over_step/least"), number("/product_over_step/median"));
-    fmt::print("  step: {:.0f} bytes a cell touched, {:.1f} GB/s; {:.0f} from memory, {:.1f} GB/s\n", number("/bytes_a_cell/step_touched"),
-               number("/GB_a_second/step_touched"), number("/bytes_a_cell/step_from_memory"), number("/GB_a_second/step_from_memory"));
-    fmt::print("  block product: {:.0f} bytes a cell, {:.1f} GB/s; triad {:.1f} GB/s\n", number("/bytes_a_cell/block_product"),
-               number("/GB_a_second/block_product"), number("/GB_a_second/triad"));
+    fmt::print("  block product / step: {:.2f} (median {:.2f})\n", number("/product_over_step/least"),
+               number("/product_over_step/median"));
+    fmt::print("  step: {:.0f} bytes a cell touched, {:.1f} GB/s; {:.0f} from memory, {:.1f} GB/s\n",
+               number("/bytes_a_cell/step_touched"), number("/GB_a_second/step_touched"),
+               number("/bytes_a_cell/step_from_memory"), number("/GB_a_second/step_from_memory"));
+    fmt::print("  block product: {:.0f} bytes a cell, {:.1f} GB/s; triad {:.1f} GB/s\n",
+               number("/bytes_a_cell/block_product"), number("/GB_a_second/block_product"), number("/GB_a_second/triad"));
 }
 
 int run(int argc, char** argv) {
     Choices choices;
     CLI::App app{"Matrix-free bulk step against the product with the assembled matrix."};
     app.option_defaults()->always_capture_default();
-    app.add_option("--size", choices.sizes, "edge lengths of the cells of a cylinder of radius and length 1 [m]")->delimiter(',');
-    app.add_option("--repetitions", choices.repetitions, "rounds; the least and the median are shown")->check(CLI::PositiveNumber);
+    app.add_option("--size", choices.sizes, "edge lengths of the cells of a cylinder of radius and length 1 [m]")
+        ->delimiter(',');
+    app.add_option("--repetitions", choices.repetitions, "rounds; the least and the median are shown")
+        ->check(CLI::PositiveNumber);
     app.add_option("--threads", choices.threads, "of the matrix-free step; the product has one")->check(CLI::PositiveNumber);
     app.add_option("--json", choices.json, "file for the result");
     CLI11_PARSE(app, argc, argv);
 
-    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(choices.threads));
+    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(choices.threads));
     nlohmann::json result = benchmark::circumstances(argc, argv);
     for (const double size : choices.sizes) {
         result["results"].push_back(to_json(measure(size, choices)));
@@ -185,11 +207,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "benchmark_bulk_step: {}\n", error.what());
-        return 1;
-    }
-}
+int main(int argc, char** argv) { return abut::benchmark::main(argc, argv, run); }

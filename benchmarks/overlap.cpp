@@ -76,7 +76,7 @@ geometry::SharedArea<Dim> area_of(const FacePair<Dim>& pair, AreaMethod method) 
 }
 
 struct Difference {
-    double area = 0.0;        ///< faces have sizes of about 1
+    double area = 0.0;  ///< faces have sizes of about 1
     double derivative = 0.0;
 };
 
@@ -87,7 +87,8 @@ Difference largest_difference(std::span<const FacePair<Dim>> pairs) {
         const auto fast = area_of(pair, AreaMethod::fast), exact = area_of(pair, AreaMethod::exact);
         largest.area = std::max(largest.area, std::abs(fast.area - exact.area));
         // where nothing but round-off is shared, the two may disagree on which side of "nothing" they are
-        if (std::min(fast.area, exact.area) > 1e-12) largest.derivative = std::max(largest.derivative, (fast.shift_derivative - exact.shift_derivative).norm());
+        if (std::min(fast.area, exact.area) > 1e-12)
+            largest.derivative = std::max(largest.derivative, (fast.shift_derivative - exact.shift_derivative).norm());
     }
     return largest;
 }
@@ -108,16 +109,21 @@ nlohmann::json measure(std::size_t n, std::size_t n_exact, int repetitions) {
     benchmark::require_small("derivative of the area, fast against exact", difference.derivative, 1e-12);
 
     volatile double sink = 0.0;
-    const auto samples = benchmark::time_in_turn(
-        repetitions, benchmark::Clock::processor,
-        {[&] { sink = sum_of_areas<Dim>(all, AreaMethod::fast); }, [&] { sink = sum_of_areas<Dim>(few, AreaMethod::exact); }});
-    const auto nanoseconds = [&](const benchmark::Samples& s, std::size_t count) { return 1e9 * s.least() / static_cast<double>(count); };
-    nlohmann::json result{{"dim", Dim},
-                          {"pairs", n},
-                          {"difference", {{"area", difference.area}, {"derivative", difference.derivative}}},
-                          {"ns_a_pair", {{"fast", nanoseconds(samples[0], n)}, {"exact", nanoseconds(samples[1], few.size())}}}};
-    fmt::print("{}D, {} pairs: fast {:.1f} ns a pair, exact {:.0f}; largest difference of areas {:.1e}, of derivatives {:.1e}\n", Dim, n,
-               result["ns_a_pair"]["fast"].get<double>(), result["ns_a_pair"]["exact"].get<double>(), difference.area, difference.derivative);
+    const auto samples = benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
+                                                 {[&] { sink = sum_of_areas<Dim>(all, AreaMethod::fast); },
+                                                  [&] { sink = sum_of_areas<Dim>(few, AreaMethod::exact); }});
+    const auto nanoseconds = [&](const benchmark::Samples& s, std::size_t count) {
+        return 1e9 * s.least() / static_cast<double>(count);
+    };
+    nlohmann::json result{
+        {"dim", Dim},
+        {"pairs", n},
+        {"difference", {{"area", difference.area}, {"derivative", difference.derivative}}},
+        {"ns_a_pair", {{"fast", nanoseconds(samples[0], n)}, {"exact", nanoseconds(samples[1], few.size())}}}};
+    fmt::print(
+        "{}D, {} pairs: fast {:.1f} ns a pair, exact {:.0f}; largest difference of areas {:.1e}, of derivatives {:.1e}\n",
+        Dim, n, result["ns_a_pair"]["fast"].get<double>(), result["ns_a_pair"]["exact"].get<double>(), difference.area,
+        difference.derivative);
     return result;
 }
 
@@ -129,7 +135,8 @@ int run(int argc, char** argv) {
     CLI::App app{"Shared area of two faces: fast against exact."};
     app.option_defaults()->always_capture_default();
     app.add_option("--pairs", counts, "numbers of pairs")->delimiter(',')->check(CLI::PositiveNumber);
-    app.add_option("--exact", n_exact, "pairs that are compared, and timed with the exact method, at most")->check(CLI::PositiveNumber);
+    app.add_option("--exact", n_exact, "pairs that are compared, and timed with the exact method, at most")
+        ->check(CLI::PositiveNumber);
     app.add_option("--repetitions", repetitions, "rounds; the least is shown")->check(CLI::PositiveNumber);
     app.add_option("--json", json, "file for the result");
     CLI11_PARSE(app, argc, argv);
@@ -145,11 +152,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "benchmark_overlap: {}\n", error.what());
-        return 1;
-    }
-}
+int main(int argc, char** argv) { return abut::benchmark::main(argc, argv, run); }

@@ -43,7 +43,8 @@ std::vector<Displacement> face_displacements(const mesh::Mesh<3>& mesh, const dy
     std::vector<Displacement> forms(static_cast<std::size_t>(mesh.n_faces()));
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
         if (!mesh.is_boundary(f))
-            for (int j = 0; j < 4; ++j) forms[f].add(ccg.stencils()[f].cells[j], ccg.stencils()[f].weights[j] * Block::Identity());
+            for (int j = 0; j < 4; ++j)
+                forms[f].add(ccg.stencils()[f].cells[j], ccg.stencils()[f].weights[j] * Block::Identity());
     const auto& boundary = ccg.boundary();
     for (std::int32_t b = 0; b < boundary.size(); ++b)
         for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
@@ -178,16 +179,19 @@ inline void add_column(Four& y, const double* column, double x) {
 
 }  // namespace
 
-AssembledMatrix::AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const dynamics::Material> materials, const dynamics::Ccg<3>& ccg) {
+AssembledMatrix::AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const dynamics::Material> materials,
+                                 const dynamics::Ccg<3>& ccg) {
     const auto faces = face_displacements(mesh, ccg);
     std::vector<Gradient> gradients;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) gradients.push_back(cell_gradient(mesh, c, faces));
     std::vector<Term<3>> jumps;
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
-        if (!mesh.is_boundary(f)) jumps.push_back(jump_term(mesh, f, gradients, materials[mesh.cell_body[mesh.face_cells[f][0]]].stabilisation()));
+        if (!mesh.is_boundary(f))
+            jumps.push_back(jump_term(mesh, f, gradients, materials[mesh.cell_body[mesh.face_cells[f][0]]].stabilisation()));
     std::vector<Term<9>> elastic;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
-        elastic.push_back(elastic_term(std::move(gradients[c]), elasticity(materials[mesh.cell_body[c]]), mesh.cell_measure[c]));
+        elastic.push_back(
+            elastic_term(std::move(gradients[c]), elasticity(materials[mesh.cell_body[c]]), mesh.cell_measure[c]));
 
     const Uses of_elastic(mesh.n_cells(), elastic), of_jumps(mesh.n_cells(), jumps);
     Row row(mesh.n_cells());
@@ -220,7 +224,8 @@ void AssembledMatrix::multiply(std::span<const Vector<3>> x, std::span<Vector<3>
 Eigen::SparseMatrix<double, Eigen::RowMajor> AssembledMatrix::scalar_matrix() const {
     const auto n = 3 * n_rows();
     Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(n, n);
-    matrix.reserve(Eigen::VectorXi::NullaryExpr(n, [&](Eigen::Index i) { return static_cast<int>(3 * (offsets_[i / 3 + 1] - offsets_[i / 3])); }));
+    matrix.reserve(Eigen::VectorXi::NullaryExpr(
+        n, [&](Eigen::Index i) { return static_cast<int>(3 * (offsets_[i / 3 + 1] - offsets_[i / 3])); }));
     for (std::int64_t row = 0; row < n_rows(); ++row)
         for (int i = 0; i < 3; ++i)
             for (std::int64_t k = offsets_[row]; k < offsets_[row + 1]; ++k)

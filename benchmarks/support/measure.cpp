@@ -77,14 +77,19 @@ nlohmann::json circumstances(int argc, char** argv) {
     std::string command = base_name(argv[0]);
     for (int i = 1; i < argc; ++i) command += std::string(" ") + argv[i];
     return {{"commit", commit()},
-            {"machine", {{"processor", processor("model name")}, {"cache", processor("cache size")}, {"cores", std::thread::hardware_concurrency()}}},
-            {"compiler", {{"version", __VERSION__}, {"avx2",
+            {"machine",
+             {{"processor", processor("model name")},
+              {"cache", processor("cache size")},
+              {"cores", std::thread::hardware_concurrency()}}},
+            {"compiler",
+             {{"version", __VERSION__},
+              {"avx2",
 #ifdef __AVX2__
-                                                     true
+               true
 #else
-                                                     false
+               false
 #endif
-                                                    }}},
+              }}},
             {"command", command},
             {"time", time_of_day()}};
 }
@@ -103,12 +108,23 @@ void write(const nlohmann::json& result, const std::string& file) {
     if (file.empty()) return;
     std::ofstream stream(file);
     stream << result.dump(2) << '\n';
-    if (!stream.flush()) throw std::runtime_error(file + ": cannot be written. Give --json a file in a folder that exists and is writable.");
+    if (!stream.flush())
+        throw std::runtime_error(file + ": cannot be written. Give --json a file in a folder that exists and is writable.");
+}
+
+int main(int argc, char** argv, int (*run)(int argc, char** argv)) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: {}\n", base_name(argv[0]), error.what());
+        return 1;
+    }
 }
 
 void require_small(const std::string& what, double difference, double limit) {
     if (difference <= limit) return;
-    throw std::runtime_error(fmt::format("{}: the answers differ by {:.2e}, {:.0e} is allowed: nothing is timed.", what, difference, limit));
+    throw std::runtime_error(
+        fmt::format("{}: the answers differ by {:.2e}, {:.0e} is allowed: nothing is timed.", what, difference, limit));
 }
 
 }  // namespace abut::benchmark

@@ -32,7 +32,8 @@ template <class Work>
 
 /// Runs all works in turn, again and again, so that whatever else the machine does meets all of them alike. The first
 /// round warms caches and is not counted.
-[[nodiscard]] std::vector<Samples> time_in_turn(int repetitions, Clock clock, const std::vector<std::function<void()>>& works);
+[[nodiscard]] std::vector<Samples> time_in_turn(int repetitions, Clock clock,
+                                                const std::vector<std::function<void()>>& works);
 
 /// What a result is worth nothing without: commit, machine, compiler, command, time of day.
 [[nodiscard]] nlohmann::json circumstances(int argc, char** argv);
@@ -50,6 +51,9 @@ private:
 
 /// Writes `result` to a file; an empty name writes nothing. Throws std::runtime_error naming the file.
 void write(const nlohmann::json& result, const std::string& file);
+
+/// Body of every main function: calls `run`; a message on standard error and 1 if it throws.
+int main(int argc, char** argv, int (*run)(int argc, char** argv));
 
 /// Throws std::runtime_error with the figure unless difference <= limit: a benchmark of a wrong answer is worthless.
 void require_small(const std::string& what, double difference, double limit);
