@@ -1,6 +1,7 @@
 #include "abut/geometry/convex_distance.hpp"
 
 #include <ccd/ccd.h>
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace {
 static_assert(std::is_same_v<ccd_real_t, double>, "libccd must be the double build: the single one fails its checks silently");
 
 constexpr int max_iterations = 200;
+constexpr std::size_t few_points = 16;  // two hexahedra
 
 // A convex body of about unit size. In 2D it lies in the plane z = 0 and `half_thickness` can make a prism of it.
 struct Body {
@@ -174,6 +176,19 @@ std::vector<Vector<3>> penetration_directions(Bodies bodies, bool is_plane) {
     return {ccd_direction(bodies, ccdGJKPenetration), ccd_direction(bodies, ccdMPRPenetration)};
 }
 
+// Every direction that can be that of the least depth of two polytopes: the normals of faces and of pairs of edges. Which
+// pairs of points are edges is not known, so all are taken; one that is none does no harm.
+std::vector<Vector<3>> normals_of_edges(const Bodies& bodies, bool is_plane) {
+    std::vector<Vector<3>> edges, normals;
+    for (const Body* body : {&bodies.body_1, &bodies.body_2})
+        for (std::size_t i = 0; i < body->points.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) edges.push_back(body->points[i] - body->points[k]);
+    if (is_plane) edges.push_back(Vector<3>::UnitZ());
+    for (std::size_t i = is_plane ? edges.size() - 1 : 1; i < edges.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) normals.push_back(edges[i].cross(edges[k]));
+    return normals;
+}
+
 struct Best {
     double separation = -std::numeric_limits<double>::infinity();
     Vector<3> direction = Vector<3>::Zero();
@@ -214,6 +229,8 @@ ConvexProximity<Dim> convex_proximity(std::span<const Vector<Dim>> body_1, std::
     if (best.separation <= 0.0)
         for (const Vector<3>& proposal : penetration_directions(bodies, is_plane)) improve(best, bodies, proposal, is_plane);
     refine(best, bodies, is_plane);
+    if (best.separation < 0.0 && body_1.size() + body_2.size() <= few_points)
+        for (const Vector<3>& proposal : normals_of_edges(bodies, is_plane)) improve(best, bodies, proposal, is_plane);
     const Vector<Dim> direction = best.direction.head<Dim>();
     return {std::max(best.separation, 0.0) * unit, std::max(-best.separation, 0.0) * unit, direction};
 }

@@ -106,6 +106,21 @@ TEST_CASE("moving body 2 by the depth along the direction parts any two bodies, 
     CHECK(interlocked > 20);
 }
 
+TEST_CASE("two tetrahedra whose edges cross have the depth along the common normal of these edges", "[convex_distance]") {
+    // Edges along x and y, at heights 0 and -depth, each the top (bottom) of a wedge: no face is as near as the edges are.
+    const double depth = GENERATE(1e-3, 0.1, 0.3);
+    std::mt19937 random(4);
+    for (int trial = 0; trial < 20; ++trial) {
+        CAPTURE(depth, trial);
+        const Matrix<3> turn = random_turn(random);
+        const Points low = {{-1, 0, 0}, {1, 0, 0}, {0, 1, -2}, {0, -1, -2}};
+        const Points high = {{0.1, -1, -depth}, {0.1, 1, -depth}, {1.1, 0, 2}, {-0.9, 0, 2}};
+        const ConvexProximity<3> result = proximity(moved(low, turn, {1, 2, 3}), moved(high, turn, {1, 2, 3}));
+        CHECK(result.depth == Approx(depth).epsilon(1e-11));
+        CHECK((result.direction - turn.col(2)).norm() < 1e-11);
+    }
+}
+
 TEST_CASE("2D: squares and a segment", "[convex_distance][2d]") {
     const std::vector<Vector<2>> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const auto moved_square = [&](double x, double y) {
