@@ -1,5 +1,6 @@
 #include "abut/mesh/file.hpp"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -28,23 +29,33 @@ void make_directory(const std::filesystem::path& directory) {
                         ". Choose another one or change its permissions.");
 }
 
-std::filesystem::path temporary_beside(const std::filesystem::path& path) {
-    return path.parent_path() / (std::string(".") + path.stem().string() + ".part" + path.extension().string());
+PreparedFile::PreparedFile(std::filesystem::path path)
+    : path_(std::move(path)), temporary_(path_.parent_path() / ("." + path_.stem().string() + ".part" + path_.extension().string())) {}
+
+PreparedFile::~PreparedFile() {
+    std::error_code ignored;
+    if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
 }
 
-void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+void PreparedFile::move_into_place() {
     std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) throw MeshError(path.string() + ": cannot be written: " + error.message() + ". Check permissions and free space of its folder.");
+    std::filesystem::rename(temporary_, path_, error);
+    if (error)
+        throw MeshError(path_.string() + ": cannot be written: " + error.message() + ". Check permissions and free space of its folder.");
+    temporary_.clear();
 }
 
-void write_file_atomically(const std::filesystem::path& path, const std::string& text) {
-    const auto temporary = temporary_beside(path);
-    std::ofstream file(temporary, std::ios::binary);
+PreparedFile prepared_text(const std::filesystem::path& path, const std::string& text) {
+    PreparedFile prepared(path);
+    errno = 0;
+    std::ofstream file(prepared.temporary(), std::ios::binary);
     file << text;
     file.close();
-    if (!file) throw MeshError(path.string() + ": cannot be written. Check permissions and free space of its folder.");
-    move_into_place(temporary, path);
+    if (!file) {
+        const std::string reason = errno != 0 ? std::generic_category().message(errno) : "the folder takes no more";
+        throw MeshError(path.string() + ": cannot be written: " + reason + ". Check permissions and free space of its folder.");
+    }
+    return prepared;
 }
 
 }  // namespace abut::mesh

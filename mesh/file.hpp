@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <utility>
 
 namespace abut::mesh {
 
@@ -10,11 +11,26 @@ namespace abut::mesh {
 /// Makes the folder and its parents. Throws MeshError if that fails.
 void make_directory(const std::filesystem::path& directory);
 
-/// Puts `text` into the file whole or not at all: it is written beside it, then moved there. Throws MeshError.
-void write_file_atomically(const std::filesystem::path& path, const std::string& text);
+/// A file that is prepared under another name (hidden, in the same folder, with the same extension) and then moved into its
+/// place, whole or not at all. What has not been moved is removed in the end, so that a failure leaves nothing behind.
+class PreparedFile {
+public:
+    explicit PreparedFile(std::filesystem::path path);
+    ~PreparedFile();
+    PreparedFile(PreparedFile&& other) noexcept : path_(std::exchange(other.path_, {})), temporary_(std::exchange(other.temporary_, {})) {}
+    PreparedFile& operator=(PreparedFile&&) = delete;
 
-/// Where a file is prepared before `move_into_place`: hidden, in the same folder, with the same extension.
-[[nodiscard]] std::filesystem::path temporary_beside(const std::filesystem::path& path);
-void move_into_place(const std::filesystem::path& temporary, const std::filesystem::path& path);
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// Where to write.
+    [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+    /// Throws MeshError naming the path and the reason.
+    void move_into_place();
+
+private:
+    std::filesystem::path path_, temporary_;
+};
+
+/// Throws MeshError naming the path and the reason if the text cannot be written.
+[[nodiscard]] PreparedFile prepared_text(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace abut::mesh

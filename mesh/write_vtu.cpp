@@ -4,6 +4,7 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -15,12 +16,12 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <array>
-#include <cstdio>
-#include <sstream>
 #include <stdexcept>
+#include <system_error>
 
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/file.hpp"
+#include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/vtk_messages.hpp"
 
@@ -161,21 +162,22 @@ vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, const std::v
 }
 
 template <class Writer>
-void write_grid(vtkDataObject& grid, const Path& path) {
-    const Path temporary = temporary_beside(path);
+PreparedFile prepared_grid(vtkDataObject& grid, const Path& path) {
+    PreparedFile prepared(path);
     const VtkMessages messages;
     vtkNew<Writer> writer;
     writer->SetInputData(&grid);
-    writer->SetFileName(temporary.c_str());
+    writer->SetFileName(prepared.temporary().c_str());
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToZLib();
-    if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !messages.all().empty()) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw MeshError(path.string() + ": cannot be written. Check permissions and free space of its folder.");
-    }
-    move_into_place(temporary, path);
+    const bool is_written = writer->Write() == 1;
+    const auto code = static_cast<int>(writer->GetErrorCode());  // the system's below VTK's own
+    const std::string said = messages.all();
+    if (is_written && code == 0 && said.empty()) return prepared;
+    const std::string reason = code > 0 && code < vtkErrorCode::FirstVTKErrorCode ? std::generic_category().message(code) : said;
+    throw MeshError(path.string() + ": cannot be written: " + (reason.empty() ? "VTK's error " + std::to_string(code) : reason) +
+                    ". Check permissions and free space of its folder.");
 }
 
 /// Mean over the cells around each vertex. Bodies share no vertex, so nothing mixes between them.
@@ -193,19 +195,15 @@ std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, con
 }
 
 std::string frame_name(const std::string& basename, std::size_t frame, const char* extension) {
-    char number[16];
-    std::snprintf(number, sizeof number, "_%06zu", frame);
-    return basename + number + extension;
+    const std::string number = std::to_string(frame);
+    return basename + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + extension;
 }
 
-void write_list(const Path& directory, const std::string& basename, const char* extension, const std::vector<double>& times) {
-    std::ostringstream text;
-    text.precision(17);
-    text << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+PreparedFile prepared_list(const Path& directory, const std::string& basename, const char* extension, const std::vector<double>& times) {
+    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (std::size_t i = 0; i < times.size(); ++i)
-        text << "<DataSet timestep=\"" << times[i] << "\" part=\"0\" file=\"" << frame_name(basename, i, extension) << "\"/>\n";
-    text << "</Collection>\n</VTKFile>\n";
-    write_file_atomically(directory / (basename + ".pvd"), text.str());
+        text += "<DataSet timestep=\"" + exact_number(times[i]) + "\" part=\"0\" file=\"" + frame_name(basename, i, extension) + "\"/>\n";
+    return prepared_text(directory / (basename + ".pvd"), text + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace
@@ -222,8 +220,25 @@ struct VtuSeries<Dim>::Files {
 
     [[nodiscard]] std::size_t n_cells() const { return static_cast<std::size_t>(cells->GetNumberOfCells()); }
     [[nodiscard]] std::size_t n_boundary_faces() const { return static_cast<std::size_t>(surface->GetNumberOfCells()); }
+    [[nodiscard]] std::string surface_name() const { return basename + "_surface"; }
     void add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells, vtkDataSet& of_surface) const;
+    void publish_lists(const std::vector<double>& new_times);
 };
+
+/// Both lists or none: where the second cannot be moved, the first is put back.
+template <int Dim>
+void VtuSeries<Dim>::Files::publish_lists(const std::vector<double>& new_times) {
+    PreparedFile of_cells = prepared_list(directory, basename, ".vtu", new_times);
+    PreparedFile of_surface = prepared_list(directory, surface_name(), ".vtp", new_times);
+    of_cells.move_into_place();
+    try {
+        of_surface.move_into_place();
+    } catch (const MeshError&) {
+        prepared_list(directory, basename, ".vtu", times).move_into_place();
+        throw;
+    }
+    times = new_times;
+}
 
 template <int Dim>
 void VtuSeries<Dim>::Files::add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells, vtkDataSet& of_surface) const {
@@ -266,19 +281,20 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
     add_fields(*cells->GetCellData(), frame.cell_fields, files_->n_cells(), "cells");
     add_fields(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces");
 
-    const std::string on_surface = files_->basename + "_surface";
     auto times = files_->times;
-    write_grid<vtkXMLUnstructuredGridWriter>(*cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"));
-    write_grid<vtkXMLPolyDataWriter>(*surface, files_->directory / frame_name(on_surface, times.size(), ".vtp"));
+    auto of_cells =
+        prepared_grid<vtkXMLUnstructuredGridWriter>(*cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"));
+    auto of_surface =
+        prepared_grid<vtkXMLPolyDataWriter>(*surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"));
+    of_cells.move_into_place();
+    of_surface.move_into_place();
     times.push_back(frame.time);
-    write_list(files_->directory, files_->basename, ".vtu", times);
-    write_list(files_->directory, on_surface, ".vtp", times);
-    files_->times = std::move(times);
+    files_->publish_lists(times);
 }
 
 template <int Dim>
 void write_vtu(const Mesh<Dim>& mesh, const Path& path) {
-    write_grid<vtkXMLUnstructuredGridWriter>(*grid_of_cells(mesh), path);
+    prepared_grid<vtkXMLUnstructuredGridWriter>(*grid_of_cells(mesh), path).move_into_place();
 }
 
 template class VtuSeries<2>;

@@ -46,8 +46,8 @@ public:
     VtuSeries(VtuSeries&&) noexcept;
     VtuSeries& operator=(VtuSeries&&) noexcept;
 
-    /// Throws std::invalid_argument naming the field whose size is wrong, MeshError if a file cannot be written (the series
-    /// then is as before the call).
+    /// Throws std::invalid_argument naming the field whose size is wrong, MeshError if a file cannot be written: the lists are
+    /// then as before the call, and the next call writes the same frame again.
     void write(const Frame<Dim>& frame);
     [[nodiscard]] int n_frames() const;
 

@@ -13,6 +13,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <fstream>
+#include <locale>
 #include <regex>
 
 #include "abut/mesh/write_vtu.hpp"
@@ -46,6 +47,12 @@ std::vector<Listed> list_of(const std::filesystem::path& path) {
 
 std::size_t n_files(const std::filesystem::path& folder) {
     return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+std::size_t n_half_written(const std::filesystem::path& folder) {
+    std::size_t n = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder)) n += file.path().filename().string().find(".part") != std::string::npos;
+    return n;
 }
 
 }  // namespace
@@ -148,7 +155,7 @@ TEST_CASE("a folder that cannot be written is refused", "[mesh][vtu]") {
     std::ofstream(folder / "file") << "in the way";
     CHECK_THROWS_WITH((VtuSeries<2>(folder / "file", "run", mesh)), Contains("file: the folder cannot be made"));
     CHECK_THROWS_AS((VtuSeries<2>(folder / "file/below", "run", mesh)), MeshError);
-    CHECK_THROWS_WITH(write_vtu(mesh, folder / "missing/mesh.vtu"), Contains("mesh.vtu: cannot be written. Check permissions"));
+    CHECK_THROWS_WITH(write_vtu(mesh, folder / "missing/mesh.vtu"), Contains("mesh.vtu: cannot be written: No such file or directory. Check permissions"));
     VtuSeries<2> series(folder / "gone", "run", mesh);
     series.write({});
     std::filesystem::remove_all(folder / "gone");
@@ -156,16 +163,52 @@ TEST_CASE("a folder that cannot be written is refused", "[mesh][vtu]") {
     CHECK(series.n_frames() == 1);
 }
 
-TEST_CASE("a frame that cannot be finished leaves the list of the frames before it", "[mesh][vtu]") {
+TEST_CASE("a frame that cannot be finished leaves the lists of the frames before it, and no half-written file", "[mesh][vtu]") {
     const test::ScratchFolder folder;
     const auto mesh = test::small_box(CellShape::quadrangle);
     VtuSeries<2> series(folder.path(), "run", mesh);
     series.write({.time = 1.0});
-    std::filesystem::create_directories(folder / "run_surface_000001.vtp/in_the_way");
+    // Folders in the way: of a frame's second file, of its first, of the second list, and of where either list is prepared.
+    const std::string obstacle = GENERATE("run_surface_000001.vtp", "run_000001.vtu", "run_surface.pvd", ".run.part.pvd", ".run_surface.part.pvd",
+                                          ".run_surface_000001.part.vtp");
+    CAPTURE(obstacle);
+    const bool is_list = obstacle == "run_surface.pvd";
+    if (is_list) std::filesystem::remove(folder / obstacle);
+    std::filesystem::create_directories(folder / (obstacle + "/in_the_way"));
     CHECK_THROWS_AS(series.write({.time = 2.0}), MeshError);
+    CHECK(series.n_frames() == 1);
     CHECK(list_of(folder / "run.pvd").size() == 1);
-    CHECK(list_of(folder / "run_surface.pvd").size() == 1);
-    std::filesystem::remove_all(folder / "run_surface_000001.vtp");
+    if (!is_list) CHECK(list_of(folder / "run_surface.pvd").size() == 1);
+    std::filesystem::remove_all(folder / obstacle);
+    CHECK(n_half_written(folder.path()) == 0);
     series.write({.time = 2.0});
     CHECK(list_of(folder / "run.pvd").size() == 2);
+    CHECK(list_of(folder / "run_surface.pvd").size() == 2);
+    CHECK(n_files(folder.path()) == 6);
+}
+
+TEST_CASE("numbers in files and messages do not follow the locale of the program", "[mesh][vtu]") {
+    struct Comma : std::numpunct<char> {
+        char do_decimal_point() const override { return ','; }
+        char do_thousands_sep() const override { return '.'; }
+        std::string do_grouping() const override { return "\3"; }
+    };
+    struct GlobalLocale {
+        std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
+        ~GlobalLocale() { std::locale::global(before); }
+    };
+    const test::ScratchFolder folder;
+    const auto mesh = test::small_box(CellShape::quadrangle);
+    const GlobalLocale with_commas;
+    VtuSeries<2> series(folder.path(), "run", mesh);
+    series.write({.time = 1234567.25});
+    series.write({.time = 1.0 / 3.0});
+    CHECK_THROWS_WITH(disc({.radius = -1.5}), Contains("radius is -1.5 m"));
+    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "run_000001.vtu");
+    CHECK(grid->GetNumberOfCells() == mesh.n_cells());
+    std::locale::global(std::locale::classic());
+    const auto listed = list_of(folder / "run.pvd");
+    REQUIRE(listed.size() == 2);
+    CHECK(listed[0].time == 1234567.25);
+    CHECK(listed[1].time == 1.0 / 3.0);
 }
