@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -10,6 +11,8 @@ namespace abut::mesh {
 inline constexpr int n_cell_shapes = 6;
 inline constexpr int max_face_vertices = 4;
 inline constexpr int max_cell_vertices = 8;
+/// So that every count of vertices and faces of cells fits into 32 bits.
+inline constexpr std::int32_t max_cells = std::numeric_limits<std::int32_t>::max() / max_cell_vertices;
 
 /// "triangle", "quadrangle", ...
 [[nodiscard]] std::string_view name(CellShape shape);

@@ -1,5 +1,6 @@
 #include "abut/mesh/connected_bodies.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <unordered_map>
 
@@ -30,13 +31,20 @@ void name_connected_bodies(CellSoup<Dim>& soup) {
             parent[static_cast<std::size_t>(root(parent, vertex))] = root(parent, vertices[0]);
     }
     std::unordered_map<std::int32_t, std::int32_t> body_of_root;
+    int number = 0;
+    const auto next_free_name = [&] {
+        std::string name;
+        do name = std::string("body_") + std::to_string(++number);
+        while (std::find(soup.body_names.begin(), soup.body_names.end(), name) != soup.body_names.end());
+        return name;
+    };
     for (std::int32_t cell = 0; cell < n_cells; ++cell) {
         auto& body = soup.cell_body[static_cast<std::size_t>(cell)];
         if (body >= 0) continue;
         const auto next = static_cast<std::int32_t>(soup.body_names.size());
         const auto [entry, is_new] = body_of_root.emplace(root(parent, soup.cell_vertices[cell][0]), next);
         body = entry->second;
-        if (is_new) soup.body_names.push_back(std::string("body_") + std::to_string(body_of_root.size()));
+        if (is_new) soup.body_names.push_back(next_free_name());
     }
 }
 

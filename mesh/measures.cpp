@@ -2,20 +2,10 @@
 
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/mesh/local_faces.hpp"
 
 namespace abut::mesh {
 namespace {
-
-template <int Dim>
-FaceCorners<Dim> corners_of_local_face(const CellSoup<Dim>& soup, std::int32_t cell, int local_face) {
-    FaceCorners<Dim> corners;
-    const auto vertices = soup.cell_vertices[cell];
-    for (const std::int8_t local : face_vertices(soup.cell_shape[static_cast<std::size_t>(cell)], local_face)) {
-        const auto vertex = static_cast<std::size_t>(vertices[static_cast<std::size_t>(local)]);
-        corners.points[corners.count++] = soup.vertices[vertex];
-    }
-    return corners;
-}
 
 template <int Dim>
 Vector<Dim> mean_vertex(const CellSoup<Dim>& soup, std::int32_t cell) {
@@ -32,7 +22,7 @@ void measure_cell(const CellSoup<Dim>& soup, std::int32_t cell, double& measure,
     measure = 0.0;
     Vector<Dim> moment = Vector<Dim>::Zero();
     for (int i = 0; i < n_faces(soup.cell_shape[static_cast<std::size_t>(cell)]); ++i) {
-        const auto face = corners_of_local_face(soup, cell, i);
+        const auto face = face_corners<Dim>(soup.vertices, local_face(soup, cell, i).view());
         const Vector<Dim> arm = geometry::face_centroid<Dim>(face.view()) - origin;
         const double cone = geometry::face_measure<Dim>(face.view()) * geometry::face_normal<Dim>(face.view()).dot(arm) / Dim;
         measure += cone;

@@ -1,12 +1,16 @@
 #include "abut/mesh/mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
+#include "abut/geometry/box.hpp"
+#include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/reorder.hpp"
@@ -20,14 +24,6 @@ void fill_labels(std::vector<std::int64_t>& labels, std::size_t n) {
     if (!labels.empty()) return;
     labels.resize(n);
     std::iota(labels.begin(), labels.end(), std::int64_t{0});
-}
-
-template <class Value>
-std::vector<Value> permuted(const std::vector<Value>& values, std::span<const std::int32_t> old_index) {
-    std::vector<Value> result;
-    result.reserve(old_index.size());
-    for (const std::int32_t i : old_index) result.push_back(values[static_cast<std::size_t>(i)]);
-    return result;
 }
 
 template <int Dim>
@@ -127,6 +123,7 @@ void append_report(BuildReport& to, const BuildReport& from, std::int32_t n_cell
     to.n_ignored_elements += from.n_ignored_elements;
     to.n_non_planar_faces += from.n_non_planar_faces;
     to.n_cut_cells += from.n_cut_cells;
+    append(to.warnings, from.warnings);
     if (from.worst_planarity <= to.worst_planarity && to.worst_face_cell >= 0) return;
     to.worst_planarity = from.worst_planarity;
     to.worst_face_cell = from.worst_face_cell < 0 ? -1 : from.worst_face_cell + n_cells_before;
@@ -175,6 +172,55 @@ void append_names(Mesh<Dim>& result, std::span<const Mesh<Dim>> meshes) {
     }
 }
 
+template <int Dim>
+void check_names(const Mesh<Dim>& mesh) {
+    std::vector<std::string> groups;
+    for (const BoundaryGroup& group : mesh.groups) groups.push_back(group.name);
+    check_distinct(mesh.name, "bodies", mesh.body_names);
+    check_distinct(mesh.name, "boundary groups", groups);
+}
+
+/// A place on a grid, and whose vertex is there.
+template <int Dim>
+using Place = std::pair<std::array<std::int64_t, Dim>, std::int32_t>;
+
+/// The boundary vertices on a grid of `spacing`, each once for every body, sorted. The grid starts at no round number: what
+/// differs in its last digits comes to one point of it.
+template <int Dim>
+std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, double spacing) {
+    geometry::Box<Dim> box;
+    for (const Vector<Dim>& vertex : mesh.vertices) box.extend(vertex);
+    const Vector<Dim> origin = box.lower.array() - std::numbers::inv_pi * spacing;
+    std::vector<Place<Dim>> places;
+    for (const std::int32_t face : mesh.boundary_faces)
+        for (const std::int32_t vertex : mesh.face_vertices[face]) {
+            Place<Dim> place;
+            for (int i = 0; i < Dim; ++i)
+                place.first[static_cast<std::size_t>(i)] = std::llround((mesh.vertices[static_cast<std::size_t>(vertex)][i] - origin[i]) / spacing);
+            place.second = mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
+            places.push_back(place);
+        }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
+}
+
+template <int Dim>
+std::int32_t count_coincident_vertices(const Mesh<Dim>& mesh) {
+    if (mesh.n_bodies() < 2) return 0;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const std::int32_t face : mesh.boundary_faces)
+        smallest = std::min(smallest, face_size<Dim>(mesh.face_measure[static_cast<std::size_t>(face)]));
+    const auto places = places_of_boundary_vertices(mesh, 1e-6 * smallest);
+    std::int32_t count = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const bool like_the_one_before = i > 0 && places[i - 1].first == places[i].first;
+        const bool like_the_next = i + 1 < places.size() && places[i + 1].first == places[i].first;
+        count += like_the_one_before || like_the_next;
+    }
+    return count;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -190,15 +236,16 @@ const BoundaryGroup& Mesh<Dim>::group(const std::string& group_name) const {
 
 template <int Dim>
 Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
-    if (soup.cell_shape.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max() / 6))
-        throw MeshError(soup.name + ": " + std::to_string(soup.cell_shape.size()) + " cells, at most " +
-                        std::to_string(std::numeric_limits<std::int32_t>::max() / 6) + " are allowed. Coarsen the mesh.");
+    if (soup.cell_shape.size() > static_cast<std::size_t>(max_cells))
+        throw MeshError(soup.name + ": " + std::to_string(soup.cell_shape.size()) + " cells, at most " + std::to_string(max_cells) +
+                        " are allowed. Coarsen the mesh.");
     fill_labels(soup.cell_label, soup.cell_shape.size());
     fill_labels(soup.vertex_label, soup.vertices.size());
     check_soup(soup);
 
     BuildReport report;
     report.n_ignored_elements = soup.n_ignored_elements;
+    report.warnings = soup.warnings;
     handle_non_planar_faces(soup, options, report);
     auto cells = measure_cells(soup);
     check_cells<Dim>(soup, cells.measure);
@@ -211,8 +258,9 @@ Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
 
     Faces faces = find_faces(soup);
     Mesh<Dim> mesh = assemble(std::move(soup), std::move(faces), std::move(cells));
-    mesh.report = report;
-    check_faces(mesh, options);
+    mesh.report = std::move(report);
+    check_faces(mesh);
+    mesh.report.n_coincident_vertices = count_coincident_vertices(mesh);
     return mesh;
 }
 
@@ -229,6 +277,8 @@ Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes) {
         result.name += (result.name.empty() ? "" : "+") + mesh.name;
     }
     result.body_names = std::move(names);
+    check_names(result);
+    result.report.n_coincident_vertices = count_coincident_vertices(result);
     return result;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -9,7 +11,8 @@
 
 namespace abut::mesh {
 
-/// Shape of a cell; the order of its vertices is Gmsh's and VTK's (the two agree for these).
+/// Shape of a cell; the order of its vertices is Gmsh's. VTK's is the same but for prisms, of which VTK documents the two
+/// triangles in the opposite order.
 enum class CellShape : std::uint8_t { triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid };
 
 /// Compressed rows: row i is values[offsets[i] .. offsets[i+1]).
@@ -21,7 +24,11 @@ struct Rows {
     [[nodiscard]] std::span<const std::int32_t> operator[](std::int32_t row) const {
         return {values.data() + offsets[row], static_cast<std::size_t>(offsets[row + 1] - offsets[row])};
     }
+    /// Throws std::length_error rather than count beyond 32 bits.
     void append(std::span<const std::int32_t> row) {
+        if (row.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) - values.size())
+            throw std::length_error("Rows: " + std::to_string(values.size()) + " values and " + std::to_string(row.size()) +
+                                    " more, at most 2147483647 are allowed. Coarsen the mesh.");
         values.insert(values.end(), row.begin(), row.end());
         offsets.push_back(static_cast<std::int32_t>(values.size()));
     }
@@ -37,6 +44,11 @@ struct BoundaryGroup {
 struct BuildReport {
     std::int32_t n_unused_vertices = 0;   ///< vertices of the input that no cell uses, dropped
     std::int32_t n_ignored_elements = 0;  ///< elements of a file that are neither cells nor named boundary faces
+    std::vector<std::string> warnings;    ///< what Gmsh warned of while it read the file
+    /// Boundary vertices at the place of a vertex of another body, up to 1e-6 of the smallest boundary face. More than a few are
+    /// bodies whose meshes match node by node: legal, but such contact is a special case, and often an accident (see `variant`
+    /// in mesh/shapes.hpp).
+    std::int32_t n_coincident_vertices = 0;
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
     double worst_planarity = 0.0;         ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
@@ -102,6 +114,7 @@ struct CellSoup {
     std::vector<std::int64_t> cell_label;            ///< number of a cell in its file, for messages; empty: its index
     std::vector<std::int64_t> vertex_label;          ///< the same for a vertex
     std::int32_t n_ignored_elements = 0;             ///< goes into the report
+    std::vector<std::string> warnings;               ///< goes into the report
 };
 
 /// What to do with a face of four vertices that do not lie in a plane (hexahedra, prisms, pyramids).
@@ -118,13 +131,15 @@ struct MeshOptions {
 
 /// Finds the faces, computes all measures, checks, renumbers. Throws MeshError (mesh/quality.hpp) naming mesh, cell or
 /// face, value, limit and remedy: index out of range, NaN coordinate, zero or negative measure (inverted cell), degenerate
-/// face, face of more than two cells, non-planar face, non-convex face, empty mesh, named face that is no boundary face.
+/// face, face of more than two cells, non-planar face, non-convex face, empty mesh, body without cells, two bodies or two
+/// groups of one name, named face that is no boundary face.
 /// Vertices used by no cell are dropped and counted in the report.
 template <int Dim>
 [[nodiscard]] Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options = {});
 
 /// One mesh of several bodies out of meshes of one or more bodies each. Body and group names get "<name>." in front where
-/// two would clash otherwise.
+/// two would clash otherwise. Nothing is merged: vertices of different bodies at one place stay two, and are counted in
+/// BuildReport::n_coincident_vertices.
 template <int Dim>
 [[nodiscard]] Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes);
 

@@ -83,6 +83,17 @@ void check_cell(const CellSoup<Dim>& soup, std::int32_t cell) {
 }
 
 template <int Dim>
+void check_bodies(const CellSoup<Dim>& soup) {
+    std::vector<std::int32_t> n_cells(soup.body_names.size(), 0);
+    for (const std::int32_t body : soup.cell_body) ++n_cells[static_cast<std::size_t>(body)];
+    for (std::size_t body = 0; body < n_cells.size(); ++body)
+        if (n_cells[body] == 0)
+            throw MeshError(soup.name + ": body '" + soup.body_names[body] + "' has 0 cells of dimension " + std::to_string(Dim) +
+                            ", at least 1 is needed. Mesh it, or leave it out (in Gmsh: its physical group).");
+    check_distinct(soup.name, "bodies", soup.body_names);
+}
+
+template <int Dim>
 void check_named_faces(const CellSoup<Dim>& soup) {
     for (std::size_t i = 0; i < soup.named_faces.size(); ++i) {
         const auto& face = soup.named_faces[i];
@@ -117,15 +128,9 @@ std::string face_of(const Mesh<Dim>& mesh, std::int32_t face) {
 }
 
 template <int Dim>
-void check_face_shape(const Mesh<Dim>& mesh, std::int32_t face, const MeshOptions& options) {
-    const auto f = static_cast<std::size_t>(face);
-    const double size = face_size<Dim>(mesh.face_measure[f]);
+void check_face_is_convex(const Mesh<Dim>& mesh, std::int32_t face) {
+    const double size = face_size<Dim>(mesh.face_measure[static_cast<std::size_t>(face)]);
     const auto corners = face_corners<Dim>(mesh.vertices, mesh.face_vertices[face]);
-    const double allowed = options.planarity_tolerance * size;
-    const double deviation = relative_planarity<Dim>(corners.view()) * size;
-    if (deviation > allowed)
-        throw MeshError(face_of(mesh, face) + " is not planar: a vertex lies " + number(deviation) + " m off its plane, " +
-                        number(allowed) + " m is allowed. Cut its cells or raise MeshOptions::planarity_tolerance.");
     if (corners.count > Dim && !geometry::is_convex<Dim>(corners.view(), 1e-10 * size))
         throw MeshError(face_of(mesh, face) + " is not convex. Give its vertices in order around it, or cut its cells.");
 }
@@ -193,11 +198,21 @@ std::string vertex_list(std::span<const std::int32_t> vertices, const std::vecto
     return list + ")";
 }
 
+void check_distinct(const std::string& mesh_name, const std::string& what, std::vector<std::string> names) {
+    std::sort(names.begin(), names.end());
+    const auto twice = std::adjacent_find(names.begin(), names.end());
+    if (twice != names.end())
+        throw MeshError(mesh_name + ": " + std::to_string(std::count(twice, names.end(), *twice)) + " " + what + " are called '" + *twice +
+                        "', each needs a name of its own. Rename them, or make them one.");
+}
+
 template <int Dim>
 void check_soup(const CellSoup<Dim>& soup) {
     check_sizes(soup);
     check_coordinates(soup);
     for (std::int32_t cell = 0; cell < soup.cell_vertices.size(); ++cell) check_cell(soup, cell);
+    check_bodies(soup);
+    check_distinct(soup.name, "boundary groups", soup.group_names);
     check_named_faces(soup);
     check_bodies_apart(soup);
 }
@@ -217,10 +232,10 @@ void check_cells(const CellSoup<Dim>& soup, std::span<const double> cell_measure
 }
 
 template <int Dim>
-void check_faces(const Mesh<Dim>& mesh, const MeshOptions& options) {
+void check_faces(const Mesh<Dim>& mesh) {
     for (std::int32_t face = 0; face < mesh.n_faces(); ++face) {
         check_face_measure(mesh, face);
-        check_face_shape(mesh, face, options);
+        check_face_is_convex(mesh, face);
     }
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) check_centroid_inside(mesh, cell);
 }
@@ -254,7 +269,7 @@ template void check_soup<2>(const CellSoup<2>&);
 template void check_soup<3>(const CellSoup<3>&);
 template void check_cells<2>(const CellSoup<2>&, std::span<const double>);
 template void check_cells<3>(const CellSoup<3>&, std::span<const double>);
-template void check_faces<2>(const Mesh<2>&, const MeshOptions&);
-template void check_faces<3>(const Mesh<3>&, const MeshOptions&);
+template void check_faces<2>(const Mesh<2>&);
+template void check_faces<3>(const Mesh<3>&);
 
 }  // namespace abut::mesh

@@ -13,13 +13,6 @@ namespace {
 /// In mean distances between centroids.
 inline constexpr double layer_thickness = 1.0;
 
-template <class Value>
-std::vector<Value> permuted(const std::vector<Value>& values, std::span<const std::int32_t> old_index) {
-    std::vector<Value> result(old_index.size());
-    for (std::size_t i = 0; i < old_index.size(); ++i) result[i] = values[static_cast<std::size_t>(old_index[i])];
-    return result;
-}
-
 /// New number of each used vertex, -1 for the others.
 template <int Dim>
 std::vector<std::int32_t> new_vertex_numbers(const CellSoup<Dim>& soup, std::span<const std::int32_t> old_cell, bool by_first_use) {
@@ -118,6 +111,7 @@ CellSoup<Dim> renumbered(const CellSoup<Dim>& soup, std::span<const std::int32_t
     result.group_names = soup.group_names;
     result.named_faces = soup.named_faces;
     result.n_ignored_elements = soup.n_ignored_elements;
+    result.warnings = soup.warnings;
     for (auto& face : result.named_faces)
         for (std::int32_t& vertex : face.vertices) vertex = new_vertex[static_cast<std::size_t>(vertex)];
     return result;

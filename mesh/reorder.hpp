@@ -8,6 +8,15 @@
 
 namespace abut::mesh {
 
+/// values[old_index[0]], values[old_index[1]], ...
+template <class Value>
+[[nodiscard]] std::vector<Value> permuted(const std::vector<Value>& values, std::span<const std::int32_t> old_index) {
+    std::vector<Value> result;
+    result.reserve(old_index.size());
+    for (const std::int32_t i : old_index) result.push_back(values[static_cast<std::size_t>(i)]);
+    return result;
+}
+
 /// Old index of each cell in the new order: bodies one after another, and inside a body row by row and layer by layer across
 /// its longest extent if `by_layers`, else as given. Operators that sweep over the cells several times profit most from
 /// layers: what one sweep has written is needed by the next at most a layer later (docs/performance.md).

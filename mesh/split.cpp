@@ -9,6 +9,7 @@
 
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
@@ -25,13 +26,6 @@ struct Quadrangle {
     double deviation;  ///< from its plane, over the face size
 };
 
-std::vector<std::int32_t> vertices_of_face(const CellSoup<3>& soup, std::int32_t cell, int local_face) {
-    std::vector<std::int32_t> vertices;
-    for (const std::int8_t local : face_vertices(soup.cell_shape[static_cast<std::size_t>(cell)], local_face))
-        vertices.push_back(soup.cell_vertices[cell][static_cast<std::size_t>(local)]);
-    return vertices;
-}
-
 /// Triangles of a face, cut through its smallest vertex, in the face's own sense.
 std::vector<Triangle> triangles(std::span<const std::int32_t> face) {
     const auto n = face.size();
@@ -47,10 +41,9 @@ std::vector<Quadrangle> measured_quadrangles(const CellSoup<3>& soup) {
         const CellShape shape = soup.cell_shape[static_cast<std::size_t>(cell)];
         if (shape == CellShape::tetrahedron) continue;
         for (int i = 0; i < n_faces(shape); ++i) {
-            const auto vertices = vertices_of_face(soup, cell, i);
-            if (vertices.size() != 4) continue;
-            const auto corners = face_corners<3>(soup.vertices, vertices);
-            result.push_back({{vertices[0], vertices[1], vertices[2], vertices[3]}, cell, relative_planarity<3>(corners.view())});
+            const LocalFace face = local_face(soup, cell, i);
+            if (face.count != 4) continue;
+            result.push_back({face.vertices, cell, relative_planarity<3>(face_corners<3>(soup.vertices, face.view()).view())});
         }
     }
     return result;
@@ -60,14 +53,17 @@ std::vector<Quadrangle> measured_quadrangles(const CellSoup<3>& soup) {
                                    const MeshOptions& options) {
     const auto key = [](std::array<std::int32_t, 4> v) { std::sort(v.begin(), v.end()); return v; };
     std::string cells;
+    int n_cells = 0;
     for (const Quadrangle& q : quadrangles)
-        if (key(q.vertices) == key(worst.vertices))
+        if (key(q.vertices) == key(worst.vertices) && ++n_cells > 0)
             cells += std::string(cells.empty() ? "" : "|") + std::to_string(soup.cell_label[static_cast<std::size_t>(q.cell)]);
     const double size = std::sqrt(geometry::face_measure<3>(face_corners<3>(soup.vertices, worst.vertices).view()));
     throw MeshError(soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
                     " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
                     number(options.planarity_tolerance * size) +
-                    " m is allowed. Set MeshOptions::non_planar to NonPlanarFaces::split or raise MeshOptions::planarity_tolerance.");
+                    " m is allowed. Set MeshOptions::non_planar to NonPlanarFaces::split" +
+                    (n_cells > 1 ? ", or raise MeshOptions::planarity_tolerance."
+                                 : "; a larger MeshOptions::planarity_tolerance would not do, contact needs plane boundary faces."));
 }
 
 /// Spreads the mark to all cells that are linked to a marked one through quadrangles.
@@ -99,9 +95,9 @@ void append_tetrahedra(const CellSoup<3>& soup, std::int32_t cell, CellSoup<3>& 
     const auto vertices = soup.cell_vertices[cell];
     const std::int32_t apex = *std::min_element(vertices.begin(), vertices.end());
     for (int local = 0; local < n_faces(soup.cell_shape[i]); ++local) {
-        const auto face = vertices_of_face(soup, cell, local);
-        if (std::find(face.begin(), face.end(), apex) != face.end()) continue;
-        for (const Triangle& t : triangles(face)) {
+        const LocalFace face = local_face(soup, cell, local);
+        if (std::ranges::find(face.view(), apex) != face.view().end()) continue;
+        for (const Triangle& t : triangles(face.view())) {
             // The triangle is counter-clockwise from outside, a tetrahedron's base clockwise.
             const std::array<std::int32_t, 4> tetrahedron = {t[0], t[2], t[1], apex};
             append_cell(result, CellShape::tetrahedron, tetrahedron, soup.cell_body[i], soup.cell_label[i]);

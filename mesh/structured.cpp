@@ -1,8 +1,11 @@
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes.hpp"
@@ -123,14 +126,13 @@ private:
 
     void add_named_faces(const LocalCell& cell) {
         for (int i = 0; i < n_faces(shape_); ++i) {
-            std::vector<std::int32_t> face;
-            for (const std::int8_t local : face_vertices(shape_, i)) face.push_back(cell[static_cast<std::size_t>(local)]);
+            const LocalFace face = local_face(cell, shape_, i);
             for (std::int32_t side = 0; side < 2 * Dim; ++side)
-                if (lies_on(face, side)) soup_.named_faces.push_back({face, side});
+                if (lies_on(face.view(), side)) soup_.named_faces.push_back({{face.view().begin(), face.view().end()}, side});
         }
     }
 
-    bool lies_on(const std::vector<std::int32_t>& face, std::int32_t side) const {
+    bool lies_on(std::span<const std::int32_t> face, std::int32_t side) const {
         const auto axis = static_cast<std::size_t>(side / 2);
         const int wanted = side % 2 == 0 ? 0 : 2 * counts_[axis];
         for (const std::int32_t vertex : face)
@@ -155,6 +157,10 @@ void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::a
         if (!(side > 0.0) || !std::isfinite(side))
             throw MeshError(name + ": the box is " + number(side) + " m long along " + "xyz"[i] + ", a finite length above 0 is needed. Swap lower and upper.");
     }
+    const double bricks = std::accumulate(counts.begin(), counts.end(), 1.0, std::multiplies<>());
+    if (bricks * static_cast<double>(pieces_of_brick(shape).size()) > max_cells)
+        throw MeshError(name + ": " + number(bricks) + " bricks make " + number(bricks * static_cast<double>(pieces_of_brick(shape).size())) +
+                        " cells, at most " + std::to_string(max_cells) + " are allowed. Lower the counts.");
     if (dimension(shape) != Dim)
         throw MeshError(name + ": a " + std::string(abut::mesh::name(shape)) + " cannot fill a box of dimension " + std::to_string(Dim) + ". Choose another shape.");
 }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
@@ -28,21 +29,6 @@ struct HalfFace {
     friend auto operator<=>(const HalfFace&, const HalfFace&) = default;
 };
 
-struct FaceCorners {
-    std::array<std::int32_t, max_face_vertices> vertices;
-    std::size_t count;
-    [[nodiscard]] std::span<const std::int32_t> view() const { return {vertices.data(), count}; }
-};
-
-template <int Dim>
-FaceCorners corners(const CellSoup<Dim>& soup, std::int32_t cell, int local_face) {
-    FaceCorners face{};
-    const auto cell_vertices = soup.cell_vertices[cell];
-    for (const std::int8_t local : face_vertices(soup.cell_shape[static_cast<std::size_t>(cell)], local_face))
-        face.vertices[face.count++] = cell_vertices[static_cast<std::size_t>(local)];
-    return face;
-}
-
 template <int Dim>
 std::vector<std::int32_t> half_face_offsets(const CellSoup<Dim>& soup) {
     std::vector<std::int32_t> offsets(soup.cell_shape.size() + 1, 0);
@@ -66,19 +52,19 @@ void for_each_half_face(const CellSoup<Dim>& soup, Visitor&& visit) {
     std::int32_t half = 0;
     for (std::int32_t cell = 0; cell < soup.cell_vertices.size(); ++cell)
         for (int i = 0; i < n_faces(soup.cell_shape[static_cast<std::size_t>(cell)]); ++i)
-            visit(half++, cell, corners(soup, cell, i));
+            visit(half++, cell, local_face(soup, cell, i));
 }
 
 template <int Dim>
 Buckets bucket_by_smallest_vertex(const CellSoup<Dim>& soup, std::size_t n_half_faces) {
     Buckets buckets{std::vector<std::int32_t>(soup.vertices.size() + 1, 0), std::vector<HalfFace>(n_half_faces)};
-    for_each_half_face(soup, [&](std::int32_t, std::int32_t, const FaceCorners& face) {
+    for_each_half_face(soup, [&](std::int32_t, std::int32_t, const LocalFace& face) {
         const auto view = face.view();
         ++buckets.begin[static_cast<std::size_t>(*std::min_element(view.begin(), view.end())) + 1];
     });
     for (std::size_t v = 0; v + 1 < buckets.begin.size(); ++v) buckets.begin[v + 1] += buckets.begin[v];
     std::vector<std::int32_t> next(buckets.begin.begin(), buckets.begin.end() - 1);
-    for_each_half_face(soup, [&](std::int32_t half, std::int32_t, const FaceCorners& face) {
+    for_each_half_face(soup, [&](std::int32_t half, std::int32_t, const LocalFace& face) {
         const auto key = sorted_key(face.view());
         const auto slot = next[static_cast<std::size_t>(key[0])]++;
         buckets.half_faces[static_cast<std::size_t>(slot)] = {{key[1], key[2], key[3]}, half};
@@ -94,7 +80,7 @@ template <int Dim>
         cells += std::string(cells.empty() ? "" : ", ") +
                  std::to_string(soup.cell_label[static_cast<std::size_t>(cell_of(half.number, offsets))]);
     const std::int32_t cell = cell_of(same[0].number, offsets);
-    const auto face = corners(soup, cell, same[0].number - offsets[static_cast<std::size_t>(cell)]);
+    const auto face = local_face(soup, cell, same[0].number - offsets[static_cast<std::size_t>(cell)]);
     throw MeshError(soup.name + ": face with vertices " + vertex_list(face.view(), soup.vertex_label) + " belongs to " +
                     std::to_string(same.size()) + " cells (" + cells +
                     "), at most 2 are allowed. Remove the overlapping or repeated cells.");
@@ -123,22 +109,28 @@ std::vector<std::int32_t> find_twins(const CellSoup<Dim>& soup, const std::vecto
     return twin;
 }
 
-/// Seen from outside, two neighbours run through the vertices of their face in opposite senses.
-bool opposite_sense(std::span<const std::int32_t> first, std::span<const std::int32_t> second) {
-    if (second.size() == 2) return second[0] == first[1];
-    const auto start = std::find(second.begin(), second.end(), first[0]) - second.begin();
+/// Whether `second` runs through the vertices of `first` one after the other, forwards (+1) or backwards (-1), from wherever.
+bool runs_through(std::span<const std::int32_t> first, std::span<const std::int32_t> second, std::ptrdiff_t sense) {
     const auto n = static_cast<std::ptrdiff_t>(second.size());
-    const auto before = static_cast<std::size_t>((start + n - 1) % n);
-    return second[before] == first[1];
+    const std::ptrdiff_t start = std::find(second.begin(), second.end(), first[0]) - second.begin();
+    for (std::ptrdiff_t k = 0; k < n; ++k)
+        if (second[static_cast<std::size_t>((start + sense * k + n) % n)] != first[static_cast<std::size_t>(k)]) return false;
+    return true;
 }
 
+/// Seen from outside, two neighbours run through the vertices of their face in opposite senses. A face of two vertices has
+/// no sense of its own: there the first vertex of one is the last of the other.
 template <int Dim>
-void check_opposite_sides(const CellSoup<Dim>& soup, std::int32_t cell, std::int32_t neighbour, const FaceCorners& face,
-                          const FaceCorners& as_seen_by_neighbour) {
-    if (opposite_sense(face.view(), as_seen_by_neighbour.view())) return;
-    throw MeshError(soup.name + ": cells " + std::to_string(soup.cell_label[static_cast<std::size_t>(cell)]) + " and " +
-                    std::to_string(soup.cell_label[static_cast<std::size_t>(neighbour)]) +
-                    " lie on the same side of their common face with vertices " + vertex_list(face.view(), soup.vertex_label) +
+void check_opposite_sides(const CellSoup<Dim>& soup, std::int32_t cell, std::int32_t neighbour, const LocalFace& face,
+                          const LocalFace& as_seen_by_neighbour) {
+    const auto first = face.view(), second = as_seen_by_neighbour.view();
+    if (Dim == 2 ? second[0] == first[1] : runs_through(first, second, -1)) return;
+    const std::string cells = soup.name + ": cells " + std::to_string(soup.cell_label[static_cast<std::size_t>(cell)]) + " and " +
+                              std::to_string(soup.cell_label[static_cast<std::size_t>(neighbour)]);
+    if (Dim == 3 && !runs_through(first, second, 1))
+        throw MeshError(cells + " run differently around their common face: " + vertex_list(first, soup.vertex_label) + " and " +
+                        vertex_list(second, soup.vertex_label) + ", its edges must be the same. Give the vertices of both cells in the order of their shapes.");
+    throw MeshError(cells + " lie on the same side of their common face with vertices " + vertex_list(first, soup.vertex_label) +
                     ". Remove the repeated cell, or give the vertices of the inverted one in the order of its shape.");
 }
 
@@ -151,7 +143,7 @@ Faces find_faces(const CellSoup<Dim>& soup) {
     Faces faces;
     faces.cell_faces.offsets = offsets;
     faces.cell_faces.values.resize(twin.size());
-    for_each_half_face(soup, [&](std::int32_t half, std::int32_t cell, const FaceCorners& face) {
+    for_each_half_face(soup, [&](std::int32_t half, std::int32_t cell, const LocalFace& face) {
         const std::int32_t other = twin[static_cast<std::size_t>(half)];
         auto& number = faces.cell_faces.values[static_cast<std::size_t>(half)];
         if (other < 0 || other > half) {
@@ -163,7 +155,7 @@ Faces find_faces(const CellSoup<Dim>& soup) {
         number = faces.cell_faces.values[static_cast<std::size_t>(other)];
         auto& cells = faces.face_cells[static_cast<std::size_t>(number)];
         const int local = other - offsets[static_cast<std::size_t>(cells[0])];
-        check_opposite_sides(soup, cells[0], cell, corners(soup, cells[0], local), face);
+        check_opposite_sides(soup, cells[0], cell, local_face(soup, cells[0], local), face);
         cells[1] = cell;
     });
     return faces;

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "abut/mesh/topology.hpp"
+
 using namespace abut;
 using namespace abut::mesh;
 using Catch::Matchers::Contains;
@@ -88,6 +90,62 @@ TEST_CASE("a face without measure is refused", "[mesh][quality]") {
     CHECK_THAT(complaint(soup), Contains("one.msh: face (2, 3) of cell 0 is degenerate: its measure is 0 m^1"));
 }
 
+TEST_CASE("in 3D, too, a face without measure is refused", "[mesh][quality]") {
+    // Two corners below and the two above them coincide: the hexahedron has the volume of a prism, and one face of its six none.
+    auto corners = test::corners_of(CellShape::hexahedron);
+    corners[1] = corners[0];
+    corners[5] = corners[4];
+    const auto collapsed = complaint(test::one_cell<3>(CellShape::hexahedron, corners));
+    CHECK_THAT(collapsed, Contains("one.msh: face (0, 1, 5, 4) of cell 0 is degenerate: its measure is 0 m^2, more than ") && Contains(" is needed. Merge coinciding vertices"));
+}
+
+TEST_CASE("a body without cells, and bodies or groups of one name are refused", "[mesh][quality]") {
+    auto soup = square();
+    soup.body_names = {"square", "ghost"};
+    CHECK_THAT(complaint(soup), Contains("square.msh: body 'ghost' has 0 cells of dimension 2, at least 1 is needed."));
+    soup = square();
+    for (const Vector<2>& x : {Vector<2>(5, 0), Vector<2>(6, 0), Vector<2>(6, 1)}) soup.vertices.push_back(x);
+    soup.cell_shape.push_back(CellShape::triangle);
+    soup.cell_vertices.append(std::array{4, 5, 6});
+    soup.cell_body.push_back(1);
+    soup.body_names = {"square", "square"};
+    CHECK_THAT(complaint(soup), Contains("square.msh: 2 bodies are called 'square', each needs a name of its own."));
+    soup = square();
+    soup.group_names = {"a", "b", "a"};
+    CHECK_THAT(complaint(soup), Contains("square.msh: 2 boundary groups are called 'a', each needs a name of its own."));
+}
+
+TEST_CASE("rows refuse to count beyond 32 bits", "[mesh][quality]") {
+    Rows rows;
+    rows.append(std::array{1, 2});
+    const std::span<const std::int32_t> too_long(rows.values.data(), std::size_t{1} << 31);
+    CHECK_THROWS_WITH(rows.append(too_long), "Rows: 2 values and 2147483648 more, at most 2147483647 are allowed. Coarsen the mesh.");
+    CHECK(rows.size() == 1);
+    CHECK_THROWS_WITH((structured_box<3>({0, 0, 0}, {1, 1, 1}, {10000, 10000, 10000}, CellShape::hexahedron)),
+                      Contains("box: 1e+12 bricks make 1e+12 cells, at most 268435455 are allowed. Lower the counts."));
+}
+
+TEST_CASE("neighbours that run differently around their common face are refused", "[mesh][quality]") {
+    // The second hexahedron crosses over between two corners of the common face.
+    auto soup = test::one_cell<3>(CellShape::hexahedron, test::corners_of(CellShape::hexahedron));
+    for (const Vector<3>& x : {Vector<3>(2, 0, 0), Vector<3>(2, 1, 0), Vector<3>(2, 0, 1), Vector<3>(2, 1, 1)}) soup.vertices.push_back(x);
+    soup.cell_shape.push_back(CellShape::hexahedron);
+    soup.cell_body.push_back(0);
+    auto good = soup;
+    good.cell_vertices.append(std::array{1, 8, 9, 2, 5, 10, 11, 6});
+    CHECK(complaint(good) == "nothing");
+    for (const auto& bow_tie : {std::array{1, 8, 9, 2, 6, 11, 10, 5}, std::array{2, 9, 8, 1, 5, 10, 11, 6}}) {
+        auto bad = soup;
+        bad.cell_vertices.append(bow_tie);
+        CHECK_THAT(complaint(bad), !Contains("nothing"));
+        // What topology alone says, before any measure.
+        bad.cell_label = {0, 1};
+        bad.vertex_label.resize(bad.vertices.size());
+        std::iota(bad.vertex_label.begin(), bad.vertex_label.end(), 0);
+        CHECK_THROWS_WITH(find_faces(bad), Contains("run differently around their common face: (") && Contains("its edges must be the same."));
+    }
+}
+
 TEST_CASE("a face of three cells is refused", "[mesh][quality]") {
     auto soup = square();
     soup.vertices.push_back({2, 0});
@@ -116,7 +174,7 @@ TEST_CASE("a non-planar face is refused with distance, limit and remedy", "[mesh
     corners[6].z() += 4e-3;
     const auto message = complaint(test::one_cell<3>(CellShape::hexahedron, corners));
     CHECK_THAT(message, Contains("one.msh: face (4, 5, 6, 7) of cell 0 is not planar: a vertex lies 0.00") && Contains("m off its plane, 1e-10 m is allowed.") &&
-                            Contains("MeshOptions::planarity_tolerance"));
+                            Contains("Set MeshOptions::non_planar to NonPlanarFaces::split; a larger MeshOptions::planarity_tolerance would not do"));
     CHECK(complaint(test::one_cell<3>(CellShape::hexahedron, corners), {.planarity_tolerance = 0.01}) == "nothing");
 }
 

@@ -32,4 +32,30 @@ TEST_CASE("clashing names of bodies and groups get the name of their mesh in fro
     CHECK(different.groups[1].name == "b.boundary");
 }
 
+TEST_CASE("vertices of two bodies at one place are counted", "[mesh][combine]") {
+    const auto coincident = [](const Vector<2>& at, int n) {
+        const std::vector<Mesh<2>> two = {structured_box<2>({0, 0}, {1, 1}, {4, 4}, CellShape::triangle, "low"),
+                                          structured_box<2>(at, at + Vector<2>(1, 1), {n, n}, CellShape::triangle, "high")};
+        return combine<2>(two).report.n_coincident_vertices;
+    };
+    CHECK(coincident({0, 1}, 4) == 2 * 5);              // node on node along the whole side
+    CHECK(coincident({0, 1 + 1e-9}, 4) == 2 * 5);       // apart by less than 1e-6 of a face
+    CHECK(coincident({0, 1}, 3) == 2 * 2);              // the corners only
+    CHECK(coincident({0, 1.01}, 4) == 0);
+    CHECK(coincident({0.1, 1}, 4) == 0);
+    CHECK(test::small_box(CellShape::triangle).report.n_coincident_vertices == 0);
+}
+
+TEST_CASE("names that clash even with their meshes in front are refused", "[mesh][combine]") {
+    auto named = [](const std::string& mesh_name, const std::string& body, double at) {
+        auto soup = test::soup_of(structured_box<2>({at, 0}, {at + 1, 1}, {1, 1}, CellShape::triangle, mesh_name));
+        soup.body_names = {body};
+        soup.named_faces.clear();
+        soup.group_names.clear();
+        return build_mesh(soup);
+    };
+    const std::vector<Mesh<2>> three = {named("a", "x", 0), named("b", "x", 2), named("c", "a.x", 4)};
+    CHECK_THROWS_WITH(combine<2>(three), Catch::Contains("a+b+c: 2 bodies are called 'a.x', each needs a name of its own."));
+}
+
 TEST_CASE("nothing combined is an empty mesh", "[mesh][combine]") { CHECK(combine<2>({}).n_cells() == 0); }

@@ -1,0 +1,30 @@
+#pragma once
+// Private to the layer; not installed.
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::mesh {
+
+/// The vertices of one face of a cell, counter-clockwise seen from outside it.
+struct LocalFace {
+    std::array<std::int32_t, max_face_vertices> vertices;
+    std::size_t count = 0;
+    [[nodiscard]] std::span<const std::int32_t> view() const { return {vertices.data(), count}; }
+};
+
+[[nodiscard]] inline LocalFace local_face(std::span<const std::int32_t> cell_vertices, CellShape shape, int face) {
+    LocalFace result{};
+    for (const std::int8_t local : face_vertices(shape, face)) result.vertices[result.count++] = cell_vertices[static_cast<std::size_t>(local)];
+    return result;
+}
+
+template <int Dim>
+[[nodiscard]] LocalFace local_face(const CellSoup<Dim>& soup, std::int32_t cell, int face) {
+    return local_face(soup.cell_vertices[cell], soup.cell_shape[static_cast<std::size_t>(cell)], face);
+}
+
+}  // namespace abut::mesh
