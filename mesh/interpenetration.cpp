@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Box;
 
-/// Cells and their boxes: those of one body that reach into a region.
+/// The cells of one body and their boxes.
 template <int Dim>
 struct BoxedCells {
     std::vector<std::int32_t> cells;
@@ -39,14 +39,6 @@ std::vector<BoxedCells<Dim>> cells_by_body(const Mesh<Dim>& mesh) {
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
         bodies[static_cast<std::size_t>(mesh.cell_body[static_cast<std::size_t>(cell)])].append(cell, box_of(mesh, cell));
     return bodies;
-}
-
-template <int Dim>
-BoxedCells<Dim> reaching_into(const BoxedCells<Dim>& body, const Box<Dim>& region) {
-    BoxedCells<Dim> result;
-    for (std::size_t i = 0; i < body.cells.size(); ++i)
-        if (body.boxes[i].overlaps(region)) result.append(body.cells[i], body.boxes[i]);
-    return result;
 }
 
 template <int Dim>
@@ -101,10 +93,9 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
     std::vector<Interpenetration> found;
     for (std::int32_t body_1 = 0; body_1 < mesh.n_bodies(); ++body_1)
         for (std::int32_t body_2 = body_1 + 1; body_2 < mesh.n_bodies(); ++body_2) {
-            const auto& all_1 = bodies[static_cast<std::size_t>(body_1)];
-            const auto& all_2 = bodies[static_cast<std::size_t>(body_2)];
-            const auto part_1 = reaching_into(all_1, geometry::bounding_box<Dim>(all_2.boxes));
-            const auto part_2 = reaching_into(all_2, geometry::bounding_box<Dim>(all_1.boxes));
+            const auto& part_1 = bodies[static_cast<std::size_t>(body_1)];
+            const auto& part_2 = bodies[static_cast<std::size_t>(body_2)];
+            if (!geometry::bounding_box<Dim>(part_1.boxes).overlaps(geometry::bounding_box<Dim>(part_2.boxes))) continue;
             for (const auto& [i, k] : geometry::overlapping_pairs<Dim>(broad_phase, part_1.boxes, part_2.boxes)) {
                 const std::array cells{part_1.cells[static_cast<std::size_t>(i)], part_2.cells[static_cast<std::size_t>(k)]};
                 if (const auto depth = overlap_depth(mesh, cells[0], cells[1])) found.push_back({{body_1, body_2}, cells, *depth});

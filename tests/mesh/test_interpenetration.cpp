@@ -1,6 +1,13 @@
 #include <catch2/catch.hpp>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -34,6 +41,60 @@ Mesh<Dim> both(const Mesh<Dim>& body_1, const Mesh<Dim>& body_2) {
     return combine<Dim>(std::array{body_1, body_2});
 }
 
+template <int Dim>
+std::vector<Vector<Dim>> points_of(const Mesh<Dim>& mesh, std::int32_t cell) {
+    std::vector<Vector<Dim>> points;
+    for (const std::int32_t vertex : mesh.cell_vertices[cell]) points.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
+    return points;
+}
+
+/// Room between two simplices along one direction, either way; negative where they interlock.
+template <int Dim>
+double room_along(const Vector<Dim>& direction, const std::vector<Vector<Dim>>& a, const std::vector<Vector<Dim>>& b) {
+    const auto range = [&](const std::vector<Vector<Dim>>& points) {
+        double lower = direction.dot(points[0]), upper = lower;
+        for (const auto& p : points) {
+            lower = std::min(lower, direction.dot(p));
+            upper = std::max(upper, direction.dot(p));
+        }
+        return std::pair(lower, upper);
+    };
+    const auto [lower_a, upper_a] = range(a);
+    const auto [lower_b, upper_b] = range(b);
+    return std::max(lower_b - upper_a, lower_a - upper_b) / direction.norm();
+}
+
+/// Separating axes: the room along all normals of edges (2D), of faces and of pairs of edges (3D). Negative: the depth.
+template <int Dim>
+double largest_room(const std::vector<Vector<Dim>>& a, const std::vector<Vector<Dim>>& b) {
+    std::vector<Vector<Dim>> edges, axes;
+    for (const auto* points : {&a, &b})
+        for (std::size_t i = 0; i < points->size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) edges.push_back((*points)[i] - (*points)[k]);
+    if constexpr (Dim == 2) {
+        for (const auto& e : edges) axes.push_back({e.y(), -e.x()});
+    } else {
+        for (const auto& e : edges)
+            for (const auto& f : edges)
+                if (const Vector<3> axis = e.cross(f); axis.norm() > 1e-9) axes.push_back(axis);
+    }
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const auto& axis : axes) largest = std::max(largest, room_along<Dim>(axis, a, b));
+    return largest;
+}
+
+Mesh<3> tetrahedron(const std::vector<Vector<3>>& corners, const std::string& name) {
+    CellSoup<3> soup;
+    soup.name = name;
+    soup.vertices = corners;
+    if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) < 0.0) std::swap(soup.vertices[2], soup.vertices[3]);
+    soup.cell_shape = {CellShape::tetrahedron};
+    soup.cell_vertices.append(std::array{0, 1, 2, 3});
+    soup.cell_body = {0};
+    soup.body_names = {name};
+    return build_mesh(std::move(soup));
+}
+
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each body, whatever the broad phase", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
@@ -49,6 +110,51 @@ TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each 
         CHECK(mesh.cell_body[found[i].cells[0]] == 0);
         CHECK(mesh.cell_body[found[i].cells[1]] == 1);
         CHECK(found[i].depth <= (i == 0 ? 1.0 : found[i - 1].depth));
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("the cells that are found are those that no axis separates", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
+    Vector<Dim> corner = Vector<Dim>::Constant(0.31);
+    corner[0] = 0.73;
+    const auto mesh = both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 2, simplex<Dim>(), "low"), cube<Dim>(corner, 3, simplex<Dim>(), "high"));
+    std::vector<std::array<std::int32_t, 2>> expected;
+    std::vector<double> depths;
+    for (std::int32_t a = 0; a < mesh.n_cells(); ++a)
+        for (std::int32_t b = 0; b < mesh.n_cells(); ++b)
+            if (mesh.cell_body[a] == 0 && mesh.cell_body[b] == 1)
+                if (const double depth = -largest_room(points_of(mesh, a), points_of(mesh, b)); depth > 2e-6) {
+                    expected.push_back({a, b});
+                    depths.push_back(depth);
+                }
+    for (const auto broad_phase : {geometry::BroadPhase::embree, geometry::BroadPhase::fcl, geometry::BroadPhase::brute_force}) {
+        auto found = find_interpenetrations<Dim>(mesh, broad_phase);
+        std::ranges::sort(found, {}, &Interpenetration::cells);
+        REQUIRE(found.size() == expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            CHECK(found[i].cells == expected[i]);
+            CHECK(found[i].depth == Approx(depths[i]).margin(1e-6));
+        }
+    }
+}
+
+TEST_CASE("cells that touch edge to edge, crossed, do not overlap, and a little further they do", "[mesh][interpenetration]") {
+    // The upper edge of one tetrahedron runs along x, the lower edge of the other across it; turned about z and in space.
+    const double gap = GENERATE(0.0, 1e-9, -1e-9, -1e-3);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (int trial = 0; trial < 100; ++trial) {
+        CAPTURE(gap, trial);
+        const double angle = trial == 0 ? 0.5 * std::numbers::pi : std::numbers::pi * (0.5 + 0.4 * number(random)), along = 0.8 * number(random);
+        const Vector<3> across(std::cos(angle), std::sin(angle), 0.0), middle(along, 0.0, gap);
+        const Matrix<3> turn = Eigen::AngleAxisd(trial == 0 ? 0.0 : 3.0 * number(random), Eigen::Vector3d(number(random), number(random), 1.0).normalized()).toRotationMatrix();
+        std::vector<Vector<3>> low = {{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {0, -1, -1}};
+        std::vector<Vector<3>> high = {middle - across, middle + across, middle + Vector<3>(-across.y(), across.x(), 1), middle + Vector<3>(across.y(), -across.x(), 1)};
+        for (auto* points : {&low, &high})
+            for (Vector<3>& x : *points) x = turn * x;
+        const auto mesh = both<3>(tetrahedron(low, "low"), tetrahedron(high, "high"));
+        const auto found = find_interpenetrations<3>(mesh);
+        CHECK(found.size() == (gap < -1e-6 ? 1 : 0));
+        if (!found.empty()) CHECK(found[0].depth == Approx(-gap).epsilon(1e-6));
     }
 }
 
