@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <clocale>
 #include <cmath>
 #include <cstddef>
 #include <exception>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/connected_bodies.hpp"
-#include "abut/mesh/messages.hpp"
+#include "abut/mesh/plane_input.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
@@ -50,20 +52,29 @@ std::vector<ElementBlock> element_blocks(int dimension, int entity) {
     return blocks;
 }
 
-std::int32_t n_elements(int dimension) {
+bool has_elements(int dimension) {
+    std::vector<int> types;
+    gmsh::model::mesh::getElementTypes(types, dimension);
+    return !types.empty();
+}
+
+std::int32_t n_elements(int dimension, int entity = -1) {
     std::size_t count = 0;
-    for (const auto& block : element_blocks(dimension, -1)) count += block.tags.size();
+    for (const auto& block : element_blocks(dimension, entity)) count += block.tags.size();
     return static_cast<std::int32_t>(count);
 }
 
-void check_first_order(const std::string& name, const ElementBlock& block, bool known) {
+void check_first_order(const std::string& name, const ElementBlock& block, bool is_known) {
     std::string type;
     int dimension = 0, order = 0, n_nodes = 0, n_primary = 0;
     std::vector<double> coordinates;
     gmsh::model::mesh::getElementProperties(block.type, type, dimension, order, n_nodes, coordinates, n_primary);
-    if (known && order == 1) return;
-    throw MeshError(name + ": element " + std::to_string(block.tags.front()) + " is a '" + type + "' of order " + std::to_string(order) +
-                    ", straight-sided elements of order 1 are needed. Save the mesh with gmsh -order 1.");
+    const std::string element = name + ": element " + std::to_string(block.tags.front()) + " is a '" + type + "'";
+    if (order != 1)
+        throw MeshError(element + " of order " + std::to_string(order) +
+                        ", straight-sided elements of order 1 are needed. Save the mesh with gmsh -order 1.");
+    if (!is_known)
+        throw MeshError(element + ", cells can be triangles, quadrangles, tetrahedra, hexahedra, prisms and pyramids. Mesh the part with these.");
 }
 
 CellShape shape_of(const std::string& name, const ElementBlock& block) {
@@ -76,34 +87,31 @@ CellShape shape_of(const std::string& name, const ElementBlock& block) {
 class NodeNumbers {
 public:
     explicit NodeNumbers(const std::vector<std::size_t>& tags) {
-        for (std::size_t i = 0; i < tags.size(); ++i) number_.emplace(tags[i], static_cast<std::int32_t>(i));
         const auto largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
-        if (largest > 4 * tags.size() + 1000) return;
-        dense_.assign(largest + 1, -1);
-        for (const auto& [tag, index] : number_) dense_[tag] = index;
+        const bool is_dense = largest <= 4 * tags.size() + 1000;
+        if (is_dense) dense_.assign(largest + 1, -1);
+        for (std::size_t i = 0; i < tags.size(); ++i) {
+            const auto index = static_cast<std::int32_t>(i);
+            if (is_dense) dense_[tags[i]] = index;
+            else sparse_.emplace(tags[i], index);
+        }
     }
     /// -1 for a node that is not there.
     [[nodiscard]] std::int32_t operator()(std::size_t tag) const {
         if (!dense_.empty()) return tag < dense_.size() ? dense_[tag] : -1;
-        const auto found = number_.find(tag);
-        return found == number_.end() ? -1 : found->second;
+        const auto found = sparse_.find(tag);
+        return found == sparse_.end() ? -1 : found->second;
     }
 
 private:
-    std::unordered_map<std::size_t, std::int32_t> number_;
-    std::vector<std::int32_t> dense_;
+    std::vector<std::int32_t> dense_;                          ///< by tag, -1 for none
+    std::unordered_map<std::size_t, std::int32_t> sparse_;  ///< instead, where tags have large gaps
 };
 
-template <int Dim>
-void check_flat(const std::string& name, const std::vector<double>& coordinates) {
-    if constexpr (Dim == 2) {
-        geometry::Box<3> box;
-        for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) box.extend(Vector<3>(coordinates[i], coordinates[i + 1], coordinates[i + 2]));
-        const double allowed = 1e-12 * (box.upper - box.lower).norm();
-        if (coordinates.empty() || !(box.upper.z() - box.lower.z() > allowed)) return;
-        throw MeshError(name + ": z runs from " + number(box.lower.z()) + " to " + number(box.upper.z()) + " m in a mesh of dimension 2, " +
-                        number(allowed) + " m of spread is allowed. Put the mesh into a plane z = constant, or read it as dimension 3.");
-    }
+geometry::Box<3> box_of(const std::vector<double>& coordinates) {
+    geometry::Box<3> box;
+    for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) box.extend(Vector<3>(coordinates[i], coordinates[i + 1], coordinates[i + 2]));
+    return box;
 }
 
 template <int Dim>
@@ -111,7 +119,7 @@ std::vector<std::size_t> read_nodes(CellSoup<Dim>& soup) {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-    check_flat<Dim>(soup.name, coordinates);
+    if (Dim == 2) check_lies_in_plane(soup.name, box_of(coordinates));
     soup.vertices.resize(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i)
         for (std::size_t k = 0; k < Dim; ++k) soup.vertices[i][static_cast<Eigen::Index>(k)] = coordinates[3 * i + k];
@@ -189,20 +197,35 @@ void read_group(CellSoup<Dim>& soup, int tag, const NodeNumbers& number) {
         }
 }
 
+/// Elements that are neither cells nor in a boundary group.
+template <int Dim>
+std::int32_t n_ignored_elements() {
+    std::int32_t count = 0;
+    for (int dimension = 0; dimension < Dim - 1; ++dimension) count += n_elements(dimension);
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, Dim - 1);
+    for (const auto& [dimension, entity] : entities) {
+        std::vector<int> groups;
+        gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
+        if (groups.empty()) count += n_elements(dimension, entity);
+    }
+    return count;
+}
+
 template <int Dim>
 void check_dimension(const std::string& name) {
-    const std::int32_t solid = n_elements(3), flat = n_elements(2);
-    if (Dim == 2 && solid > 0)
-        throw MeshError(name + ": " + std::to_string(solid) + " cells of dimension 3 in what should be a mesh of dimension 2. Read it as dimension 3.");
-    if ((Dim == 2 ? flat : solid) == 0)
-        throw MeshError(name + ": the mesh is empty: 0 cells of dimension " + std::to_string(Dim) + " (and " + std::to_string(flat) +
+    if (Dim == 2 && has_elements(3))
+        throw MeshError(name + ": " + std::to_string(n_elements(3)) +
+                        " cells of dimension 3 in what should be a mesh of dimension 2. Read it as dimension 3.");
+    if (!has_elements(Dim))
+        throw MeshError(name + ": the mesh is empty: 0 cells of dimension " + std::to_string(Dim) + " (and " + std::to_string(n_elements(2)) +
                         " of dimension 2), at least 1 is needed. Mesh the part up to dimension " + std::to_string(Dim) +
                         ", and see that its physical groups hold the cells.");
 }
 
 }  // namespace
 
-GmshSession::GmshSession() : lock_(gmsh_in_use) {
+GmshSession::GmshSession() : lock_(gmsh_in_use), locale_before_(std::setlocale(LC_ALL, nullptr)) {
     gmsh::initialize(0, nullptr, false);
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
@@ -217,16 +240,22 @@ GmshSession::~GmshSession() {
         gmsh::finalize();
     } catch (...) {  // a destructor has nobody to tell
     }
+    std::setlocale(LC_ALL, locale_before_.c_str());
 }
 
-std::string GmshSession::complaints() {
-    std::vector<std::string> log;
+namespace {
+
+std::vector<std::string> logged(const char* level) {
+    std::vector<std::string> log, found;
     gmsh::logger::get(log);
-    std::string joined;
-    for (const std::string& line : log)
-        if (line.starts_with("Error") || line.starts_with("Warning")) joined += std::string(joined.empty() ? "" : "; ") + line;
-    return joined;
+    std::ranges::copy_if(log, std::back_inserter(found), [&](const std::string& line) { return line.starts_with(level); });
+    return found;
 }
+
+}  // namespace
+
+std::vector<std::string> GmshSession::errors() { return logged("Error"); }
+std::vector<std::string> GmshSession::warnings() { return logged("Warning"); }
 
 void GmshSession::run(const std::string& name, const std::string& task, const std::string& remedy, const std::function<void()>& calls) const {
     std::string what;
@@ -242,8 +271,11 @@ void GmshSession::run(const std::string& name, const std::string& task, const st
     } catch (...) {
         what = "unknown error";
     }
-    const std::string logged = complaints();
-    throw MeshError(name + ": " + task + ": Gmsh says: " + (logged.empty() ? what : logged) + ". " + remedy);
+    std::string said;
+    for (const auto& lines : {errors(), warnings()})
+        for (const std::string& line : lines) said += (said.empty() ? "" : "; ") + line;
+    if (said.empty()) said = what;
+    throw MeshError(name + ": " + task + ": Gmsh says: " + said + ". " + remedy);
 }
 
 template <int Dim>
@@ -257,8 +289,7 @@ CellSoup<Dim> soup_of_gmsh_model(const std::string& name) {
     gmsh::vectorpair groups;
     gmsh::model::getPhysicalGroups(groups, Dim - 1);
     for (const auto& [dimension, tag] : groups) read_group(soup, tag, number);
-    for (int dimension = 0; dimension < Dim; ++dimension) soup.n_ignored_elements += n_elements(dimension);
-    soup.n_ignored_elements = std::max(0, soup.n_ignored_elements - static_cast<std::int32_t>(soup.named_faces.size()));
+    soup.n_ignored_elements = n_ignored_elements<Dim>();
     return soup;
 }
 

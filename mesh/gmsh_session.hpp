@@ -2,13 +2,15 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::mesh {
 
 /// Gmsh, initialised, quiet, with one thread and a fixed seed, for as long as this object lives; an empty model is current.
-/// Gmsh has one state a process: a second session waits for the first to end. The host must not hold Gmsh open itself.
+/// Gmsh has one state a process: a second session waits for the first to end. The host must not hold Gmsh open itself. Gmsh
+/// sets the C locale of the process; the session puts back the one it found.
 class GmshSession {
 public:
     GmshSession();
@@ -18,11 +20,13 @@ public:
 
     /// Runs Gmsh calls; whatever they throw becomes a MeshError "<name>: <task>: <Gmsh's errors and warnings>. <remedy>".
     void run(const std::string& name, const std::string& task, const std::string& remedy, const std::function<void()>& calls) const;
-    /// Errors and warnings that Gmsh has logged so far, joined with "; ".
-    [[nodiscard]] static std::string complaints();
+    /// What Gmsh has logged so far: "Error: ...", "Warning: ...".
+    [[nodiscard]] static std::vector<std::string> errors();
+    [[nodiscard]] static std::vector<std::string> warnings();
 
 private:
     std::unique_lock<std::mutex> lock_;
+    std::string locale_before_;
 };
 
 /// The cells of dimension Dim of Gmsh's current model. A body is a physical group of dimension Dim; cells outside any group

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <cstring>
+#include <locale>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,7 @@ struct Header {
 
 Header read_header(const std::string& name, const std::string& contents) {
     std::istringstream start(contents.substr(0, 256));
+    start.imbue(std::locale::classic());
     std::string section;
     Header header;
     int file_type = -1;
@@ -52,6 +55,7 @@ std::uint64_t promised_elements(const Header& header, const std::string& content
         return counts[1];
     }
     std::istringstream line(contents.substr(start, 128));
+    line.imbue(std::locale::classic());
     line >> counts[0];
     if (header.version == "4.1") line >> counts[1];
     return header.version == "4.1" ? counts[1] : counts[0];
@@ -84,10 +88,10 @@ Mesh<Dim> read_gmsh(const std::filesystem::path& path, const MeshOptions& option
     const GmshSession session;
     session.run(name, "cannot be read", "Write the mesh again.", [&] {
         gmsh::merge(name);
-        const std::string complaints = GmshSession::complaints();
-        if (complaints.find("Error") != std::string::npos) throw MeshError(name + ": cannot be read: Gmsh says: " + complaints + ". Write the mesh again.");
+        if (!GmshSession::errors().empty()) throw std::runtime_error("errors, logged");
         check_number_of_elements(name, promised);
         soup = soup_of_gmsh_model<Dim>(name);
+        soup.warnings = GmshSession::warnings();
     });
     return build_mesh(std::move(soup), options);
 }

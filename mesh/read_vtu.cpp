@@ -23,6 +23,7 @@
 #include "abut/mesh/connected_bodies.hpp"
 #include "abut/mesh/file.hpp"
 #include "abut/mesh/messages.hpp"
+#include "abut/mesh/plane_input.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/vtk_messages.hpp"
 
@@ -85,10 +86,7 @@ void read_points(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
         box.extend(point);
         soup.vertices[i] = point.head<Dim>();
     }
-    const double allowed = 1e-12 * (box.upper - box.lower).norm();
-    if (Dim == 3 || box.empty() || !(box.upper.z() - box.lower.z() > allowed)) return;
-    throw MeshError(soup.name + ": z runs from " + number(box.lower.z()) + " to " + number(box.upper.z()) + " m in a mesh of dimension 2, " +
-                    number(allowed) + " m of spread is allowed. Put the mesh into a plane z = constant, or read it as dimension 3.");
+    if (Dim == 2) check_lies_in_plane(soup.name, box);
 }
 
 /// Files hold wedges in both orders: turns a prism that is inside out in ours.
@@ -119,8 +117,9 @@ std::vector<std::int64_t> body_values(const std::string& name, vtkUnstructuredGr
     std::vector<std::int64_t> values;
     for (vtkIdType cell = 0; array != nullptr && cell < array->GetNumberOfTuples(); ++cell) {
         const double value = array->GetComponent(cell, 0);
-        if (value != std::floor(value) || std::abs(value) > 1e9)
-            throw MeshError(name + ": cell " + std::to_string(cell) + " has the body " + number(value) + ", a whole number is needed. Correct the cell array 'body'.");
+        if (value != std::floor(value) || !(std::abs(value) <= 1e9))
+            throw MeshError(name + ": cell " + std::to_string(cell) + " has the body " + number(value) +
+                            ", a whole number between -1e9 and 1e9 is needed. Correct the cell array 'body'.");
         values.push_back(static_cast<std::int64_t>(value));
     }
     return values;

@@ -18,12 +18,22 @@ constexpr double golden_angle = 2.0 * std::numbers::pi * (2.0 - std::numbers::ph
 /// Above this many expected tetrahedra HXT takes over from Gmsh's Delaunay mesher, which needs half a minute there. Not
 /// below: HXT gives another mesh each time it runs, even with one thread and a fixed seed.
 constexpr double many_tetrahedra = 4e5;
-constexpr double tetrahedra_in_size_cubed = 4.6;  // as counted in Gmsh's meshes of cylinders
+constexpr double most_cells = 1e8;  // of what Gmsh can mesh in the memory of one computer
+/// Cells in size^Dim, as counted in Gmsh's meshes: equilateral triangles, tetrahedra of cylinders.
+template <int Dim>
+constexpr double cells_in_unit = Dim == 2 ? 2.3 : 4.6;
 constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1, hxt_3d = 10;
 
 void check_positive(const std::string& name, const char* what, double value) {
     if (value > 0.0 && std::isfinite(value)) return;
     throw MeshError(name + ": " + what + " is " + number(value) + " m, a finite length above 0 is needed. Change the option.");
+}
+
+template <int Dim>
+void check_finite(const std::string& name, const char* what, const Vector<Dim>& point) {
+    for (int i = 0; i < Dim; ++i)
+        if (!std::isfinite(point[i]))
+            throw MeshError(name + ": the " + "xyz"[i] + " coordinate of " + what + " is " + number(point[i]) + ", a finite number is needed. Change the option.");
 }
 
 template <class Options>
@@ -34,6 +44,10 @@ void check_common(const Options& options) {
     if (!options.refinement) return;
     check_positive(options.name, "refinement.size", options.refinement->size);
     check_positive(options.name, "refinement.distance", options.refinement->distance);
+    check_finite(options.name, "refinement.point", options.refinement->point);
+    if (options.refinement->size > options.size)
+        throw MeshError(options.name + ": refinement.size is " + number(options.refinement->size) + " m, at most size = " + number(options.size) +
+                        " m is allowed. Lower it, or leave the refinement out.");
 }
 
 /// Wanted cell size as a function of place.
@@ -59,10 +73,35 @@ void set_size(const SizeField<Dim>& field) {
     });
 }
 
-void choose_algorithms(double volume, double size) {
-    const double tetrahedra = tetrahedra_in_size_cubed * volume / (size * size * size);
+/// About how many cells a part of this volume (area in 2D) gets. Of the refined ball half is taken to lie in the part: its
+/// centre is on the surface as a rule.
+template <int Dim>
+double expected_cells(const SizeField<Dim>& field, double volume) {
+    double units = volume / std::pow(field.size, Dim);
+    if (field.refinement) {
+        constexpr int n_shells = 1000;
+        const double thickness = field.refinement->distance / n_shells;
+        double rest = volume;
+        for (int i = 0; i < n_shells; ++i) {
+            const double radius = (i + 0.5) * thickness;
+            const double half_shell = std::numbers::pi * (Dim == 2 ? radius : 2.0 * radius * radius) * thickness;
+            const double inside = std::min(half_shell, rest);
+            const Vector<Dim> at = field.refinement->point + radius * Vector<Dim>::UnitX();
+            units += inside * (std::pow(field(at), -Dim) - std::pow(field.size, -Dim));
+            rest -= inside;
+        }
+    }
+    return cells_in_unit<Dim> * units;
+}
+
+template <int Dim>
+void choose_algorithms(const std::string& name, const SizeField<Dim>& field, double volume) {
+    const double cells = expected_cells(field, volume);
+    if (!(cells <= most_cells))
+        throw MeshError(name + ": the sizes asked for make about " + number(cells) + " cells, at most " + number(most_cells) +
+                        " are meshed. Raise size or refinement.size, or lower refinement.distance.");
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
-    gmsh::option::setNumber("Mesh.Algorithm3D", tetrahedra > many_tetrahedra ? hxt_3d : delaunay_3d);
+    gmsh::option::setNumber("Mesh.Algorithm3D", Dim == 3 && cells > many_tetrahedra ? hxt_3d : delaunay_3d);
     gmsh::option::setNumber("Mesh.Optimize", 1);
 }
 
@@ -97,7 +136,7 @@ CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, 
         name_parts<Dim>(tag, name, name_of_side);
         double volume = 0.0;
         gmsh::model::occ::getMass(Dim, tag, volume);
-        choose_algorithms(volume, field.size);
+        choose_algorithms(name, field, volume);
         set_size(field);
         gmsh::model::mesh::generate(Dim);
         soup = soup_of_gmsh_model<Dim>(name);
@@ -140,6 +179,7 @@ std::string side_of_box(const Vector<3>& centre, const Vector<Dim>& lower, const
 
 Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
     check_common(options);
+    check_finite(options.name, "centre", options.centre);
     check_positive(options.name, "radius", options.radius);
     const Matrix<2> turn = turn_about(Vector<3>::UnitZ(), options.variant).topLeftCorner<2, 2>();
     return turned_part<2>(
@@ -150,6 +190,7 @@ Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
 
 Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options) {
     check_common(options);
+    check_finite(options.name, "centre", options.centre);
     check_positive(options.name, "radius", options.radius);
     check_positive(options.name, "length", options.length);
     const double half = 0.5 * options.length;
@@ -161,6 +202,7 @@ Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options
 
 Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
     check_common(options);
+    check_finite(options.name, "centre", options.centre);
     check_positive(options.name, "radius", options.radius);
     const Vector<3> skew(1.0, std::numbers::sqrt2, std::numbers::pi);
     return turned_part<3>(
@@ -171,6 +213,8 @@ Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
 template <int Dim>
 Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options) {
     check_common(options);
+    check_finite(options.name, "lower", options.lower);
+    check_finite(options.name, "upper", options.upper);
     const Vector<Dim> sides = options.upper - options.lower;
     check_positive(options.name, "shortest side", sides.minCoeff());
     // L / size grows by variant * L / L_min >= variant on an edge of length L.

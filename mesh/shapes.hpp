@@ -5,16 +5,18 @@
 
 #include "abut/mesh/mesh.hpp"
 
-/// Meshes of simple parts. The unstructured ones come from Gmsh; calls from several threads wait for one another. The same
-/// options give the same bits up to about 400,000 tetrahedra a part. Larger parts are meshed by Gmsh's HXT, which is fast but
-/// gives another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError when a length or count is not positive, or when Gmsh fails.
+/// Meshes of simple parts. The unstructured ones come from Gmsh; calls from several threads wait for one another, and the
+/// program must not have Gmsh open itself (gmsh::initialize) during a call, which would end that session. The same options
+/// give the same bits up to about 400,000 tetrahedra a part. Larger parts are meshed by Gmsh's HXT, which is fast but gives
+/// another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError when a
+/// length or count is not positive, a coordinate not finite, the cells would be more than 100 million, or when Gmsh fails.
 ///
 /// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
 /// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the
 /// unstructured box gets a cell size that puts at least `variant` cells more on each edge. The refined place does not move.
 namespace abut::mesh {
 
-/// Smaller cells near a point: `size` [m] there, growing linearly to the part's own size over `distance` [m].
+/// Smaller cells near a point: `size` [m] there, no more than the part's own size, growing linearly to it over `distance` [m].
 template <int Dim>
 struct Refinement {
     Vector<Dim> point;

@@ -1,5 +1,7 @@
 #include "mesh/laws.hpp"
 
+#include <clocale>
+#include <limits>
 #include <numbers>
 #include <thread>
 
@@ -131,6 +133,28 @@ TEST_CASE("impossible shapes are refused by name, value and limit", "[mesh][shap
     CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, -1}, {2, 2}, CellShape::triangle)), Contains("the box is -1 m long along y"));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 2), Contains("n_sectors is 2, at least 3 is needed."));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 0, 5), Contains("radius is 0 m"));
+}
+
+TEST_CASE("sizes and places that make no mesh are refused before Gmsh tries", "[mesh][shapes]") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(disc({.centre = {0, nan}}), Contains("disc: the y coordinate of centre is nan, a finite number is needed."));
+    CHECK_THROWS_WITH(box<2>({.lower = {nan, 0}}), Contains("box: the x coordinate of lower is nan"));
+    CHECK_THROWS_WITH(sphere({.refinement = Refinement<3>{{0, 0, nan}, 0.01, 1}}), Contains("sphere: the z coordinate of refinement.point is nan"));
+    CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.2, 0.5}}),
+                      Contains("disc: refinement.size is 0.2 m, at most size = 0.1 m is allowed. Lower it"));
+    CHECK_THROWS_WITH(cylinder({.size = 1e-4}), Contains("cylinder: the sizes asked for make about 1.45e+13 cells, at most 1e+08 are meshed. Raise size"));
+    CHECK_THROWS_WITH(disc({.size = 1e-6}), Contains("at most 1e+08 are meshed."));
+    CHECK_THROWS_WITH(sphere({.size = 0.1, .refinement = Refinement<3>{{0, 0, 1}, 1e-3, 1e3}}), Contains("at most 1e+08 are meshed."));
+}
+
+TEST_CASE("meshing leaves the locale of the program as it was", "[mesh][shapes]") {
+    const std::string before = std::setlocale(LC_ALL, nullptr);
+    for (const std::string locale : {"C", "C.UTF-8"}) {
+        std::setlocale(LC_ALL, locale.c_str());
+        (void)disc({.size = 0.5});
+        CHECK(std::setlocale(LC_ALL, nullptr) == locale);
+    }
+    std::setlocale(LC_ALL, before.c_str());
 }
 
 TEST_CASE("parts may be made in several threads at once", "[mesh][shapes]") {
