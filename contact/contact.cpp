@@ -1,9 +1,11 @@
 #include "abut/contact/contact.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "abut/geometry/messages.hpp"
 
 namespace abut::contact {
 namespace {
@@ -14,9 +16,13 @@ const ContactOptions& checked(const ContactOptions& options) {
     if (options.quadrature < 0 || options.quadrature > 3)
         refuse("quadrature is " + std::to_string(options.quadrature) + "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
     if (!(options.facing_cosine >= -1.0 && options.facing_cosine < 0.0))
-        refuse("facing_cosine is " + std::to_string(options.facing_cosine) + "; it must lie in [-1, 0).");
-    if (!(options.skin >= 0.0)) refuse("skin is " + std::to_string(options.skin) + " m; it must be >= 0.");
-    if (!(options.compression_limit > 0.0)) refuse("compression_limit is " + std::to_string(options.compression_limit) + "; it must be > 0.");
+        refuse("facing_cosine is " + number(options.facing_cosine) + "; it must lie in [-1, 0). -0.5 is the default.");
+    if (!(options.skin >= 0.0) || !std::isfinite(options.skin))
+        refuse("skin is " + number(options.skin) + " m; it must be finite and >= 0. Give 0 to let the library choose.");
+    if (!(options.compression_warning > 0.0))
+        refuse("compression_warning is " + number(options.compression_warning) + "; it must be > 0. 0.3 is the default.");
+    if (!(options.compression_limit > 0.0))
+        refuse("compression_limit is " + number(options.compression_limit) + "; it must be > 0. 2 is the default.");
     return options;
 }
 
@@ -34,11 +40,37 @@ double default_skin(const SurfaceView<Dim>& surface) {
 }
 
 template <int Dim>
-void require_finite(std::span<const Vector<Dim>> displacement) {
+void require_finite(std::span<const Vector<Dim>> displacement, std::int32_t n_faces) {
+    if (displacement.size() != static_cast<std::size_t>(n_faces))
+        throw std::invalid_argument("contact: " + std::to_string(displacement.size()) + " displacements are given for " + std::to_string(n_faces) +
+                                    " faces of the surface; give one each.");
     for (std::size_t face = 0; face < displacement.size(); ++face)
         if (!displacement[face].allFinite())
             throw std::runtime_error("contact: the displacement of face " + std::to_string(face) +
                                      " is not finite: the run has diverged. Take a smaller time step.");
+}
+
+template <int Dim>
+void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
+    const auto refuse = [](const std::string& what) { throw std::invalid_argument("contact: the coupling of the listed faces " + what); };
+    const std::size_t n = coupling.columns.size();
+    if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 || static_cast<std::size_t>(coupling.offsets.back()) != n ||
+        !std::is_sorted(coupling.offsets.begin(), coupling.offsets.end()))
+        refuse("has " + std::to_string(coupling.offsets.size()) + " offsets for " + std::to_string(n_faces) + " faces and " + std::to_string(n) +
+               " columns; they must be one more than faces and rise from 0 to the number of columns.");
+    if (coupling.blocks.size() != n)
+        refuse("has " + std::to_string(coupling.blocks.size()) + " blocks for " + std::to_string(n) + " columns; give one each.");
+    for (const std::int32_t column : coupling.columns)
+        if (column < 0 || static_cast<std::size_t>(column) >= n_faces)
+            refuse("names face " + std::to_string(column) + " of " + std::to_string(n_faces) + "; columns are places in Contact::faces.");
+}
+
+template <int Dim>
+void check_path(const FacePath<Dim>& path, std::size_t n_faces) {
+    for (const std::size_t size : {path.displacement_0.size(), path.displacement_1.size(), path.force_0.size(), path.force_1.size()})
+        if (size != n_faces)
+            throw std::invalid_argument("contact: the path of the listed faces has an array of " + std::to_string(size) + " entries for " +
+                                        std::to_string(n_faces) + " faces; give one for each of Contact::faces.");
 }
 
 template <int Dim>
@@ -57,8 +89,8 @@ Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
 
 template <int Dim>
 void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of) {
-    require_finite(u_0);
-    require_finite(u_1);
+    require_finite(u_0, surface_.size());
+    require_finite(u_1, surface_.size());
     const std::vector<ContactPair<Dim>> known(pairs_.pairs().begin(), pairs_.pairs().end());
     std::vector<geometry::IndexPair> found = find_candidates(surface_, u_0, u_1, options_, skin_);
     // A pair in contact stays in the list however deep it is.
@@ -75,9 +107,11 @@ void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vect
     keep_admission(known, u_0);
     list_faces();
     coupling_ = coupling_of(faces_);
+    check_coupling(coupling_, faces_.size());
     searched_ = true;
     ++report_.rebuilds;
     report_.candidates = pairs_.size();
+    report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
 }
 
 /// The flag outlives a rebuild. A pair that was not in the list before and already overlaps is no contact, unless the run
@@ -128,6 +162,7 @@ void Contact<Dim>::list_faces() {
 
 template <int Dim>
 void Contact<Dim>::integrate(const FacePath<Dim>& path) {
+    check_path(path, faces_.size());
     update_admission(path.displacement_0);
     integral_.integrate(surface_, pairs_, local_face_, coupling_, path);
     report_.active_pairs = static_cast<std::int64_t>(integral_.active_pairs().size());
@@ -138,15 +173,16 @@ void Contact<Dim>::integrate(const FacePath<Dim>& path) {
     if (integral_.compression() > options_.compression_limit) {
         const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];
         throw std::runtime_error("contact: faces " + std::to_string(pair.face_1) + " and " + std::to_string(pair.face_2) + " are pressed " +
-                                 std::to_string(integral_.compression()) + " times the depth of their cells into each other, " +
-                                 std::to_string(options_.compression_limit) +
-                                 " is allowed. Refine the mesh at the contact, lower the speed or the load, or raise compression_limit.");
+                                 number(integral_.compression()) + " times the depth of their cells into each other, " +
+                                 number(options_.compression_limit) + " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
     }
 }
 
 template <int Dim>
 void Contact<Dim>::evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> force) {
-    integral_.integrate(surface_, pairs_, local_face_, coupling_, {displacement, displacement, force, force});
+    const FacePath<Dim> at_rest{displacement, displacement, force, force};
+    check_path(at_rest, faces_.size());
+    integral_.integrate(surface_, pairs_, local_face_, coupling_, at_rest);
 }
 
 template class Contact<2>;

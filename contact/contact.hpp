@@ -12,6 +12,7 @@ namespace abut::contact {
 /// What happened since the start, for the reader of a run.
 struct ContactReport {
     std::int64_t candidates = 0;       ///< pairs in the current list
+    std::int64_t candidates_max = 0;
     std::int64_t active_pairs = 0;     ///< pairs active in the last step
     std::int64_t active_pairs_max = 0;
     std::int64_t events = 0;           ///< openings, closings and changes of overlap inside steps, all steps
@@ -42,7 +43,7 @@ public:
     [[nodiscard]] bool covers(double motion) const { return searched_ && motion <= 0.5 * skin_; }
 
     /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws std::runtime_error naming the face
-    /// if a displacement is not finite.
+    /// if a displacement is not finite, std::invalid_argument for arrays of the wrong size or a coupling out of range.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.

@@ -51,7 +51,8 @@ struct Surface {
 
 /// Throws std::invalid_argument naming the face, the value, the limit and the remedy: array sizes that disagree, an index
 /// out of range, NaN, zero area, a normal that is not unit, a face that is not flat (1e-10 of its size) or not convex,
-/// more than geometry::max_polygon_vertices corners, negative depth or stiffness.
+/// area, centroid or normal that are not those of the corners (1e-10), more than geometry::max_polygon_vertices corners,
+/// a depth that is not > 0 (rigid: >= 0), a stiffness that is not > 0.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 

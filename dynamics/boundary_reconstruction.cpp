@@ -114,7 +114,7 @@ private:
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(free * a * free);
         Eigen::VectorXd inverse = eigen.eigenvalues();
-        const double cut = null_space_cut * a.norm();
+        const double cut = null_space_cut * inverse.maxCoeff();
         for (Eigen::Index i = 0; i < n; ++i) inverse[i] = inverse[i] > cut ? 1.0 / inverse[i] : 0.0;
         Eigen::MatrixXd compliance = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
         compliance = free * compliance * free;

@@ -3,6 +3,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "abut/dynamics/ccg_arrays.hpp"
 #include "abut/dynamics/ccg_region.hpp"
@@ -16,6 +18,16 @@ namespace {
 template <int Dim>
 double spectral_norm(const Matrix<Dim>& m) {
     return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
+}
+
+template <int Dim>
+std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+    const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
+    if (materials.size() != n_bodies)
+        throw std::invalid_argument(mesh.name + ": " + std::to_string(materials.size()) + " materials are given for " +
+                                    std::to_string(n_bodies) + " bodies. Give one a body.");
+    for (std::size_t body = 0; body < n_bodies; ++body) check(materials[body], static_cast<int>(body));
+    return materials;
 }
 
 }  // namespace
@@ -41,7 +53,7 @@ struct Ccg<Dim>::Impl {
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& boundary_conditions)
     : conditions(boundary_conditions), face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, materials, face_conditions, conditions.neumann), sweeps(arrays) {
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann), sweeps(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
         const std::int32_t c = mesh.face_cells[f][0];
         boundary_centroid.push_back(mesh.face_centroid[f]);
@@ -271,8 +283,9 @@ double Ccg<Dim>::normal_stiffness(std::int32_t boundary_face) const {
 
 template <int Dim>
 std::span<const std::int32_t> Ccg<Dim>::cells_of(std::int32_t boundary_face) const {
-    const auto& [offsets, cells] = std::tie(impl_->arrays.boundary.offsets, impl_->arrays.boundary.cells);
-    return {cells.data() + offsets[boundary_face], static_cast<std::size_t>(offsets[boundary_face + 1] - offsets[boundary_face])};
+    const BoundaryReconstruction<Dim>& boundary = impl_->arrays.boundary;
+    const std::int32_t begin = boundary.offsets[boundary_face];
+    return {boundary.cells.data() + begin, static_cast<std::size_t>(boundary.offsets[boundary_face + 1] - begin)};
 }
 
 template class Ccg<2>;

@@ -29,9 +29,10 @@ void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     for (const std::int32_t f : faces_of(region.gradient_cells)) {
         append_sides(region.loaded_cells, f);
         if (const std::int32_t b = arrays.boundary_place[f]; b >= 0) {
-            const auto& [offsets, cells] = std::tie(arrays.boundary.offsets, arrays.boundary.cells);
+            const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
             region.reconstructed_boundary.push_back(b);
-            region.loaded_cells.insert(region.loaded_cells.end(), cells.begin() + offsets[b], cells.begin() + offsets[b + 1]);
+            region.loaded_cells.insert(region.loaded_cells.end(), boundary.cells.begin() + boundary.offsets[b],
+                                       boundary.cells.begin() + boundary.offsets[b + 1]);
         } else {
             region.reconstructed.push_back(f);
             region.loaded_cells.insert(region.loaded_cells.end(), arrays.stencils[f].cells.begin(), arrays.stencils[f].cells.end());

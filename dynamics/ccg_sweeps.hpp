@@ -23,7 +23,10 @@ namespace abut::dynamics {
 template <int Dim>
 class CcgSweeps {
 public:
+    /// The arrays must outlive the sweeps.
     explicit CcgSweeps(const CcgArrays<Dim>& arrays);
+    CcgSweeps(const CcgSweeps&) = delete;
+    CcgSweeps& operator=(const CcgSweeps&) = delete;
 
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);

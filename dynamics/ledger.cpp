@@ -45,7 +45,7 @@ std::vector<std::string> ledger_columns() {
     std::vector<std::string> names{"step", "time", "pseudo_energy", "energy", "kinetic", "potential", "work"};
     append_names<Dim>(names, "linear_momentum", Dim);
     append_names<Dim>(names, "angular_momentum", n_rotations<Dim>);
-    names.insert(names.end(), {"parasitic", "active_pairs", "events"});
+    names.insert(names.end(), {"parasitic", "active_pairs", "events", "restart_jumps"});
     return names;
 }
 
@@ -54,7 +54,7 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
     std::vector<double> values{static_cast<double>(entry.step), entry.time, entry.pseudo_energy, entry.energy, entry.kinetic, entry.potential, entry.work};
     values.insert(values.end(), entry.linear_momentum.begin(), entry.linear_momentum.end());
     values.insert(values.end(), entry.angular_momentum.begin(), entry.angular_momentum.end());
-    values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events)});
+    values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events), entry.restart_jumps});
     return values;
 }
 
@@ -65,10 +65,12 @@ LedgerEntry<Dim> measure(Memm<Solid<Dim>>& integrator, Solid<Dim>& solid) {
     entry.step = integrator.steps();
     entry.time = integrator.time();
     entry.potential = solid.potential(integrator.q());
-    entry.pseudo_energy = integrator.pseudo_kinetic_energy() + entry.potential;
-    entry.energy = entry.pseudo_energy + integrator.energy_excess();
-    entry.kinetic = entry.energy - entry.potential;
+    const double pseudo_kinetic = integrator.pseudo_kinetic_energy();
+    entry.kinetic = pseudo_kinetic + integrator.energy_excess();
+    entry.pseudo_energy = pseudo_kinetic + entry.potential;
+    entry.energy = entry.kinetic + entry.potential;
     entry.work = solid.work();
+    entry.restart_jumps = integrator.restart_jumps();
     entry.active_pairs = report.active_pairs;
     entry.events = report.events;
 
@@ -82,7 +84,7 @@ LedgerEntry<Dim> measure(Memm<Solid<Dim>>& integrator, Solid<Dim>& solid) {
     std::vector<double> e(integrator.q().size());
     integrator.parasitic_momentum(e);
     const auto e_c = as_vectors<Dim>(std::span<const double>(e));
-    for (std::ptrdiff_t c = 0; c < n; ++c) entry.parasitic = std::max(entry.parasitic, e_c[c].norm() / solid.cell_mass()[c]);
+    entry.parasitic = largest(n, [&](std::ptrdiff_t c) { return e_c[c].norm() / solid.cell_mass()[c]; });
     return entry;
 }
 
@@ -90,13 +92,14 @@ template <int Dim>
 void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     entries_.push_back(entry);
     const LedgerEntry<Dim>& first = entries_.front();
-    const auto raise = [](double& largest, double value) { largest = std::isnan(value) ? value : std::max(largest, value); };
-    raise(pseudo_energy_drift_, std::abs((entry.pseudo_energy - entry.work) - (first.pseudo_energy - first.work)));
+    const auto raise = [](double& so_far, double value) { so_far = larger(so_far, value); };
+    const auto kept = [](const LedgerEntry<Dim>& e) { return e.pseudo_energy - e.work - e.restart_jumps; };
+    raise(pseudo_energy_drift_, std::abs(kept(entry) - kept(first)));
     raise(energy_excess_, entry.energy - entry.pseudo_energy);
     raise(parasitic_, entry.parasitic);
     raise(momentum_drift_, (entry.linear_momentum - first.linear_momentum).norm());
     raise(angular_momentum_drift_, (entry.angular_momentum - first.angular_momentum).norm());
-    raise(largest_energy_, entry.energy);
+    for (const double energy : {entry.energy, entry.kinetic, entry.potential}) raise(largest_energy_, std::abs(energy));
 }
 
 template <int Dim>

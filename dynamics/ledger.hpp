@@ -24,6 +24,7 @@ struct LedgerEntry {
     double kinetic;                 ///< 1/2 p . M^-1 p [J]
     double potential;               ///< V, less the work of constant loads [J]
     double work;                    ///< done from outside so far [J]
+    double restart_jumps;           ///< what restarts with another step have added to H~ so far [J]
     Vector<Dim> linear_momentum;    ///< [kg m/s]
     Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign> angular_momentum;  ///< about the origin [kg m^2/s]
     double parasitic;               ///< largest |e_c| / m_c [m/s]
@@ -49,14 +50,14 @@ public:
     void record(const LedgerEntry<Dim>& entry);
 
     [[nodiscard]] const std::vector<LedgerEntry<Dim>>& entries() const { return entries_; }
-    /// max |H~ - H~0 - work| [J]
+    /// max |H~ - H~0 - work - restart_jumps| [J]
     [[nodiscard]] double pseudo_energy_drift() const { return pseudo_energy_drift_; }
     /// max (H - H~) [J]
     [[nodiscard]] double energy_excess() const { return energy_excess_; }
     [[nodiscard]] double parasitic() const { return parasitic_; }
     [[nodiscard]] double momentum_drift() const { return momentum_drift_; }
     [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
-    /// Largest H of the run [J]: what drifts of loaded runs are quoted on.
+    /// Largest of |H|, kinetic energy and |V| in the run [J]: what drifts of loaded runs are quoted on.
     [[nodiscard]] double largest_energy() const { return largest_energy_; }
 
 private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics::detail {
 
@@ -20,7 +21,7 @@ double half_product(std::span<const double> a, std::span<const double> inverse_m
 }
 
 void refuse_step(double dt) {
-    throw std::invalid_argument("time step is " + std::to_string(dt) + " s; it must be finite and > 0.");
+    throw std::invalid_argument("time step is " + number(dt) + " s; it must be finite and > 0. `stable_step` says how large it may be.");
 }
 
 }  // namespace abut::dynamics::detail

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -42,7 +43,7 @@ public:
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
     /// Throws std::invalid_argument if dt is not > 0 and finite or the sizes disagree.
     Memm(S& system, std::vector<double> q, std::span<const double> p, double dt) : system_(system), q_(std::move(q)), dt_(dt) {
-        if (!(dt > 0.0 && dt < 1e300)) detail::refuse_step(dt);
+        if (!(dt > 0.0) || !std::isfinite(dt)) detail::refuse_step(dt);
         if (q_.size() != system.size() || p.size() != system.size())
             throw std::invalid_argument("MEMM: the state has " + std::to_string(q_.size()) + " positions and " + std::to_string(p.size()) +
                                         " momenta, the system " + std::to_string(system.size()) + " degrees of freedom.");
@@ -66,7 +67,7 @@ public:
 
     /// One step of a given dt (an outer solver dictates it).
     void step(double dt, StepChange change) {
-        if (!(dt > 0.0 && dt < 1e300)) detail::refuse_step(dt);
+        if (!(dt > 0.0) || !std::isfinite(dt)) detail::refuse_step(dt);
         if (dt != dt_ && change == StepChange::restart) restart(dt);
         dt_ = dt;
         step();

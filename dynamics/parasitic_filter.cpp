@@ -1,5 +1,6 @@
 #include "abut/dynamics/parasitic_filter.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +8,14 @@ namespace abut::dynamics {
 namespace {
 
 inline constexpr double motionless = 1e-12;  // v . M v' below this times v . M v: no direction to keep, nothing is done
+
+/// Points on one line have no inertia about it, a single point none at all: there they cannot spin.
+Matrix<3> pseudo_inverse(const Matrix<3>& inertia) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
+    const double cut = 1e-12 * eigen.eigenvalues().maxCoeff();
+    const Eigen::Vector3d inverse = eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
+    return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+}
 
 /// Rigid-body parts of velocity fields over a set of weighted points.
 template <int Dim>
@@ -24,7 +33,7 @@ public:
             Matrix<3> inertia = Matrix<3>::Zero();
             for (std::size_t i = 0; i < arm_.size(); ++i)
                 inertia += mass[i] * (arm_[i].squaredNorm() * Matrix<3>::Identity() - arm_[i] * arm_[i].transpose());
-            inverse_inertia_ = inertia.inverse();
+            inverse_inertia_ = pseudo_inverse(inertia);
         } else {
             for (std::size_t i = 0; i < arm_.size(); ++i) inertia_ += mass[i] * arm_[i].squaredNorm();
         }
@@ -44,7 +53,7 @@ public:
             double momentum = 0.0;
             for (std::size_t i = 0; i < velocity.size(); ++i)
                 momentum += mass_[i] * (arm_[i][0] * velocity[i][1] - arm_[i][1] * velocity[i][0]);
-            const double spin = momentum / inertia_;
+            const double spin = inertia_ > 0.0 ? momentum / inertia_ : 0.0;
             for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] -= spin * Vector<2>(-arm_[i][1], arm_[i][0]);
         }
     }
@@ -102,7 +111,7 @@ void NeutralFilter<Dim>::filter(const ContactPatch& patch, std::span<const Vecto
         rigid.remove_from(v_);
     }
     const double along = mass_product<Dim>(mass, v, v_);
-    if (along < motionless * mass_product<Dim>(mass, v, v)) return;
+    if (!(along >= motionless * mass_product<Dim>(mass, v, v) && along > 0.0)) return;
     const double alpha = mass_product<Dim>(mass, v, e_) / along;
     for (std::size_t i = 0; i < n; ++i) p_after[patch.cells[i]] -= (kappa_ * mass[i]) * (e_[i] - alpha * v_[i]);
 }

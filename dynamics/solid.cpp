@@ -28,13 +28,12 @@ private:
 template <int Dim>
 const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
-    if (options.materials.size() != n_bodies)
-        throw std::invalid_argument(mesh.name + ": " + std::to_string(options.materials.size()) + " materials are given for " +
-                                    std::to_string(n_bodies) + " bodies. Give one a body.");
-    for (std::size_t body = 0; body < n_bodies; ++body) check(options.materials[body], static_cast<int>(body));
     if (!options.acceleration.empty() && options.acceleration.size() != n_bodies)
         throw std::invalid_argument(mesh.name + ": " + std::to_string(options.acceleration.size()) + " accelerations are given for " +
                                     std::to_string(n_bodies) + " bodies. Give one a body, or none.");
+    if (!options.obstacles.empty() && !options.contact)
+        throw std::invalid_argument(mesh.name + ": " + std::to_string(options.obstacles.size()) +
+                                    " obstacles are given without contact, so nothing would feel them. Give SolidOptions::contact, or no obstacles.");
     return options;
 }
 
@@ -199,7 +198,6 @@ void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<cons
     follow_list(q_0, q_1, time, dt);
     const Stopwatch watch(times_.contact);
     active_pairs_.clear();
-    if (contact_->faces().empty()) return;
     evaluate_faces(q_1, load_, time + dt, u_1_, y_1_);
     contact_->integrate({u_0_, u_1_, y_0_, y_1_});
     const auto active = contact_->result().active_pairs();
@@ -252,10 +250,10 @@ void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector
 /// How far an obstacle has moved since the last search [m].
 template <int Dim>
 double Solid<Dim>::obstacle_motion(double time) const {
-    double largest = 0.0;
+    double motion = 0.0;
     for (const auto& obstacle : options_.obstacles)
-        if (obstacle.path) largest = std::max(largest, (obstacle.path(time) - obstacle.path(searched_time_)).norm());
-    return largest;
+        if (obstacle.path) motion = larger(motion, (obstacle.path(time) - obstacle.path(searched_time_)).norm());
+    return motion;
 }
 
 /// Sets the displacement of the obstacles' faces, which come last.

@@ -20,7 +20,7 @@ struct SolidOptions {
     std::vector<Vector<Dim>> acceleration;                                ///< of gravity, one a body [m/s^2]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)> body_load;    ///< force density [N/m^3], constant in time; empty: none
     std::optional<contact::ContactOptions> contact;                       ///< empty: bodies pass through each other, at no cost
-    std::vector<contact::RigidObstacle<Dim>> obstacles;                   ///< felt only with contact
+    std::vector<contact::RigidObstacle<Dim>> obstacles;                   ///< with contact only
 };
 
 /// Where the time of a run went [s].
@@ -68,7 +68,7 @@ public:
     void force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
 
     /// Contact pressure [Pa] and smallest gap [m] of each boundary face in state q, in the order of Mesh::boundary_faces;
-    /// a face without a candidate partner has pressure 0 and gap infinity.
+    /// a face without an admitted partner that shares area with it has pressure 0 and gap infinity.
     struct ContactField {
         std::vector<double> pressure;
         std::vector<double> gap;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -47,7 +48,7 @@ StableStep stable_step(Solid<Dim>& solid) {
     }
     if (!(change <= settled_change) || !(quotient > 0.0))
         throw std::runtime_error("stable step: the power iteration has not settled after " + std::to_string(iteration) +
-                                 " iterations (relative change " + std::to_string(change) + ", allowed " + std::to_string(settled_change) +
+                                 " iterations (relative change " + number(change) + ", allowed " + number(settled_change) +
                                  "). Check the mesh for slivers, or give the time step yourself.");
     const double omega = lower_bound_margin * std::sqrt(quotient);
     return {omega, (solid.contact() ? contact_margin : 1.0) * 2.0 / omega, iteration, change};

@@ -95,8 +95,9 @@ private:
     void descend(int corner, std::size_t first, double sum) {
         if (corner == Dim + 1) return consider(sum);
         for (std::size_t i = first; i < near_.size(); ++i) {
-            // Distances increase: once a simplex holds the point, none with a larger sum can be better.
-            if (best_extrapolation_ == 0.0 && sum + near_[i].distance * (Dim + 1 - corner) >= best_sum_) return;
+            // Distances increase: once a simplex holds the point, none with a larger sum can be better; of equal sums the cell
+            // numbers decide.
+            if (best_extrapolation_ == 0.0 && sum + near_[i].distance * (Dim + 1 - corner) > best_sum_) return;
             chosen_[corner] = i;
             descend(corner + 1, i + 1, sum + near_[i].distance);
         }
@@ -134,7 +135,6 @@ private:
     double best_extrapolation_ = std::numeric_limits<double>::infinity();
     double best_sum_ = std::numeric_limits<double>::infinity();
 };
-
 
 template <int Dim>
 FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face, int& halvings) {

@@ -169,3 +169,28 @@ TEMPLATE_TEST_CASE_SIG("a list covers motions up to half its skin, and nothing b
     CHECK_FALSE(mover.contact.covers(0.5001 * expected));
     CHECK_FALSE(mover.contact.covers(std::numeric_limits<double>::quiet_NaN()));
 }
+
+TEMPLATE_TEST_CASE_SIG("a long slide leaves no trail in the list", "[contact][candidates]", ((int Dim), Dim), 2, 3) {
+    // A tile of body 1, pressed a little into a long strip of body 0, passes over all of its tiles.
+    contact::Surface<Dim> surface;
+    for (int i = 0; i < 40; ++i) {
+        Vector<Dim> centre = Vector<Dim>::Zero();
+        centre[0] = i;
+        surface.append(tile<Dim>(centre, up<Dim>(), 0.5), 0.3, 1.0, 0);
+    }
+    surface.append(tile<Dim>(Vector<Dim>(0.05 * up<Dim>()), -up<Dim>(), 0.5), 0.3, 1.0, 1);
+    contact::ContactOptions options;
+    options.skin = 0.5;
+    Mover<Dim> mover(surface, options);
+    auto u = at_rest(surface);
+    mover.search(u);
+    u.back() = -0.1 * up<Dim>();
+    CHECK(mover.move_to(u));
+    for (int step = 0; step < 180; ++step) {
+        u.back()[0] += 0.2;
+        CHECK(mover.move_to(u));
+        mover.search(u);
+        CHECK(mover.contact.report().candidates <= 5);
+    }
+    CHECK(mover.contact.report().lost_contacts == 0);
+}

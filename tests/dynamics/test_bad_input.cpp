@@ -45,7 +45,7 @@ TEST_CASE("materials at the edge of what is allowed are taken", "[dynamics][erro
     CHECK_NOTHROW(dynamics::Solid<2>(mesh, options));
 }
 
-TEST_CASE("a wrong number of materials or accelerations is refused with both numbers", "[dynamics][errors]") {
+TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothing feels, are refused", "[dynamics][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
     auto options = bodies<2>(2);
     SECTION("materials") {
@@ -55,6 +55,11 @@ TEST_CASE("a wrong number of materials or accelerations is refused with both num
     SECTION("accelerations") {
         options.acceleration = {Vector<2>::Zero()};
         CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("1 accelerations") && Contains("2 bodies"));
+    }
+    SECTION("obstacles without contact") {
+        options.contact.reset();
+        options.obstacles = {contact::plane_obstacle<2>({-3.0, 0.0}, {1.0, 0.0}, 1.0)};
+        CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("1 obstacles") && Contains("SolidOptions::contact"));
     }
     CHECK_THROWS_AS(dynamics::Solid<2>(mesh, options), std::invalid_argument);
 }

@@ -5,6 +5,7 @@
 using namespace abut;
 using namespace abut::test;
 using dynamics::Constraint;
+using dynamics::Neumann;
 
 namespace {
 
@@ -38,6 +39,7 @@ double relative_drift(Scene<Dim>& scene, int steps) {
 TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equilibrium in the exact affine field", "[dynamics][boundary]",
                        ((int Dim), Dim), 2, 3) {
     const bool by_components = GENERATE(false, true);
+    const Neumann neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate);
     const double traction = 0.01;
     const double young = material.young, nu = material.poisson;
     // Plane strain in 2D.
@@ -46,6 +48,7 @@ TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equili
     for (const auto& [name, mesh] : boxes<Dim>()) {
         INFO(name);
         auto options = one_body<Dim>();
+        options.boundary.neumann = neumann;
         for (const char* side : {"xmin", "ymin", "zmin"})
             if (Dim == 3 || side[0] != 'z') options.boundary.dirichlet.push_back(roller<Dim>(side, by_components));
         options.boundary.traction.push_back({.group = "xmax", .value = traction * Vector<Dim>::Unit(0), .history = {}});
@@ -124,6 +127,7 @@ TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, 
 
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
+    options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
     dynamics::DirichletCondition<Dim> driven;
     driven.group = "xmin";
     SECTION("all components") {}
@@ -143,6 +147,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynam
 
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
+    options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
     dynamics::TractionCondition<Dim> pulse;
     pulse.group = "xmax";
     pulse.history = [](double t, const Vector<Dim>& x) { return Vector<Dim>(0.01 * std::sin(5.0 * t) * (1.0 + x[1]) * Vector<Dim>::Ones()); };
@@ -164,6 +169,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
     const auto mesh = together(mesh::box<Dim>({.lower = lower, .upper = upper, .size = Dim == 2 ? 0.2 : 0.35, .name = "lower"}),
                                mesh::box<Dim>({.lower = other_lower, .upper = other_upper, .size = Dim == 2 ? 0.15 : 0.3, .name = "upper"}));
     auto options = bodies<Dim>(2);
+    options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
     dynamics::DirichletCondition<Dim> fixed, driven;
     fixed.group = "lower." + axis + "min";
     driven.group = "upper." + axis + "max";

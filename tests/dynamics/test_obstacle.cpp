@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "abut/dynamics/rigid_obstacle.hpp"
 #include "dynamics/scenes.hpp"
 
 using namespace abut;
@@ -122,4 +123,36 @@ TEST_CASE("the momentum that a body loses is the mean force on the obstacle time
         touched = touched || gained.norm() > 1e-3;
     }
     CHECK(touched);
+}
+
+TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body with its face, edge or corner", "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
+    contact::ContactOptions narrow;
+    narrow.facing_cosine = -0.9;  // the sides of the box are no partners of the round face in front of it
+    auto options = bodies<Dim>(1, narrow);
+    const mesh::CellShape shape = Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron;
+    // Of two cells each way, left of the body; shifted across so that an edge or a corner comes first on some of its faces.
+    Vector<Dim> lower = Vector<Dim>::Constant(GENERATE(-0.37, 0.05, 0.2)), upper = lower + Vector<Dim>::Constant(0.7);
+    lower[0] = -1.72, upper[0] = -1.02;
+    if constexpr (Dim == 3) lower[2] = -0.15, upper[2] = 0.6;  // past one end of the cylinder
+    std::array<int, Dim> cells;
+    cells.fill(2);
+    const auto box = mesh::structured_box<Dim>(lower, upper, cells, shape, "box");
+    options.obstacles = {dynamics::rigid_obstacle<Dim>(box, [](double t) { return Vector<Dim>(0.02 * t * Vector<Dim>::Unit(0)); })};
+    Scene<Dim> scene(round_body<Dim>(Dim == 2 ? 0.25 : 0.5), options, {Vector<Dim>::Zero()});
+    scene.run_until(20.0, 5);
+    CHECK(scene.solid.contact_report().events > 1);
+    CHECK(scene.solid.work() > 1e-4);
+    CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
+    CHECK(scene.solid.contact_report().lost_contacts == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
+    const auto mesh = round_body<Dim>(0.5);
+    contact::Surface<Dim> surface;
+    contact::append(surface, dynamics::rigid_obstacle<Dim>(mesh), 0);
+    REQUIRE(surface.area.size() == mesh.boundary_faces.size());
+    for (std::size_t b = 0; b < surface.area.size(); ++b) {
+        CHECK(surface.area[b] == Approx(mesh.face_measure[mesh.boundary_faces[b]]).epsilon(1e-13));
+        CHECK((surface.normal[b] - mesh.face_normal[mesh.boundary_faces[b]]).norm() < 1e-13);
+    }
 }

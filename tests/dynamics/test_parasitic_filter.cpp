@@ -98,3 +98,23 @@ TEST_CASE("a strength of zero filters nothing", "[dynamics][filter]") {
     filtered->run(150, 150);
     CHECK(std::equal(plain->memm.q().begin(), plain->memm.q().end(), filtered->memm.q().begin()));
 }
+
+TEMPLATE_TEST_CASE_SIG("the neutral filter keeps H~ and momentum whatever the boundary reconstruction, down to patches of one or two cells",
+                       "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
+    auto options = bodies<Dim>(2);
+    options.boundary.neumann = GENERATE(dynamics::Neumann::local_equilibrium, dynamics::Neumann::extrapolate, dynamics::Neumann::adjacent);
+    const auto scene = [&] {
+        if constexpr (Dim == 2) return std::make_unique<Scene<2>>(two_discs(0.8), options, disc_velocities);
+        else return std::make_unique<Scene<3>>(two_boxes(4), options, box_velocities);
+    }();
+    dynamics::NeutralFilter<Dim> filter(scene->solid);
+    std::size_t smallest = 1000;
+    scene->memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) {
+        for (const auto& patch : scene->solid.contact_patches()) smallest = std::min(smallest, patch.cells.size());
+        filter(q, dt, p_before, p_after);
+    });
+    scene->run_until(4.0, 10);
+    CHECK(scene->ledger.pseudo_energy_drift() < 1e-11 * scene->kinetic_start());
+    CHECK(scene->ledger.momentum_drift() < 1e-12);
+    if (options.boundary.neumann == dynamics::Neumann::adjacent) CHECK(smallest <= 4);
+}

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <cstring>
 
@@ -26,16 +27,15 @@ struct State {
     }
 };
 
-/// Enough cells for every sweep to be cut into parts for several threads, already close to each other.
+/// Enough cells for the sweeps to run in four parts (8 chunks of 512 cells each), already close to each other.
 template <int Dim>
 mesh::Mesh<Dim> large_bodies() {
-    if constexpr (Dim == 2) return two_discs(0.3, 0.055, 0.002);
-    else return two_boxes(8, 0.002);
+    if constexpr (Dim == 2) return two_discs(0.3, 0.027, 0.002);
+    else return two_boxes(13, 0.002);
 }
 
 template <int Dim>
-State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, BroadPhase broad_phase, int threads, int steps) {
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, BroadPhase broad_phase, int steps) {
     contact::ContactOptions options;
     options.broad_phase = broad_phase;
     Scene<Dim> scene(mesh, bodies<Dim>(2, options), velocity);
@@ -45,6 +45,14 @@ State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& 
     const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
     return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()), scene.ledger.entries().back().pseudo_energy,
             scene.solid.contact_report().events};
+}
+
+/// The same on a given number of threads, more than the machine has if need be.
+template <class Run>
+State on_threads(int threads, const Run& run) {
+    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    oneapi::tbb::task_arena arena(threads);
+    return arena.execute(run);
 }
 
 template <int Dim>
@@ -60,17 +68,18 @@ TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[dynamics][repr
     if constexpr (Dim == 2) mesh = two_discs(0.8);
     else mesh = two_boxes(4);
     const int steps = Dim == 2 ? 400 : 150;
-    const State brute = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::brute_force, 1, steps);
+    const State brute = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::brute_force, steps);
     CHECK(brute.events > 10);
-    CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, 1, steps) == brute);
-    CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::fcl, 1, steps) == brute);
+    CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, steps) == brute);
+    CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::fcl, steps) == brute);
 }
 
 TEMPLATE_TEST_CASE_SIG("any number of threads gives the same bits", "[dynamics][reproducible]", ((int Dim), Dim), 2, 3) {
     const auto mesh = large_bodies<Dim>();
-    REQUIRE(mesh.n_cells() > 4 * 1024);  // several parts for every sweep
-    const int steps = 80;
-    const State one = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, 1, steps);
+    REQUIRE(mesh.n_cells() > 4 * 8 * 512);
+    const int steps = 60;
+    const auto run = [&] { return after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, steps); };
+    const State one = on_threads(1, run);
     CHECK(one.events > 10);
-    for (const int threads : {2, 4}) CHECK(after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::embree, threads, steps) == one);
+    for (const int threads : {2, 4}) CHECK(on_threads(threads, run) == one);
 }
