@@ -30,8 +30,9 @@ Box<3> lifted(const Box<Dim>& box) {
 }
 
 [[noreturn]] void reject(std::size_t index, double bound) {
-    throw std::invalid_argument("box " + std::to_string(index) + " has the bound " + std::to_string(bound) +
-                                "; every bound of a box that is not empty must be finite. Has the motion behind it blown up?");
+    throw std::invalid_argument(
+        "box " + std::to_string(index) + " has the bound " + std::to_string(bound) +
+        "; every bound of a box that is not empty must be finite. Has the motion behind it blown up?");
 }
 
 template <int Dim>
@@ -62,7 +63,8 @@ Selection parts_inside(const Box<3>& region, const Selection& selection) {
     Selection parts;
     for (std::size_t i = 0; i < selection.boxes.size(); ++i) {
         const Box<3>& box = selection.boxes[i];
-        if (box.overlaps(region)) parts.add({box.lower.cwiseMax(region.lower), box.upper.cwiseMin(region.upper)}, selection.indices[i]);
+        if (box.overlaps(region))
+            parts.add({box.lower.cwiseMax(region.lower), box.upper.cwiseMin(region.upper)}, selection.indices[i]);
     }
     return parts;
 }
@@ -76,9 +78,12 @@ void cull_to_common_region(Selection& selection_1, Selection& selection_2) {
 std::vector<IndexPair> pairs_between(BroadPhase method, const Selection& selection_1, const Selection& selection_2) {
     if (selection_1.boxes.empty() || selection_2.boxes.empty()) return {};
     switch (method) {
-        case BroadPhase::embree: return backend::embree_pairs(selection_1.boxes, selection_2.boxes);
-        case BroadPhase::fcl: return backend::fcl_pairs(selection_1.boxes, selection_2.boxes);
-        case BroadPhase::brute_force: return backend::brute_force_pairs(selection_1.boxes, selection_2.boxes);
+        case BroadPhase::embree:
+            return backend::embree_pairs(selection_1.boxes, selection_2.boxes);
+        case BroadPhase::fcl:
+            return backend::fcl_pairs(selection_1.boxes, selection_2.boxes);
+        case BroadPhase::brute_force:
+            return backend::brute_force_pairs(selection_1.boxes, selection_2.boxes);
     }
     throw std::invalid_argument("not a BroadPhase");
 }
@@ -86,9 +91,12 @@ std::vector<IndexPair> pairs_between(BroadPhase method, const Selection& selecti
 std::vector<IndexPair> pairs_within(BroadPhase method, const Selection& selection) {
     if (selection.boxes.size() < 2) return {};
     switch (method) {
-        case BroadPhase::embree: return backend::embree_pairs(selection.boxes);
-        case BroadPhase::fcl: return backend::fcl_pairs(selection.boxes);
-        case BroadPhase::brute_force: return backend::brute_force_pairs(selection.boxes);
+        case BroadPhase::embree:
+            return backend::embree_pairs(selection.boxes);
+        case BroadPhase::fcl:
+            return backend::fcl_pairs(selection.boxes);
+        case BroadPhase::brute_force:
+            return backend::brute_force_pairs(selection.boxes);
     }
     throw std::invalid_argument("not a BroadPhase");
 }
@@ -101,7 +109,8 @@ void sort_unique(std::vector<IndexPair>& pairs) {
 }  // namespace
 
 template <int Dim>
-std::vector<IndexPair> overlapping_pairs(BroadPhase method, std::span<const Box<Dim>> boxes_1, std::span<const Box<Dim>> boxes_2) {
+std::vector<IndexPair> overlapping_pairs(BroadPhase method, std::span<const Box<Dim>> boxes_1,
+                                         std::span<const Box<Dim>> boxes_2) {
     Selection selection_1 = select(boxes_1), selection_2 = select(boxes_2);
     if (method != BroadPhase::brute_force) cull_to_common_region(selection_1, selection_2);
     std::vector<IndexPair> pairs = pairs_between(method, selection_1, selection_2);
@@ -121,9 +130,12 @@ std::vector<IndexPair> overlapping_pairs(BroadPhase method, std::span<const Box<
 
 std::string_view name(BroadPhase method) {
     switch (method) {
-        case BroadPhase::embree: return "embree";
-        case BroadPhase::fcl: return "fcl";
-        case BroadPhase::brute_force: return "brute_force";
+        case BroadPhase::embree:
+            return "embree";
+        case BroadPhase::fcl:
+            return "fcl";
+        case BroadPhase::brute_force:
+            return "brute_force";
     }
     return "unknown";
 }

@@ -9,7 +9,8 @@
 
 namespace abut::geometry {
 
-/// What finds the pairs of boxes that overlap: one of two trees, or a double loop. The answers are identical; the cost differs.
+/// What finds the pairs of boxes that overlap: one of two trees, or a double loop. The answers are identical; the cost
+/// differs.
 enum class BroadPhase {
     embree,       ///< rtcCollide over user boxes (single precision inside, re-tested in double)
     fcl,          ///< FCL's dynamic AABB tree

@@ -6,7 +6,8 @@ std::vector<IndexPair> brute_force_pairs(Boxes boxes_1, Boxes boxes_2) {
     std::vector<IndexPair> pairs;
     for (std::size_t i = 0; i < boxes_1.size(); ++i)
         for (std::size_t j = 0; j < boxes_2.size(); ++j)
-            if (boxes_1[i].overlaps(boxes_2[j])) pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
+            if (boxes_1[i].overlaps(boxes_2[j]))
+                pairs.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)});
     return pairs;
 }
 

@@ -37,7 +37,8 @@ RTCDevice device() {
 
 void check_device() {
     const RTCError error = rtcGetDeviceError(device());
-    if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree failed with error " + std::to_string(error) + "; use another BroadPhase");
+    if (error != RTC_ERROR_NONE)
+        throw std::runtime_error("Embree failed with error " + std::to_string(error) + "; use another BroadPhase");
 }
 
 // Embree's tree is in single precision. Every bound goes through one function a coordinate that never decreases, and
@@ -53,7 +54,9 @@ double largest_side(const Box<3>& box) { return (box.upper - box.lower).maxCoeff
 // much that the number of false pairs could grow with the square of theirs.
 bool float_is_too_coarse(Boxes boxes, const Box<3>& region) {
     constexpr double resolution = 1e-5;  // of the region: some 100 times the spacing of floats
-    const auto is_small = [limit = resolution * largest_side(region)](const Box<3>& box) { return largest_side(box) < limit; };
+    const auto is_small = [limit = resolution * largest_side(region)](const Box<3>& box) {
+        return largest_side(box) < limit;
+    };
     return 10 * std::count_if(boxes.begin(), boxes.end(), is_small) >= static_cast<std::ptrdiff_t>(boxes.size());
 }
 
@@ -83,7 +86,9 @@ std::vector<double> sorted_bounds(std::span<const Boxes> sets, int axis) {
 // Each bound becomes its rank among all bounds of its axis: any range of sizes fits into a float (exactly up to 2^24
 // different bounds, without loss of pairs beyond).
 void rank_axis(Boxes boxes, int axis, const std::vector<double>& bounds, FloatBoxes& result) {
-    const auto rank = [&bounds](double bound) { return static_cast<float>(std::lower_bound(bounds.begin(), bounds.end(), bound) - bounds.begin()); };
+    const auto rank = [&bounds](double bound) {
+        return static_cast<float>(std::lower_bound(bounds.begin(), bounds.end(), bound) - bounds.begin());
+    };
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         result[i].lower[axis] = rank(boxes[i].lower[axis]);
         result[i].upper[axis] = rank(boxes[i].upper[axis]);

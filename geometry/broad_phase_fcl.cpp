@@ -29,7 +29,9 @@ void build(Boxes boxes, Tree& tree) {
     tree.init(leaves);
 }
 
-std::int32_t index_of(const Node* leaf, Boxes boxes) { return static_cast<std::int32_t>(static_cast<const Box<3>*>(leaf->data) - boxes.data()); }
+std::int32_t index_of(const Node* leaf, Boxes boxes) {
+    return static_cast<std::int32_t>(static_cast<const Box<3>*>(leaf->data) - boxes.data());
+}
 
 struct NodePair {
     const Node* node_1;
@@ -39,9 +41,11 @@ struct NodePair {
 bool overlap(const NodePair& pair) { return pair.node_1->bv.overlap(pair.node_2->bv); }
 
 void push_children(const NodePair& pair, std::vector<NodePair>& stack) {
-    const bool split_first = !pair.node_1->isLeaf() && (pair.node_2->isLeaf() || pair.node_1->bv.size() > pair.node_2->bv.size());
+    const bool split_first =
+        !pair.node_1->isLeaf() && (pair.node_2->isLeaf() || pair.node_1->bv.size() > pair.node_2->bv.size());
     for (int child = 0; child < 2; ++child) {
-        const NodePair next = split_first ? NodePair{pair.node_1->children[child], pair.node_2} : NodePair{pair.node_1, pair.node_2->children[child]};
+        const NodePair next = split_first ? NodePair{pair.node_1->children[child], pair.node_2}
+                                          : NodePair{pair.node_1, pair.node_2->children[child]};
         if (overlap(next)) stack.push_back(next);
     }
 }
@@ -78,8 +82,9 @@ std::vector<IndexPair> fcl_pairs(Boxes boxes_1, Boxes boxes_2) {
     build(boxes_1, tree_1);
     build(boxes_2, tree_2);
     std::vector<IndexPair> pairs;
-    for_each_overlap({tree_1.getRoot(), tree_2.getRoot()},
-                     [&](const Node* a, const Node* b) { pairs.push_back({index_of(a, boxes_1), index_of(b, boxes_2)}); });
+    for_each_overlap({tree_1.getRoot(), tree_2.getRoot()}, [&](const Node* a, const Node* b) {
+        pairs.push_back({index_of(a, boxes_1), index_of(b, boxes_2)});
+    });
     return pairs;
 }
 

@@ -17,7 +17,8 @@
 namespace abut::geometry {
 namespace {
 
-static_assert(std::is_same_v<ccd_real_t, double>, "libccd must be the double build: the single one fails its checks silently");
+static_assert(std::is_same_v<ccd_real_t, double>,
+              "libccd must be the double build: the single one fails its checks silently");
 
 constexpr int max_iterations = 200;
 constexpr std::size_t few_points = 16;  // two hexahedra
@@ -47,14 +48,16 @@ struct Bodies {
 
 template <int Dim>
 Box<3> bounding_box_of(std::span<const Vector<Dim>> points) {
-    if (points.empty()) throw std::invalid_argument("convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
+    if (points.empty())
+        throw std::invalid_argument("convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
     Box<3> box;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector<Dim>& point = points[i];
         for (int axis = 0; axis < Dim; ++axis)
             if (!std::isfinite(point[axis]))
-                throw std::invalid_argument("convex_proximity: point " + std::to_string(i) + " has the " + "xyz"[axis] + " coordinate " +
-                                            std::to_string(point[axis]) + ", a finite number is needed. Has the motion behind it blown up?");
+                throw std::invalid_argument("convex_proximity: point " + std::to_string(i) + " has the " + "xyz"[axis] +
+                                            " coordinate " + std::to_string(point[axis]) +
+                                            ", a finite number is needed. Has the motion behind it blown up?");
         Vector<3> lifted = Vector<3>::Zero();
         lifted.template head<Dim>() = point;
         box.extend(lifted);
@@ -138,7 +141,8 @@ struct CountedBody {
 void ccd_support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point) {
     const auto& counted = *static_cast<const CountedBody*>(object);
     const bool give_up = counted.calls_left-- <= 0;
-    const Vector<3> farthest = give_up ? counted.body->centre : counted.body->support({direction->v[0], direction->v[1], direction->v[2]});
+    const Vector<3> farthest =
+        give_up ? counted.body->centre : counted.body->support({direction->v[0], direction->v[1], direction->v[2]});
     ccdVec3Set(point, farthest.x(), farthest.y(), farthest.z());
 }
 
@@ -164,8 +168,8 @@ Vector<3> ccd_direction(const Bodies& bodies, CcdPenetration penetration) {
 }
 
 std::vector<Vector<3>> proposed_directions(const Bodies& bodies) {
-    std::vector<Vector<3>> directions = {bodies.body_2.centre - bodies.body_1.centre, gjk_gap(bodies), gjk_gap(shrunk(bodies, 0.99)),
-                                         gjk_gap(shrunk(bodies, 0.9))};
+    std::vector<Vector<3>> directions = {bodies.body_2.centre - bodies.body_1.centre, gjk_gap(bodies),
+                                         gjk_gap(shrunk(bodies, 0.99)), gjk_gap(shrunk(bodies, 0.9))};
     for (int axis = 0; axis < 3; ++axis) directions.push_back(Vector<3>::Unit(axis));
     return directions;
 }
@@ -199,7 +203,8 @@ void improve(Best& best, const Bodies& bodies, Vector<3> proposal, bool is_plane
     if (!proposal.allFinite() || proposal.isZero(0.0)) return;
     proposal.stableNormalize();
     for (const Vector<3>& direction : {proposal, Vector<3>(-proposal)})
-        if (const double separation = bodies.separation(direction); separation > best.separation) best = {separation, direction};
+        if (const double separation = bodies.separation(direction); separation > best.separation)
+            best = {separation, direction};
 }
 
 // EPA stops a little early. Pushed apart along the best direction so far, and a little more, the bodies face each other

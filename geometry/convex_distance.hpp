@@ -17,11 +17,12 @@ struct ConvexProximity {
 /// Distance or penetration depth of the convex hulls of two sets of points, for reports before a run; not for a force.
 /// The result is measured along `direction`, the best of those proposed by GJK (distance) and by libccd's EPA and MPR
 /// (depth). So it is always on the safe side: where the iterations fail or stop at their limit (bodies that just touch, flat
-/// bodies) the distance is a lower and the depth an upper bound. Relative accuracy otherwise: 1e-6 of the size of the bodies.
-/// With no more than 16 points in all (two hexahedra) all axes that can be the best are tried: the depth is then exact up to
-/// rounding.
+/// bodies) the distance is a lower and the depth an upper bound. Relative accuracy otherwise: 1e-6 of the size of the
+/// bodies. With no more than 16 points in all (two hexahedra) all axes that can be the best are tried: the depth is then
+/// exact up to rounding.
 /// Throws std::invalid_argument if a set is empty or a coordinate is not finite.
 template <int Dim>
-[[nodiscard]] ConvexProximity<Dim> convex_proximity(std::span<const Vector<Dim>> body_1, std::span<const Vector<Dim>> body_2);
+[[nodiscard]] ConvexProximity<Dim> convex_proximity(std::span<const Vector<Dim>> body_1,
+                                                    std::span<const Vector<Dim>> body_2);
 
 }  // namespace abut::geometry

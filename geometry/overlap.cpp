@@ -20,12 +20,13 @@ double sum_error(double a, double b) {
     return (a - (sum - of_b)) + (b - of_b);
 }
 
-// Sign of a b - c d, without rounding; nothing where products may underflow. Rounding keeps the order of two numbers, so that
-// only equal products leave the decision to what rounding took off them.
+// Sign of a b - c d, without rounding; nothing where products may underflow. Rounding keeps the order of two numbers, so
+// that only equal products leave the decision to what rounding took off them.
 std::optional<int> sign_of_difference(double a, double b, double c, double d) {
     constexpr double smallest = 1e-280;  // of a product whose rounding error is still a double
     const double ab = a * b, cd = c * d;
-    if ((std::abs(ab) < smallest && a != 0.0 && b != 0.0) || (std::abs(cd) < smallest && c != 0.0 && d != 0.0)) return std::nullopt;
+    if ((std::abs(ab) < smallest && a != 0.0 && b != 0.0) || (std::abs(cd) < smallest && c != 0.0 && d != 0.0))
+        return std::nullopt;
     const double difference = ab != cd ? ab - cd : std::fma(a, b, -ab) - std::fma(c, d, -cd);
     return (difference > 0.0) - (difference < 0.0);
 }
@@ -35,21 +36,26 @@ std::optional<int> sign_of_difference(double a, double b, double c, double d) {
 int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift) {
     const PlaneVector<3> along = b - a, arm_before = c - a, arm = arm_before + shift;
     const double left = along.x() * arm.y(), right = along.y() * arm.x();
-    const double error = 4 * epsilon * (std::abs(left) + std::abs(right) + std::abs(along.x() * shift.y()) + std::abs(along.y() * shift.x())) +
-                         std::numeric_limits<double>::min();
+    const double error =
+        4 * epsilon *
+            (std::abs(left) + std::abs(right) + std::abs(along.x() * shift.y()) + std::abs(along.y() * shift.x())) +
+        std::numeric_limits<double>::min();
     if (std::abs(left - right) > error) return left > right ? 1 : -1;
     bool is_rounded = false;
     for (int i = 0; i < 2; ++i)
-        is_rounded = is_rounded || sum_error(b[i], -a[i]) != 0.0 || sum_error(c[i], -a[i]) != 0.0 || sum_error(arm_before[i], shift[i]) != 0.0;
+        is_rounded = is_rounded || sum_error(b[i], -a[i]) != 0.0 || sum_error(c[i], -a[i]) != 0.0 ||
+                     sum_error(arm_before[i], shift[i]) != 0.0;
     if (!is_rounded)
         if (const auto sign = sign_of_difference(along.x(), arm.y(), along.y(), arm.x())) return *sign;
     return exact_side(a, b, c, shift);
 }
 
-// Whether the line of an edge has all of `other`, shifted, on it or on its outer side. An edge without length separates nothing.
+// Whether the line of an edge has all of `other`, shifted, on it or on its outer side. An edge without length separates
+// nothing.
 bool edge_separates(ProjectedFace<3> face, std::size_t edge, ProjectedFace<3> other, const PlaneVector<3>& shift) {
     const PlaneVector<3>&a = face[edge], &b = face[edge + 1 == face.size() ? 0 : edge + 1];
-    return a != b && std::all_of(other.begin(), other.end(), [&](const PlaneVector<3>& point) { return side(a, b, point, shift) <= 0; });
+    return a != b && std::all_of(other.begin(), other.end(),
+                                 [&](const PlaneVector<3>& point) { return side(a, b, point, shift) <= 0; });
 }
 
 bool an_edge_separates(ProjectedFace<3> face, ProjectedFace<3> other, const PlaneVector<3>& shift) {
@@ -99,7 +105,8 @@ struct Polygon {
     std::array<PlaneVector<3>, max_polygon_vertices> vertices;
     int size;
 
-    Polygon(ProjectedFace<3> face, const PlaneVector<3>& origin, const PlaneVector<3>& shift) : size(static_cast<int>(face.size())) {
+    Polygon(ProjectedFace<3> face, const PlaneVector<3>& origin, const PlaneVector<3>& shift)
+        : size(static_cast<int>(face.size())) {
         for (int i = 0; i < size; ++i) vertices[i] = (face[i] - origin) + shift;
     }
     const PlaneVector<3>& end(int i) const { return vertices[i + 1 == size ? 0 : i + 1]; }
@@ -113,7 +120,8 @@ struct Polygon {
 
 double size_of(const Polygon& polygon) {
     double largest = 0.0;
-    for (int i = 1; i < polygon.size; ++i) largest = std::max(largest, (polygon.vertices[i] - polygon.vertices[0]).cwiseAbs().maxCoeff());
+    for (int i = 1; i < polygon.size; ++i)
+        largest = std::max(largest, (polygon.vertices[i] - polygon.vertices[0]).cwiseAbs().maxCoeff());
     return largest;
 }
 
@@ -158,7 +166,8 @@ double clip(const Clipped& in, const PlaneVector<3>& start, const PlaneVector<3>
 double area_of(const Clipped& polygon) {
     double twice = 0.0;
     for (int k = 1; k + 1 < polygon.size; ++k)
-        twice += cross(polygon.corners[k].point - polygon.corners[0].point, polygon.corners[k + 1].point - polygon.corners[0].point);
+        twice += cross(polygon.corners[k].point - polygon.corners[0].point,
+                       polygon.corners[k + 1].point - polygon.corners[0].point);
     return 0.5 * twice;
 }
 
@@ -167,8 +176,9 @@ bool coincide(const Polygon& polygon_1, int i, const Polygon& polygon_2, int j, 
     const PlaneVector<3> edge_1 = polygon_1.edge(i), edge_2 = polygon_2.edge(j);
     const double length_1 = edge_1.cwiseAbs().sum(), length_2 = edge_2.cwiseAbs().sum();
     if (std::abs(cross(edge_1, edge_2)) > 2.0 * distance * (length_1 + length_2)) return false;  // the common case
-    if (length_1 <= distance || length_2 <= distance) return false;                              // too short to have a direction
-    const auto lies_on = [distance](const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& start, const PlaneVector<3>& line) {
+    if (length_1 <= distance || length_2 <= distance) return false;  // too short to have a direction
+    const auto lies_on = [distance](const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& start,
+                                    const PlaneVector<3>& line) {
         const double limit = distance * line.norm();
         return std::abs(cross(line, a - start)) <= limit && std::abs(cross(line, b - start)) <= limit;
     };
@@ -183,12 +193,14 @@ double weight_of(const Corner& corner, const Polygon& polygon_1, const Polygon& 
     const int n = corner.of_face_2 ? polygon_1.size : polygon_2.size;
     for (int k = 0; k < n; ++k) {
         const int i = corner.of_face_2 ? k : corner.edge, j = corner.of_face_2 ? corner.edge : k;
-        if (coincide(polygon_1, i, polygon_2, j, distance)) return polygon_1.edge(i).dot(polygon_2.edge(j)) > 0.0 ? 0.5 : 0.0;
+        if (coincide(polygon_1, i, polygon_2, j, distance))
+            return polygon_1.edge(i).dot(polygon_2.edge(j)) > 0.0 ? 0.5 : 0.0;
     }
     return corner.of_face_2 ? 1.0 : 0.0;
 }
 
-PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygon_1, const Polygon& polygon_2, double distance) {
+PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygon_1, const Polygon& polygon_2,
+                                   double distance) {
     PlaneVector<3> along = PlaneVector<3>::Zero();
     for (int k = 0; k < overlap.size; ++k) {
         const Corner& corner = overlap.corners[k];
@@ -202,7 +214,8 @@ SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
     const Polygon polygon_1(face_1, face_1[0], PlaneVector<3>::Zero());
     const Polygon polygon_2(face_2, face_1[0], shift);
     const double extent = std::max(polygon_1.extent(), polygon_2.extent());
-    const double distance_error = 16 * epsilon * (extent + shift.cwiseAbs().maxCoeff());  // a long shift rounds more than what is left of it
+    const double distance_error =
+        16 * epsilon * (extent + shift.cwiseAbs().maxCoeff());  // a long shift rounds more than what is left of it
     const double area_error = distance_error * extent * (polygon_1.size + polygon_2.size);  // also of a height over an edge
 
     std::array<Clipped, 2> buffers;
@@ -218,17 +231,20 @@ SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
     if (buffers[0].full || buffers[1].full) return exact_shared_area(face_1, face_2, shift);
 
     const double area = area_of(*overlap);
-    if (area <= area_error && (lies_beyond_an_edge(polygon_2, polygon_1, area_error) || !interiors_meet(face_1, face_2, shift))) return {};
+    if (area <= area_error &&
+        (lies_beyond_an_edge(polygon_2, polygon_1, area_error) || !interiors_meet(face_1, face_2, shift)))
+        return {};
     const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
-    return {std::max(area, std::numeric_limits<double>::min()), shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
+    return {std::max(area, std::numeric_limits<double>::min()),
+            shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
 }
 
 // Whether a + b < c, without rounding: the rounded sum decides unless it is c itself.
 bool sum_is_below(double a, double b, double c) { return a + b < c || (a + b == c && sum_error(a, b) < 0.0); }
 
 bool interiors_meet(ProjectedFace<2> face_1, ProjectedFace<2> face_2, double shift) {
-    return face_1[0].x() < face_1[1].x() && face_2[0].x() < face_2[1].x() && sum_is_below(face_2[0].x(), shift, face_1[1].x()) &&
-           sum_is_below(-face_2[1].x(), -shift, -face_1[0].x());
+    return face_1[0].x() < face_1[1].x() && face_2[0].x() < face_2[1].x() &&
+           sum_is_below(face_2[0].x(), shift, face_1[1].x()) && sum_is_below(-face_2[1].x(), -shift, -face_1[0].x());
 }
 
 // 1 where the end of segment 2 cuts segment 1, 0 where segment 1 ends first, half where both end together.
@@ -248,7 +264,8 @@ SharedArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2,
 }  // namespace
 
 template <int Dim>
-SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift, AreaMethod method) {
+SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift,
+                            AreaMethod method) {
     assert(face_1.size() >= Dim && face_1.size() <= max_polygon_vertices);
     assert(face_2.size() >= Dim && face_2.size() <= max_polygon_vertices);
     return method == AreaMethod::fast ? fast_shared_area(face_1, face_2, shift) : exact_shared_area(face_1, face_2, shift);

@@ -22,20 +22,21 @@ inline constexpr int max_polygon_vertices = 16;
 /// The patch two projected faces share, the second one shifted by s.
 template <int Dim>
 struct SharedArea {
-    double area = 0.0;                                          ///< A_12 [m^(Dim-1)], 0 when they only touch or are apart
+    double area = 0.0;                                             ///< A_12 [m^(Dim-1)], 0 when they only touch or are apart
     PlaneVector<Dim> shift_derivative = PlaneVector<Dim>::Zero();  ///< dA/ds [m^(Dim-2)]
 };
 
 /// A_12(s) and its derivative. Whether A_12 > 0 is decided exactly, on the given coordinates and the shift as they stand:
 /// nothing is rounded before, so both methods always agree on it, and so do the faces swapped with the shift reversed.
-/// The area is then rounded to double, to no less than the smallest normal one. dA/ds is the sum over the edges of face 2 inside face 1 of (length) (outward in-plane
-/// normal); an edge of 2 that lies on an edge of 1 (within 1e-12 of the face size, matching meshes) counts half, and not at
-/// all if it runs the other way: such faces lie side by side. Zero area gives a zero derivative. METHOD.md, section 3.
-/// `exact` takes the half only where the edges are exactly collinear: on meshes that match up to rounding the derivatives
-/// of the two methods differ. Repeated vertices and straight corners are allowed; a face without area shares none.
+/// The area is then rounded to double, to no less than the smallest normal one. dA/ds is the sum over the edges of face 2
+/// inside face 1 of (length) (outward in-plane normal); an edge of 2 that lies on an edge of 1 (within 1e-12 of the face
+/// size, matching meshes) counts half, and not at all if it runs the other way: such faces lie side by side. Zero area
+/// gives a zero derivative. METHOD.md, section 3. `exact` takes the half only where the edges are exactly collinear: on
+/// meshes that match up to rounding the derivatives of the two methods differ. Repeated vertices and straight corners are
+/// allowed; a face without area shares none.
 template <int Dim>
-[[nodiscard]] SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift,
-                                          AreaMethod method = AreaMethod::fast);
+[[nodiscard]] SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
+                                          const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
 
 /// Appends to `events` the parameters tau in (0, 1) at which A_12 may change its formula while the shift goes straight from
 /// `shift_0` to `shift_1`: a vertex of one face crosses an edge of the other. Unsorted, with duplicates possible. Between

@@ -92,7 +92,8 @@ SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2
 }
 
 SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
-    const std::vector<Point> polygon_1 = exact_points(face_1, PlaneVector<3>::Zero()), polygon_2 = exact_points(face_2, shift);
+    const std::vector<Point> polygon_1 = exact_points(face_1, PlaneVector<3>::Zero()),
+                             polygon_2 = exact_points(face_2, shift);
     const std::vector<Triangle> fan_1 = fan(polygon_1), fan_2 = fan(polygon_2);
     Number area = 0;
     for (const Triangle& triangle_1 : fan_1)

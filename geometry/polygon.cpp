@@ -46,7 +46,9 @@ bool lies_inside_every_edge(FaceVertices<3> face, const Vector<3>& normal, doubl
         const Vector<3> edge = face[(i + 1) % face.size()] - face[i];
         const Vector<3> inward = normal.cross(edge);
         const double allowed = -tolerance * inward.norm();
-        if (std::any_of(face.begin(), face.end(), [&](const Vector<3>& vertex) { return inward.dot(vertex - face[i]) < allowed; })) return false;
+        if (std::any_of(face.begin(), face.end(),
+                        [&](const Vector<3>& vertex) { return inward.dot(vertex - face[i]) < allowed; }))
+            return false;
     }
     return true;
 }

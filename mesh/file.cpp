@@ -13,7 +13,8 @@ std::string file_contents(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw MeshError(path.string() + ": there is no such file. Check the path.");
-    if (std::filesystem::is_directory(status)) throw MeshError(path.string() + ": is a folder, a mesh file is needed. Check the path.");
+    if (std::filesystem::is_directory(status))
+        throw MeshError(path.string() + ": is a folder, a mesh file is needed. Check the path.");
     std::ifstream file(path, std::ios::binary);
     std::string contents{std::istreambuf_iterator<char>(file), {}};
     if (!file) throw MeshError(path.string() + ": cannot be read. Check its permissions.");
@@ -25,12 +26,14 @@ void make_directory(const std::filesystem::path& directory) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
     if (!std::filesystem::is_directory(directory))
-        throw MeshError(directory.string() + ": the folder cannot be made: " + (error ? error.message() : "a file is in its place") +
+        throw MeshError(directory.string() +
+                        ": the folder cannot be made: " + (error ? error.message() : "a file is in its place") +
                         ". Choose another one or change its permissions.");
 }
 
 PreparedFile::PreparedFile(std::filesystem::path path)
-    : path_(std::move(path)), temporary_(path_.parent_path() / ("." + path_.stem().string() + ".part" + path_.extension().string())) {}
+    : path_(std::move(path)),
+      temporary_(path_.parent_path() / ("." + path_.stem().string() + ".part" + path_.extension().string())) {}
 
 PreparedFile::~PreparedFile() {
     std::error_code ignored;
@@ -41,7 +44,8 @@ void PreparedFile::move_into_place() {
     std::error_code error;
     std::filesystem::rename(temporary_, path_, error);
     if (error)
-        throw MeshError(path_.string() + ": cannot be written: " + error.message() + ". Check permissions and free space of its folder.");
+        throw MeshError(path_.string() + ": cannot be written: " + error.message() +
+                        ". Check permissions and free space of its folder.");
     temporary_.clear();
 }
 
@@ -53,7 +57,8 @@ PreparedFile prepared_text(const std::filesystem::path& path, const std::string&
     file.close();
     if (!file) {
         const std::string reason = errno != 0 ? std::generic_category().message(errno) : "the folder takes no more";
-        throw MeshError(path.string() + ": cannot be written: " + reason + ". Check permissions and free space of its folder.");
+        throw MeshError(path.string() + ": cannot be written: " + reason +
+                        ". Check permissions and free space of its folder.");
     }
     return prepared;
 }

@@ -17,7 +17,8 @@ class PreparedFile {
 public:
     explicit PreparedFile(std::filesystem::path path);
     ~PreparedFile();
-    PreparedFile(PreparedFile&& other) noexcept : path_(std::exchange(other.path_, {})), temporary_(std::exchange(other.temporary_, {})) {}
+    PreparedFile(PreparedFile&& other) noexcept
+        : path_(std::exchange(other.path_, {})), temporary_(std::exchange(other.temporary_, {})) {}
     PreparedFile& operator=(PreparedFile&&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }

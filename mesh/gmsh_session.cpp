@@ -48,7 +48,8 @@ std::vector<ElementBlock> element_blocks(int dimension, int entity) {
     gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
     std::vector<ElementBlock> blocks;
     for (std::size_t i = 0; i < types.size(); ++i)
-        if (!tags[i].empty()) blocks.push_back({types[i], nodes[i].size() / tags[i].size(), std::move(tags[i]), std::move(nodes[i])});
+        if (!tags[i].empty())
+            blocks.push_back({types[i], nodes[i].size() / tags[i].size(), std::move(tags[i]), std::move(nodes[i])});
     return blocks;
 }
 
@@ -74,11 +75,14 @@ void check_first_order(const std::string& name, const ElementBlock& block, bool 
         throw MeshError(element + " of order " + std::to_string(order) +
                         ", straight-sided elements of order 1 are needed. Save the mesh with gmsh -order 1.");
     if (!is_known)
-        throw MeshError(element + ", cells can be triangles, quadrangles, tetrahedra, hexahedra, prisms and pyramids. Mesh the part with these.");
+        throw MeshError(
+            element +
+            ", cells can be triangles, quadrangles, tetrahedra, hexahedra, prisms and pyramids. Mesh the part with these.");
 }
 
 CellShape shape_of(const std::string& name, const ElementBlock& block) {
-    const auto found = std::find_if(element_types.begin(), element_types.end(), [&](const ElementType& t) { return t.gmsh_number == block.type; });
+    const auto found = std::find_if(element_types.begin(), element_types.end(),
+                                    [&](const ElementType& t) { return t.gmsh_number == block.type; });
     check_first_order(name, block, found != element_types.end());
     return found->shape;
 }
@@ -92,8 +96,10 @@ public:
         if (is_dense) dense_.assign(largest + 1, -1);
         for (std::size_t i = 0; i < tags.size(); ++i) {
             const auto index = static_cast<std::int32_t>(i);
-            if (is_dense) dense_[tags[i]] = index;
-            else sparse_.emplace(tags[i], index);
+            if (is_dense)
+                dense_[tags[i]] = index;
+            else
+                sparse_.emplace(tags[i], index);
         }
     }
     /// -1 for a node that is not there.
@@ -104,13 +110,14 @@ public:
     }
 
 private:
-    std::vector<std::int32_t> dense_;                          ///< by tag, -1 for none
+    std::vector<std::int32_t> dense_;                       ///< by tag, -1 for none
     std::unordered_map<std::size_t, std::int32_t> sparse_;  ///< instead, where tags have large gaps
 };
 
 geometry::Box<3> box_of(const std::vector<double>& coordinates) {
     geometry::Box<3> box;
-    for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) box.extend(Vector<3>(coordinates[i], coordinates[i + 1], coordinates[i + 2]));
+    for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
+        box.extend(Vector<3>(coordinates[i], coordinates[i + 1], coordinates[i + 2]));
     return box;
 }
 
@@ -140,8 +147,10 @@ std::int32_t body_of_entity(const std::string& mesh_name, int dimension, int ent
     if (groups.empty()) return -1;
     if (groups.size() > 1)
         throw MeshError(mesh_name + ": geometric entity " + std::to_string(entity) + " is in the physical groups '" +
-                        group_name(dimension, groups[0]) + "' and '" + group_name(dimension, groups[1]) + "', a cell belongs to one body. Leave it in one of them.");
-    return static_cast<std::int32_t>(std::find(body_groups.begin(), body_groups.end(), std::abs(groups[0])) - body_groups.begin());
+                        group_name(dimension, groups[0]) + "' and '" + group_name(dimension, groups[1]) +
+                        "', a cell belongs to one body. Leave it in one of them.");
+    return static_cast<std::int32_t>(std::find(body_groups.begin(), body_groups.end(), std::abs(groups[0])) -
+                                     body_groups.begin());
 }
 
 template <int Dim>
@@ -153,7 +162,8 @@ void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumb
             vertices[k] = number(block.nodes[i * block.n_nodes + k]);
             if (vertices[k] < 0)
                 throw MeshError(soup.name + ": element " + std::to_string(block.tags[i]) + " has the node " +
-                                std::to_string(block.nodes[i * block.n_nodes + k]) + ", which is not in the file. Save the mesh again.");
+                                std::to_string(block.nodes[i * block.n_nodes + k]) +
+                                ", which is not in the file. Save the mesh again.");
         }
         soup.cell_vertices.append({vertices.data(), block.n_nodes});
         soup.cell_shape.push_back(shape);
@@ -191,7 +201,8 @@ void read_group(CellSoup<Dim>& soup, int tag, const NodeNumbers& number) {
             check_first_order(soup.name, block, true);
             for (std::size_t i = 0; i < block.tags.size(); ++i) {
                 typename CellSoup<Dim>::NamedFace face{{}, group};
-                for (std::size_t k = 0; k < block.n_nodes; ++k) face.vertices.push_back(number(block.nodes[i * block.n_nodes + k]));
+                for (std::size_t k = 0; k < block.n_nodes; ++k)
+                    face.vertices.push_back(number(block.nodes[i * block.n_nodes + k]));
                 soup.named_faces.push_back(std::move(face));
             }
         }
@@ -218,7 +229,8 @@ void check_dimension(const std::string& name) {
         throw MeshError(name + ": " + std::to_string(n_elements(3)) +
                         " cells of dimension 3 in what should be a mesh of dimension 2. Read it as dimension 3.");
     if (!has_elements(Dim))
-        throw MeshError(name + ": the mesh is empty: 0 cells of dimension " + std::to_string(Dim) + " (and " + std::to_string(n_elements(2)) +
+        throw MeshError(name + ": the mesh is empty: 0 cells of dimension " + std::to_string(Dim) + " (and " +
+                        std::to_string(n_elements(2)) +
                         " of dimension 2), at least 1 is needed. Mesh the part up to dimension " + std::to_string(Dim) +
                         ", and see that its physical groups hold the cells.");
 }
@@ -257,7 +269,8 @@ std::vector<std::string> logged(const char* level) {
 std::vector<std::string> GmshSession::errors() { return logged("Error"); }
 std::vector<std::string> GmshSession::warnings() { return logged("Warning"); }
 
-void GmshSession::run(const std::string& name, const std::string& task, const std::string& remedy, const std::function<void()>& calls) const {
+void GmshSession::run(const std::string& name, const std::string& task, const std::string& remedy,
+                      const std::function<void()>& calls) const {
     std::string what;
     try {
         calls();

@@ -19,7 +19,8 @@ public:
     GmshSession& operator=(const GmshSession&) = delete;
 
     /// Runs Gmsh calls; whatever they throw becomes a MeshError "<name>: <task>: <Gmsh's errors and warnings>. <remedy>".
-    void run(const std::string& name, const std::string& task, const std::string& remedy, const std::function<void()>& calls) const;
+    void run(const std::string& name, const std::string& task, const std::string& remedy,
+             const std::function<void()>& calls) const;
     /// What Gmsh has logged so far: "Error: ...", "Warning: ...".
     [[nodiscard]] static std::vector<std::string> errors();
     [[nodiscard]] static std::vector<std::string> warnings();

@@ -44,11 +44,13 @@ std::vector<BoxedCells<Dim>> cells_by_body(const Mesh<Dim>& mesh) {
 template <int Dim>
 std::vector<Vector<Dim>> corners(const Mesh<Dim>& mesh, std::int32_t cell) {
     std::vector<Vector<Dim>> points;
-    for (const std::int32_t vertex : mesh.cell_vertices[cell]) points.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
+    for (const std::int32_t vertex : mesh.cell_vertices[cell])
+        points.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
     return points;
 }
 
-/// Whether all points lie on the outer side of a face of the cell, up to `tolerance` [m]: quick, and exact for cells that touch.
+/// Whether all points lie on the outer side of a face of the cell, up to `tolerance` [m]: quick, and exact for cells that
+/// touch.
 template <int Dim>
 bool outside_of_a_face(const Mesh<Dim>& mesh, std::int32_t cell, const std::vector<Vector<Dim>>& points, double tolerance) {
     return std::ranges::any_of(mesh.cell_faces[cell], [&](std::int32_t face) {
@@ -62,11 +64,13 @@ bool outside_of_a_face(const Mesh<Dim>& mesh, std::int32_t cell, const std::vect
 
 template <int Dim>
 std::optional<double> overlap_depth(const Mesh<Dim>& mesh, std::int32_t cell_1, std::int32_t cell_2) {
-    const double size = std::max(diameter<Dim>(mesh.vertices, mesh.cell_vertices[cell_1]), diameter<Dim>(mesh.vertices, mesh.cell_vertices[cell_2]));
+    const double size = std::max(diameter<Dim>(mesh.vertices, mesh.cell_vertices[cell_1]),
+                                 diameter<Dim>(mesh.vertices, mesh.cell_vertices[cell_2]));
     const double tolerance = touching_tolerance * size;
     const auto points_1 = corners(mesh, cell_1);
     const auto points_2 = corners(mesh, cell_2);
-    if (outside_of_a_face(mesh, cell_1, points_2, tolerance) || outside_of_a_face(mesh, cell_2, points_1, tolerance)) return std::nullopt;
+    if (outside_of_a_face(mesh, cell_1, points_2, tolerance) || outside_of_a_face(mesh, cell_2, points_1, tolerance))
+        return std::nullopt;
     const double depth = geometry::convex_proximity<Dim>(points_1, points_2).depth;
     if (depth <= tolerance) return std::nullopt;
     return depth;
@@ -75,7 +79,8 @@ std::optional<double> overlap_depth(const Mesh<Dim>& mesh, std::int32_t cell_1, 
 /// "'left' and 'right'"
 template <int Dim>
 std::string body_names(const Mesh<Dim>& mesh, const Interpenetration& pair) {
-    return "'" + mesh.body_names[static_cast<std::size_t>(pair.bodies[0])] + "' and '" + mesh.body_names[static_cast<std::size_t>(pair.bodies[1])] + "'";
+    return "'" + mesh.body_names[static_cast<std::size_t>(pair.bodies[0])] + "' and '" +
+           mesh.body_names[static_cast<std::size_t>(pair.bodies[1])] + "'";
 }
 
 /// "17|23"
@@ -98,7 +103,8 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
             if (!geometry::bounding_box<Dim>(part_1.boxes).overlaps(geometry::bounding_box<Dim>(part_2.boxes))) continue;
             for (const auto& [i, k] : geometry::overlapping_pairs<Dim>(broad_phase, part_1.boxes, part_2.boxes)) {
                 const std::array cells{part_1.cells[static_cast<std::size_t>(i)], part_2.cells[static_cast<std::size_t>(k)]};
-                if (const auto depth = overlap_depth(mesh, cells[0], cells[1])) found.push_back({{body_1, body_2}, cells, *depth});
+                if (const auto depth = overlap_depth(mesh, cells[0], cells[1]))
+                    found.push_back({{body_1, body_2}, cells, *depth});
             }
         }
     std::ranges::sort(found, [](const Interpenetration& a, const Interpenetration& b) {
@@ -112,13 +118,15 @@ void check_apart(const Mesh<Dim>& mesh, const std::string& remedy, geometry::Bro
     const auto found = find_interpenetrations(mesh, broad_phase);
     if (found.empty()) return;
     const Interpenetration& worst = found.front();
-    throw MeshError(mesh.name + ": bodies " + body_names(mesh, worst) + " overlap at the start: cells " + cell_labels(mesh, worst) + " are " +
-                    number(worst.depth) + " m inside each other, 0 m is allowed (" + std::to_string(found.size()) +
-                    (found.size() == 1 ? " pair of cells overlaps" : " pairs of cells overlap, this one is the deepest") + "). " + remedy);
+    throw MeshError(mesh.name + ": bodies " + body_names(mesh, worst) + " overlap at the start: cells " +
+                    cell_labels(mesh, worst) + " are " + number(worst.depth) + " m inside each other, 0 m is allowed (" +
+                    std::to_string(found.size()) +
+                    (found.size() == 1 ? " pair of cells overlaps" : " pairs of cells overlap, this one is the deepest") +
+                    "). " + remedy);
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                         \
-    template std::vector<Interpenetration> find_interpenetrations<Dim>(const Mesh<Dim>&, geometry::BroadPhase);       \
+#define ABUT_INSTANTIATE(Dim)                                                                                   \
+    template std::vector<Interpenetration> find_interpenetrations<Dim>(const Mesh<Dim>&, geometry::BroadPhase); \
     template void check_apart<Dim>(const Mesh<Dim>&, const std::string&, geometry::BroadPhase);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -14,9 +14,9 @@ inline constexpr double touching_tolerance = 1e-6;
 
 /// Two cells of different bodies that share volume.
 struct Interpenetration {
-    std::array<std::int32_t, 2> bodies;   ///< bodies[0] < bodies[1]
-    std::array<std::int32_t, 2> cells;    ///< one of each, index in the mesh
-    double depth;                         ///< [m], > 0: the shortest way that parts these two cells
+    std::array<std::int32_t, 2> bodies;  ///< bodies[0] < bodies[1]
+    std::array<std::int32_t, 2> cells;   ///< one of each, index in the mesh
+    double depth;                        ///< [m], > 0: the shortest way that parts these two cells
 };
 
 /// All pairs of cells of different bodies that overlap, deepest first (equal depths by cells). Every cell is taken as the
@@ -24,8 +24,8 @@ struct Interpenetration {
 /// diameter, are none. A body that lies wholly inside another is found: its cells overlap those around it.
 /// The depth is that of two cells: bodies that are far inside each other have to be moved further.
 template <int Dim>
-[[nodiscard]] std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh,
-                                                                   geometry::BroadPhase broad_phase = geometry::BroadPhase::embree);
+[[nodiscard]] std::vector<Interpenetration> find_interpenetrations(
+    const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase = geometry::BroadPhase::embree);
 
 /// Throws MeshError if there are any, naming the bodies, how many pairs of cells, and which are the deepest; `remedy` ends
 /// the message. To be called before a run: contact takes what overlaps at the start for pressed together.

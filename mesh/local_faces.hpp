@@ -18,7 +18,8 @@ struct LocalFace {
 
 [[nodiscard]] inline LocalFace local_face(std::span<const std::int32_t> cell_vertices, CellShape shape, int face) {
     LocalFace result{};
-    for (const std::int8_t local : face_vertices(shape, face)) result.vertices[result.count++] = cell_vertices[static_cast<std::size_t>(local)];
+    for (const std::int8_t local : face_vertices(shape, face))
+        result.vertices[result.count++] = cell_vertices[static_cast<std::size_t>(local)];
     return result;
 }
 

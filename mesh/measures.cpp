@@ -24,7 +24,8 @@ void measure_cell(const CellSoup<Dim>& soup, std::int32_t cell, double& measure,
     for (int i = 0; i < n_faces(soup.cell_shape[static_cast<std::size_t>(cell)]); ++i) {
         const auto face = face_corners<Dim>(soup.vertices, local_face(soup, cell, i).view());
         const Vector<Dim> arm = geometry::face_centroid<Dim>(face.view()) - origin;
-        const double cone = geometry::face_measure<Dim>(face.view()) * geometry::face_normal<Dim>(face.view()).dot(arm) / Dim;
+        const double cone =
+            geometry::face_measure<Dim>(face.view()) * geometry::face_normal<Dim>(face.view()).dot(arm) / Dim;
         measure += cone;
         moment += cone * Dim / (Dim + 1.0) * arm;  // centroid of a cone: Dim/(Dim+1) of the way from its apex
     }

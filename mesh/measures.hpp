@@ -26,8 +26,8 @@ template <int Dim>
     return corners;
 }
 
-/// Measures |c| [m^Dim], negative for a cell inside out, and centroids x_c [m] of all cells. With o the mean of the vertices,
-/// |c| = sum_f |f| n_f . (x_f - o) / Dim: exact for plane faces, convex or not.
+/// Measures |c| [m^Dim], negative for a cell inside out, and centroids x_c [m] of all cells. With o the mean of the
+/// vertices, |c| = sum_f |f| n_f . (x_f - o) / Dim: exact for plane faces, convex or not.
 template <int Dim>
 struct CellMeasures {
     std::vector<double> measure;

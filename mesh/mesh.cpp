@@ -31,7 +31,8 @@ template <int Dim>
     const auto lost = std::find(face.vertices.begin(), face.vertices.end(), -1) != face.vertices.end();
     const auto which = lost ? std::string("with a vertex that no cell has") : vertex_list(face.vertices, soup.vertex_label);
     throw MeshError(soup.name + ": face " + which + " of group '" + soup.group_names[static_cast<std::size_t>(face.group)] +
-                    "' is not a boundary face of any cell. Name faces of the outer surface only, with the vertices of the cells behind them.");
+                    "' is not a boundary face of any cell. Name faces of the outer surface only, with the vertices of the "
+                    "cells behind them.");
 }
 
 template <int Dim>
@@ -136,7 +137,8 @@ std::vector<std::string> prefixes(std::span<const Mesh<Dim>> meshes) {
     for (const auto& mesh : meshes) ++total[mesh.name];
     std::vector<std::string> result;
     for (const auto& mesh : meshes)
-        result.push_back(mesh.name + (total[mesh.name] > 1 ? std::string("_") + std::to_string(++seen[mesh.name]) : std::string()));
+        result.push_back(mesh.name +
+                         (total[mesh.name] > 1 ? std::string("_") + std::to_string(++seen[mesh.name]) : std::string()));
     return result;
 }
 
@@ -196,7 +198,8 @@ std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, doubl
         for (const std::int32_t vertex : mesh.face_vertices[face]) {
             Place<Dim> place;
             for (int i = 0; i < Dim; ++i)
-                place.first[static_cast<std::size_t>(i)] = std::llround((mesh.vertices[static_cast<std::size_t>(vertex)][i] - origin[i]) / spacing);
+                place.first[static_cast<std::size_t>(i)] =
+                    std::llround((mesh.vertices[static_cast<std::size_t>(vertex)][i] - origin[i]) / spacing);
             place.second = mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
             places.push_back(place);
         }
@@ -237,8 +240,8 @@ const BoundaryGroup& Mesh<Dim>::group(const std::string& group_name) const {
 template <int Dim>
 Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
     if (soup.cell_shape.size() > static_cast<std::size_t>(max_cells))
-        throw MeshError(soup.name + ": " + std::to_string(soup.cell_shape.size()) + " cells, at most " + std::to_string(max_cells) +
-                        " are allowed. Coarsen the mesh.");
+        throw MeshError(soup.name + ": " + std::to_string(soup.cell_shape.size()) + " cells, at most " +
+                        std::to_string(max_cells) + " are allowed. Coarsen the mesh.");
     fill_labels(soup.cell_label, soup.cell_shape.size());
     fill_labels(soup.vertex_label, soup.vertices.size());
     check_soup(soup);

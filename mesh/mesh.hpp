@@ -45,14 +45,14 @@ struct BuildReport {
     std::int32_t n_unused_vertices = 0;   ///< vertices of the input that no cell uses, dropped
     std::int32_t n_ignored_elements = 0;  ///< elements of a file that are neither cells nor named boundary faces
     std::vector<std::string> warnings;    ///< what Gmsh warned of while it read the file
-    /// Boundary vertices at the place of a vertex of another body, up to 1e-6 of the smallest boundary face. More than a few are
-    /// bodies whose meshes match node by node: legal, but such contact is a special case, and often an accident (see `variant`
-    /// in mesh/shapes.hpp).
+    /// Boundary vertices at the place of a vertex of another body, up to 1e-6 of the smallest boundary face. More than a
+    /// few are bodies whose meshes match node by node: legal, but such contact is a special case, and often an accident
+    /// (see `variant` in mesh/shapes.hpp).
     std::int32_t n_coincident_vertices = 0;
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
-    double worst_planarity = 0.0;         ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
-    std::int32_t worst_face_cell = -1;    ///< index in the input of a cell with that face; -1 if every face has Dim vertices
+    double worst_planarity = 0.0;  ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
+    std::int32_t worst_face_cell = -1;  ///< index in the input of a cell with that face; -1 if every face has Dim vertices
 };
 
 /// Conforming mesh of one or several bodies that share no vertex, cell or face: polygons in 2D, polyhedra in 3D, with both
@@ -63,28 +63,28 @@ struct BuildReport {
 /// of `face_cells[f][0]`, and its vertices run counter-clockwise seen against the normal (3D).
 template <int Dim>
 struct Mesh {
-    std::string name;                               ///< what error messages call it (a file name, for example)
-    std::vector<Vector<Dim>> vertices;              ///< [m]
+    std::string name;                   ///< what error messages call it (a file name, for example)
+    std::vector<Vector<Dim>> vertices;  ///< [m]
 
     std::vector<CellShape> cell_shape;
     Rows cell_vertices;
     Rows cell_faces;
-    std::vector<std::int32_t> cell_body;            ///< body of a cell, 0 .. n_bodies-1, increasing with the cell
-    std::vector<double> cell_measure;               ///< |c| [m^Dim]
-    std::vector<Vector<Dim>> cell_centroid;         ///< x_c [m]
+    std::vector<std::int32_t> cell_body;     ///< body of a cell, 0 .. n_bodies-1, increasing with the cell
+    std::vector<double> cell_measure;        ///< |c| [m^Dim]
+    std::vector<Vector<Dim>> cell_centroid;  ///< x_c [m]
 
     Rows face_vertices;
     std::vector<std::array<std::int32_t, 2>> face_cells;
-    std::vector<double> face_measure;               ///< |f| [m^(Dim-1)]
-    std::vector<Vector<Dim>> face_centroid;         ///< x_f [m]
-    std::vector<Vector<Dim>> face_normal;           ///< n_f, unit, out of face_cells[f][0]
+    std::vector<double> face_measure;        ///< |f| [m^(Dim-1)]
+    std::vector<Vector<Dim>> face_centroid;  ///< x_f [m]
+    std::vector<Vector<Dim>> face_normal;    ///< n_f, unit, out of face_cells[f][0]
 
-    std::vector<std::int32_t> boundary_faces;       ///< faces with one cell, increasing
+    std::vector<std::int32_t> boundary_faces;  ///< faces with one cell, increasing
     std::vector<std::string> body_names;
     std::vector<BoundaryGroup> groups;
 
-    std::vector<std::int64_t> cell_label;           ///< number of a cell in the input; what error messages call it
-    std::vector<std::int64_t> vertex_label;         ///< the same for a vertex
+    std::vector<std::int64_t> cell_label;    ///< number of a cell in the input; what error messages call it
+    std::vector<std::int64_t> vertex_label;  ///< the same for a vertex
     BuildReport report;
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cell_measure.size()); }
@@ -101,20 +101,20 @@ struct CellSoup {
     std::string name;
     std::vector<Vector<Dim>> vertices;
     std::vector<CellShape> cell_shape;
-    Rows cell_vertices;                              ///< in Gmsh's / VTK's order; an inverted cell is an error, not mended
+    Rows cell_vertices;  ///< in Gmsh's order (see CellShape); an inverted cell is an error, not mended
     std::vector<std::int32_t> cell_body;
     std::vector<std::string> body_names;
     struct NamedFace {
-        std::vector<std::int32_t> vertices;          ///< any order
-        std::int32_t group;                          ///< index into group_names
+        std::vector<std::int32_t> vertices;  ///< any order
+        std::int32_t group;                  ///< index into group_names
     };
     std::vector<NamedFace> named_faces;
     std::vector<std::string> group_names;
 
-    std::vector<std::int64_t> cell_label;            ///< number of a cell in its file, for messages; empty: its index
-    std::vector<std::int64_t> vertex_label;          ///< the same for a vertex
-    std::int32_t n_ignored_elements = 0;             ///< goes into the report
-    std::vector<std::string> warnings;               ///< goes into the report
+    std::vector<std::int64_t> cell_label;    ///< number of a cell in its file, for messages; empty: its index
+    std::vector<std::int64_t> vertex_label;  ///< the same for a vertex
+    std::int32_t n_ignored_elements = 0;     ///< goes into the report
+    std::vector<std::string> warnings;       ///< goes into the report
 };
 
 /// What to do with a face of four vertices that do not lie in a plane (hexahedra, prisms, pyramids).

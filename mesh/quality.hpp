@@ -20,10 +20,10 @@ public:
 
 /// Numbers to judge a mesh by. Every `worst` or `smallest` comes with the cell (index in the mesh) it was found in.
 struct MeshQuality {
-    double smallest_measure;                             ///< min |c| [m^Dim]
-    double largest_measure;                              ///< max |c| [m^Dim]
+    double smallest_measure;  ///< min |c| [m^Dim]
+    double largest_measure;   ///< max |c| [m^Dim]
     std::int32_t smallest_cell;
-    double worst_aspect_ratio;                           ///< longest edge / inradius over that of the shape with equal edges: 1 is ideal [-]
+    double worst_aspect_ratio;  ///< longest edge / inradius over that of the shape with equal edges: 1 is ideal [-]
     std::int32_t worst_cell;
     double smallest_inradius;                            ///< [m]; the inradius of a cell is taken as Dim |c| / sum |f|
     std::array<std::int32_t, n_cell_shapes> n_cells_of;  ///< by CellShape
@@ -37,8 +37,8 @@ template <int Dim>
 [[nodiscard]] std::string vertex_list(std::span<const std::int32_t> vertices, const std::vector<std::int64_t>& labels);
 
 /// The checks of `build_mesh` that need no geometry: sizes of the arrays, shapes of dimension Dim, indices in range, finite
-/// coordinates, no vertex twice in a cell, no vertex in two bodies, at least one cell in all and in each body, distinct names
-/// of bodies and of groups. Throws MeshError.
+/// coordinates, no vertex twice in a cell, no vertex in two bodies, at least one cell in all and in each body, distinct
+/// names of bodies and of groups. Throws MeshError.
 template <int Dim>
 void check_soup(const CellSoup<Dim>& soup);
 

@@ -30,9 +30,11 @@ Header read_header(const std::string& name, const std::string& contents) {
     int file_type = -1;
     start >> section >> header.version >> file_type;
     if (section != "$MeshFormat")
-        throw MeshError(name + ": is not a Gmsh mesh file: it starts with '" + section.substr(0, 20) + "', '$MeshFormat' is needed. Save it with gmsh -format msh41.");
+        throw MeshError(name + ": is not a Gmsh mesh file: it starts with '" + section.substr(0, 20) +
+                        "', '$MeshFormat' is needed. Save it with gmsh -format msh41.");
     if ((header.version != "2.2" && header.version != "4.1") || (file_type != 0 && file_type != 1))
-        throw MeshError(name + ": has the Gmsh format '" + header.version + "', 2.2 and 4.1 can be read. Save it with gmsh -format msh41.");
+        throw MeshError(name + ": has the Gmsh format '" + header.version +
+                        "', 2.2 and 4.1 can be read. Save it with gmsh -format msh41.");
     header.binary = file_type == 1;
     return header;
 }
@@ -42,8 +44,8 @@ std::size_t section_start(const std::string& name, const std::string& contents, 
     const auto start = contents.find("\n$" + section);
     const auto end = contents.rfind("\n$End" + section);
     if (start == std::string::npos || end == std::string::npos || end < start)
-        throw MeshError(name + ": the file is truncated: '$" + (start == std::string::npos ? "" : "End") + section + "' is missing after " +
-                        std::to_string(contents.size()) + " bytes. Write the mesh again.");
+        throw MeshError(name + ": the file is truncated: '$" + (start == std::string::npos ? "" : "End") + section +
+                        "' is missing after " + std::to_string(contents.size()) + " bytes. Write the mesh again.");
     return contents.find('\n', start + 1) + 1;
 }
 
@@ -68,8 +70,9 @@ void check_number_of_elements(const std::string& name, std::uint64_t promised) {
     std::uint64_t found = 0;
     for (const auto& of_type : tags) found += of_type.size();
     if (found < promised)
-        throw MeshError(name + ": the file is damaged: " + std::to_string(found) + " elements could be read, its header promises " +
-                        std::to_string(promised) + ". Write the mesh again.");
+        throw MeshError(name + ": the file is damaged: " + std::to_string(found) +
+                        " elements could be read, its header promises " + std::to_string(promised) +
+                        ". Write the mesh again.");
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ Mesh<Dim> read_mesh(const std::filesystem::path& path, const MeshOptions& option
     const std::string extension = path.extension().string();
     if (extension == ".msh") return read_gmsh<Dim>(path, options);
     if (extension == ".vtu") return read_vtu<Dim>(path, options);
-    throw MeshError(path.string() + ": the extension '" + extension + "' is none of a mesh file, .msh and .vtu can be read. Convert the file or rename it.");
+    throw MeshError(path.string() + ": the extension '" + extension +
+                    "' is none of a mesh file, .msh and .vtu can be read. Convert the file or rename it.");
 }
 
 template Mesh<2> read_mesh<2>(const std::filesystem::path&, const MeshOptions&);

@@ -33,9 +33,12 @@ namespace {
 void check_is_whole_vtu(const std::string& name, const std::string& contents) {
     const std::string head = contents.substr(0, 1024);
     if (head.find("<VTKFile") == std::string::npos || head.find("UnstructuredGrid") == std::string::npos)
-        throw MeshError(name + ": is not a VTK unstructured grid: '<VTKFile type=\"UnstructuredGrid\"' is missing in its first lines. Save it as .vtu.");
+        throw MeshError(name +
+                        ": is not a VTK unstructured grid: '<VTKFile type=\"UnstructuredGrid\"' is missing in its first "
+                        "lines. Save it as .vtu.");
     if (contents.find("</VTKFile>", contents.size() - std::min<std::size_t>(contents.size(), 64)) == std::string::npos)
-        throw MeshError(name + ": the file is truncated: '</VTKFile>' is missing after " + std::to_string(contents.size()) + " bytes. Write the mesh again.");
+        throw MeshError(name + ": the file is truncated: '</VTKFile>' is missing after " + std::to_string(contents.size()) +
+                        " bytes. Write the mesh again.");
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& name) {
@@ -57,22 +60,32 @@ std::optional<VtkShape> shape_of_vtk(int type) {
     constexpr std::array<int, max_cell_vertices> same = {0, 1, 2, 3, 4, 5, 6, 7};
     constexpr std::array<int, max_cell_vertices> lattice = {0, 1, 3, 2, 4, 5, 7, 6};
     switch (type) {
-        case VTK_TRIANGLE: return VtkShape{CellShape::triangle, same};
-        case VTK_QUAD: return VtkShape{CellShape::quadrangle, same};
-        case VTK_PIXEL: return VtkShape{CellShape::quadrangle, lattice};
-        case VTK_TETRA: return VtkShape{CellShape::tetrahedron, same};
-        case VTK_HEXAHEDRON: return VtkShape{CellShape::hexahedron, same};
-        case VTK_VOXEL: return VtkShape{CellShape::hexahedron, lattice};
-        case VTK_WEDGE: return VtkShape{CellShape::prism, same};
-        case VTK_PYRAMID: return VtkShape{CellShape::pyramid, same};
-        default: return std::nullopt;
+        case VTK_TRIANGLE:
+            return VtkShape{CellShape::triangle, same};
+        case VTK_QUAD:
+            return VtkShape{CellShape::quadrangle, same};
+        case VTK_PIXEL:
+            return VtkShape{CellShape::quadrangle, lattice};
+        case VTK_TETRA:
+            return VtkShape{CellShape::tetrahedron, same};
+        case VTK_HEXAHEDRON:
+            return VtkShape{CellShape::hexahedron, same};
+        case VTK_VOXEL:
+            return VtkShape{CellShape::hexahedron, lattice};
+        case VTK_WEDGE:
+            return VtkShape{CellShape::prism, same};
+        case VTK_PYRAMID:
+            return VtkShape{CellShape::pyramid, same};
+        default:
+            return std::nullopt;
     }
 }
 
 bool has_lower_dimension(int type, int dimension) {
     const bool point = type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX;
     const bool line = type == VTK_LINE || type == VTK_POLY_LINE;
-    const bool surface = type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL || type == VTK_POLYGON || type == VTK_TRIANGLE_STRIP;
+    const bool surface =
+        type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL || type == VTK_POLYGON || type == VTK_TRIANGLE_STRIP;
     return point || line || (dimension == 3 && surface);
 }
 
@@ -95,7 +108,8 @@ void turn_wedge(const CellSoup<Dim>& soup, std::array<std::int32_t, max_cell_ver
     if constexpr (Dim == 3) {
         const auto at = [&](std::size_t i) -> const Vector<3>& { return soup.vertices[static_cast<std::size_t>(v[i])]; };
         const Vector<3> base = (at(1) - at(0)).cross(at(2) - at(0));
-        if (base.dot(at(3) + at(4) + at(5) - at(0) - at(1) - at(2)) < 0.0) std::swap_ranges(v.begin(), v.begin() + 3, v.begin() + 3);
+        if (base.dot(at(3) + at(4) + at(5) - at(0) - at(1) - at(2)) < 0.0)
+            std::swap_ranges(v.begin(), v.begin() + 3, v.begin() + 3);
     }
 }
 
@@ -138,16 +152,20 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
             continue;
         }
         if (!shape || dimension(shape->shape) != Dim)
-            throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has the VTK cell type " + std::to_string(type) + ", which is no cell of a mesh of dimension " +
-                            std::to_string(Dim) + " here. Convert it to straight-sided triangles, quadrangles, tetrahedra, hexahedra, wedges or pyramids.");
+            throw MeshError(
+                soup.name + ": cell " + std::to_string(cell) + " has the VTK cell type " + std::to_string(type) +
+                ", which is no cell of a mesh of dimension " + std::to_string(Dim) +
+                " here. Convert it to straight-sided triangles, quadrangles, tetrahedra, hexahedra, wedges or pyramids.");
         grid.GetCellPoints(cell, ids);
         const auto n_ids = ids->GetNumberOfIds();
         if (n_ids != n_vertices(shape->shape))
-            throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + std::to_string(n_ids) + " points, a " + std::string(name(shape->shape)) +
-                            " has " + std::to_string(n_vertices(shape->shape)) + ". Write the mesh again.");
+            throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + std::to_string(n_ids) + " points, a " +
+                            std::string(name(shape->shape)) + " has " + std::to_string(n_vertices(shape->shape)) +
+                            ". Write the mesh again.");
         for (vtkIdType i = 0; i < n_ids; ++i)
             if (ids->GetId(i) < 0 || ids->GetId(i) >= grid.GetNumberOfPoints())
-                throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has the point " + std::to_string(ids->GetId(i)) + ", the file has " +
+                throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has the point " +
+                                std::to_string(ids->GetId(i)) + ", the file has " +
                                 std::to_string(grid.GetNumberOfPoints()) + ". Write the mesh again.");
         append_cell(soup, *shape, *ids, cell, -1);
         if (!values.empty()) bodies.push_back(values[static_cast<std::size_t>(cell)]);
@@ -157,7 +175,8 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
     distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
     for (const std::int64_t value : distinct) soup.body_names.push_back(std::string("body_") + std::to_string(value));
     for (std::size_t cell = 0; cell < bodies.size(); ++cell)
-        soup.cell_body[cell] = static_cast<std::int32_t>(std::lower_bound(distinct.begin(), distinct.end(), bodies[cell]) - distinct.begin());
+        soup.cell_body[cell] =
+            static_cast<std::int32_t>(std::lower_bound(distinct.begin(), distinct.end(), bodies[cell]) - distinct.begin());
     name_connected_bodies(soup);
 }
 

@@ -12,9 +12,9 @@ namespace abut::mesh {
 /// quadrangles and hexahedra. Wedges are accepted in the order that VTK documents and in Gmsh's, as files use both. Cells
 /// of lower dimension are counted in BuildReport::n_ignored_elements. Labels are VTK's cell and point numbers.
 ///
-/// Throws MeshError naming the path, what is wrong and what to do: no file, empty, not a .vtu file, truncated, VTK's own errors, a
-/// cell type that is none of ours, cells of dimension 3 in a mesh of dimension 2, fractional bodies; and everything that
-/// `build_mesh` finds.
+/// Throws MeshError naming the path, what is wrong and what to do: no file, empty, not a .vtu file, truncated, VTK's own
+/// errors, a cell type that is none of ours, cells of dimension 3 in a mesh of dimension 2, fractional bodies; and
+/// everything that `build_mesh` finds.
 template <int Dim>
 [[nodiscard]] Mesh<Dim> read_vtu(const std::filesystem::path& path, const MeshOptions& options = {});
 

@@ -15,7 +15,8 @@ inline constexpr double layer_thickness = 1.0;
 
 /// New number of each used vertex, -1 for the others.
 template <int Dim>
-std::vector<std::int32_t> new_vertex_numbers(const CellSoup<Dim>& soup, std::span<const std::int32_t> old_cell, bool by_first_use) {
+std::vector<std::int32_t> new_vertex_numbers(const CellSoup<Dim>& soup, std::span<const std::int32_t> old_cell,
+                                             bool by_first_use) {
     std::vector<std::int32_t> number(soup.vertices.size(), -1);
     std::int32_t next = 0;
     for (const std::int32_t cell : old_cell)
@@ -85,7 +86,8 @@ std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const 
     if (!by_layers) return order;
     const auto body_of = [&](std::int32_t cell) { return soup.cell_body[static_cast<std::size_t>(cell)]; };
     for (auto begin = order.begin(); begin != order.end();) {
-        const auto end = std::find_if(begin, order.end(), [&](std::int32_t cell) { return body_of(cell) != body_of(*begin); });
+        const auto end =
+            std::find_if(begin, order.end(), [&](std::int32_t cell) { return body_of(cell) != body_of(*begin); });
         const std::vector<std::int32_t> cells(begin, end);
         std::vector<Vector<Dim>> points;
         points.reserve(cells.size());

@@ -21,11 +21,13 @@ template <class Value>
 /// its longest extent if `by_layers`, else as given. Operators that sweep over the cells several times profit most from
 /// layers: what one sweep has written is needed by the next at most a layer later (docs/performance.md).
 template <int Dim>
-[[nodiscard]] std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const Vector<Dim>> centroids, bool by_layers);
+[[nodiscard]] std::vector<std::int32_t> cell_order(const CellSoup<Dim>& soup, std::span<const Vector<Dim>> centroids,
+                                                   bool by_layers);
 
 /// The soup with its cells in the order `old_cell`. Vertices come in the order of their first use if `renumber_vertices`,
 /// else as given; those without a cell are dropped.
 template <int Dim>
-[[nodiscard]] CellSoup<Dim> renumbered(const CellSoup<Dim>& soup, std::span<const std::int32_t> old_cell, bool renumber_vertices);
+[[nodiscard]] CellSoup<Dim> renumbered(const CellSoup<Dim>& soup, std::span<const std::int32_t> old_cell,
+                                       bool renumber_vertices);
 
 }  // namespace abut::mesh

@@ -1,7 +1,7 @@
 #include "abut/mesh/shapes.hpp"
 
-#include <Eigen/Geometry>
 #include <gmsh.h>
+#include <Eigen/Geometry>
 
 #include <cmath>
 #include <functional>
@@ -26,28 +26,31 @@ constexpr int frontal_delaunay_2d = 6, delaunay_3d = 1, hxt_3d = 10;
 
 void check_positive(const std::string& name, const char* what, double value) {
     if (value > 0.0 && std::isfinite(value)) return;
-    throw MeshError(name + ": " + what + " is " + number(value) + " m, a finite length above 0 is needed. Change the option.");
+    throw MeshError(name + ": " + what + " is " + number(value) +
+                    " m, a finite length above 0 is needed. Change the option.");
 }
 
 template <int Dim>
 void check_finite(const std::string& name, const char* what, const Vector<Dim>& point) {
     for (int i = 0; i < Dim; ++i)
         if (!std::isfinite(point[i]))
-            throw MeshError(name + ": the " + "xyz"[i] + " coordinate of " + what + " is " + number(point[i]) + ", a finite number is needed. Change the option.");
+            throw MeshError(name + ": the " + "xyz"[i] + " coordinate of " + what + " is " + number(point[i]) +
+                            ", a finite number is needed. Change the option.");
 }
 
 template <class Options>
 void check_common(const Options& options) {
     check_positive(options.name, "size", options.size);
     if (options.variant < 0)
-        throw MeshError(options.name + ": variant is " + std::to_string(options.variant) + ", 0 or more is needed. Change the option.");
+        throw MeshError(options.name + ": variant is " + std::to_string(options.variant) +
+                        ", 0 or more is needed. Change the option.");
     if (!options.refinement) return;
     check_positive(options.name, "refinement.size", options.refinement->size);
     check_positive(options.name, "refinement.distance", options.refinement->distance);
     check_finite(options.name, "refinement.point", options.refinement->point);
     if (options.refinement->size > options.size)
-        throw MeshError(options.name + ": refinement.size is " + number(options.refinement->size) + " m, at most size = " + number(options.size) +
-                        " m is allowed. Lower it, or leave the refinement out.");
+        throw MeshError(options.name + ": refinement.size is " + number(options.refinement->size) + " m, at most size = " +
+                        number(options.size) + " m is allowed. Lower it, or leave the refinement out.");
 }
 
 /// Wanted cell size as a function of place.
@@ -98,8 +101,8 @@ template <int Dim>
 void choose_algorithms(const std::string& name, const SizeField<Dim>& field, double volume) {
     const double cells = expected_cells(field, volume);
     if (!(cells <= most_cells))
-        throw MeshError(name + ": the sizes asked for make about " + number(cells) + " cells, at most " + number(most_cells) +
-                        " are meshed. Raise size or refinement.size, or lower refinement.distance.");
+        throw MeshError(name + ": the sizes asked for make about " + number(cells) + " cells, at most " +
+                        number(most_cells) + " are meshed. Raise size or refinement.size, or lower refinement.distance.");
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
     gmsh::option::setNumber("Mesh.Algorithm3D", Dim == 3 && cells > many_tetrahedra ? hxt_3d : delaunay_3d);
     gmsh::option::setNumber("Mesh.Optimize", 1);
@@ -118,16 +121,19 @@ void name_parts(int tag, const std::string& body_name, const NameOfSide& name_of
         Vector<3> centre;
         gmsh::model::occ::getCenterOfMass(dimension, side, centre[0], centre[1], centre[2]);
         const std::string name = name_of_side(centre);
-        if (groups.empty() || std::none_of(groups.begin(), groups.end(), [&](auto& g) { return g.first == name; })) groups.push_back({name, {}});
+        if (groups.empty() || std::none_of(groups.begin(), groups.end(), [&](auto& g) { return g.first == name; }))
+            groups.push_back({name, {}});
         for (auto& group : groups)
             if (group.first == name) group.second.push_back(side);
     }
-    for (const auto& [name, tags] : groups) gmsh::model::setPhysicalName(Dim - 1, gmsh::model::addPhysicalGroup(Dim - 1, tags), name);
+    for (const auto& [name, tags] : groups)
+        gmsh::model::setPhysicalName(Dim - 1, gmsh::model::addPhysicalGroup(Dim - 1, tags), name);
 }
 
 /// Meshes the part that `add_part` adds to an empty OpenCASCADE model; it returns the tag of its volume (surface in 2D).
 template <int Dim>
-CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, const std::function<int()>& add_part, const NameOfSide& name_of_side) {
+CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, const std::function<int()>& add_part,
+                          const NameOfSide& name_of_side) {
     const GmshSession session;
     CellSoup<Dim> soup;
     session.run(name, "meshing failed", "Change size or refinement.", [&] {
@@ -150,7 +156,8 @@ CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, 
 /// Meshes the part in the frame in which it is not turned yet, around the origin, then turns and moves the vertices.
 template <int Dim>
 Mesh<Dim> turned_part(const std::string& name, const Vector<Dim>& centre, const Matrix<Dim>& turn, SizeField<Dim> field,
-                      const std::function<int()>& add_part, const NameOfSide& name_of_side, const MeshOptions& mesh_options) {
+                      const std::function<int()>& add_part, const NameOfSide& name_of_side,
+                      const MeshOptions& mesh_options) {
     if (field.refinement) field.refinement->point = turn.transpose() * (field.refinement->point - centre);
     auto soup = meshed_part<Dim>(name, field, add_part, name_of_side);
     for (Vector<Dim>& vertex : soup.vertices) vertex = centre + turn * vertex;
@@ -194,10 +201,13 @@ Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options
     check_positive(options.name, "radius", options.radius);
     check_positive(options.name, "length", options.length);
     const double half = 0.5 * options.length;
-    const auto side = [half](const Vector<3>& at) { return at.z() < -0.5 * half ? "bottom" : at.z() > 0.5 * half ? "top" : "side"; };
+    const auto side = [half](const Vector<3>& at) {
+        return at.z() < -0.5 * half ? "bottom" : at.z() > 0.5 * half ? "top" : "side";
+    };
     return turned_part<3>(
         options.name, options.centre, turn_about(Vector<3>::UnitZ(), options.variant), {options.size, options.refinement},
-        [&] { return gmsh::model::occ::addCylinder(0, 0, -half, 0, 0, options.length, options.radius); }, side, mesh_options);
+        [&] { return gmsh::model::occ::addCylinder(0, 0, -half, 0, 0, options.length, options.radius); }, side,
+        mesh_options);
 }
 
 Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
@@ -207,7 +217,8 @@ Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
     const Vector<3> skew(1.0, std::numbers::sqrt2, std::numbers::pi);
     return turned_part<3>(
         options.name, options.centre, turn_about(skew, options.variant), {options.size, options.refinement},
-        [&] { return gmsh::model::occ::addSphere(0, 0, 0, options.radius); }, [](const Vector<3>&) { return "boundary"; }, mesh_options);
+        [&] { return gmsh::model::occ::addSphere(0, 0, 0, options.radius); }, [](const Vector<3>&) { return "boundary"; },
+        mesh_options);
 }
 
 template <int Dim>
@@ -223,8 +234,10 @@ Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options) {
     if (field.refinement) field.refinement->size *= shrink;
     const Vector<Dim>& a = options.lower;
     const auto add_part = [&] {
-        if constexpr (Dim == 2) return gmsh::model::occ::addRectangle(a[0], a[1], 0, sides[0], sides[1]);
-        else return gmsh::model::occ::addBox(a[0], a[1], a[2], sides[0], sides[1], sides[2]);
+        if constexpr (Dim == 2)
+            return gmsh::model::occ::addRectangle(a[0], a[1], 0, sides[0], sides[1]);
+        else
+            return gmsh::model::occ::addBox(a[0], a[1], a[2], sides[0], sides[1], sides[2]);
     };
     const auto side = [&](const Vector<3>& centre) { return side_of_box<Dim>(centre, options.lower, options.upper); };
     return build_mesh(meshed_part<Dim>(options.name, field, add_part, side), mesh_options);

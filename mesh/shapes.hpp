@@ -16,7 +16,8 @@
 /// unstructured box gets a cell size that puts at least `variant` cells more on each edge. The refined place does not move.
 namespace abut::mesh {
 
-/// Smaller cells near a point: `size` [m] there, no more than the part's own size, growing linearly to it over `distance` [m].
+/// Smaller cells near a point: `size` [m] there, no more than the part's own size, growing linearly to it over `distance`
+/// [m].
 template <int Dim>
 struct Refinement {
     Vector<Dim> point;
@@ -27,16 +28,16 @@ struct Refinement {
 struct DiscOptions {
     Vector<2> centre = Vector<2>::Zero();
     double radius = 1.0;
-    double size = 0.1;                        ///< wanted edge length of cells [m]
+    double size = 0.1;  ///< wanted edge length of cells [m]
     std::optional<Refinement<2>> refinement = {};
     int variant = 0;
-    std::string name = "disc";                ///< of mesh and body
+    std::string name = "disc";  ///< of mesh and body
 };
 /// Triangles. Group "boundary".
 [[nodiscard]] Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options = {});
 
 struct CylinderOptions {
-    Vector<3> centre = Vector<3>::Zero();     ///< middle of the axis, which is parallel to z
+    Vector<3> centre = Vector<3>::Zero();  ///< middle of the axis, which is parallel to z
     double radius = 1.0;
     double length = 1.0;
     double size = 0.1;
@@ -75,8 +76,9 @@ template <int Dim>
 /// 1 quadrangle; 6 tetrahedra, 1 hexahedron, 2 prisms (along z), or 6 pyramids around its centre. Groups "xmin", "xmax", ...
 /// Made without Gmsh. Boxes of equal counts match: give the two of a pair different counts.
 template <int Dim>
-[[nodiscard]] Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
-                                       const std::string& name = "box", const MeshOptions& mesh_options = {});
+[[nodiscard]] Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper,
+                                       const std::array<int, Dim>& counts, CellShape shape, const std::string& name = "box",
+                                       const MeshOptions& mesh_options = {});
 
 /// A regular polygon of n_sectors >= 3 corners on the circle, cut into equal triangles around its centre: every cell is on
 /// the boundary and shares a face with the next one. The first corner is at angle `turn` [rad] from x. Group "boundary".

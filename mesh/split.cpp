@@ -43,27 +43,32 @@ std::vector<Quadrangle> measured_quadrangles(const CellSoup<3>& soup) {
         for (int i = 0; i < n_faces(shape); ++i) {
             const LocalFace face = local_face(soup, cell, i);
             if (face.count != 4) continue;
-            result.push_back({face.vertices, cell, relative_planarity<3>(face_corners<3>(soup.vertices, face.view()).view())});
+            result.push_back(
+                {face.vertices, cell, relative_planarity<3>(face_corners<3>(soup.vertices, face.view()).view())});
         }
     }
     return result;
 }
 
-[[noreturn]] void throw_non_planar(const CellSoup<3>& soup, const std::vector<Quadrangle>& quadrangles, const Quadrangle& worst,
-                                   const MeshOptions& options) {
-    const auto key = [](std::array<std::int32_t, 4> v) { std::sort(v.begin(), v.end()); return v; };
+[[noreturn]] void throw_non_planar(const CellSoup<3>& soup, const std::vector<Quadrangle>& quadrangles,
+                                   const Quadrangle& worst, const MeshOptions& options) {
+    const auto key = [](std::array<std::int32_t, 4> v) {
+        std::sort(v.begin(), v.end());
+        return v;
+    };
     std::string cells;
     int n_cells = 0;
     for (const Quadrangle& q : quadrangles)
         if (key(q.vertices) == key(worst.vertices) && ++n_cells > 0)
-            cells += std::string(cells.empty() ? "" : "|") + std::to_string(soup.cell_label[static_cast<std::size_t>(q.cell)]);
+            cells +=
+                std::string(cells.empty() ? "" : "|") + std::to_string(soup.cell_label[static_cast<std::size_t>(q.cell)]);
     const double size = std::sqrt(geometry::face_measure<3>(face_corners<3>(soup.vertices, worst.vertices).view()));
-    throw MeshError(soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
-                    " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
-                    number(options.planarity_tolerance * size) +
-                    " m is allowed. Set MeshOptions::non_planar to NonPlanarFaces::split" +
-                    (n_cells > 1 ? ", or raise MeshOptions::planarity_tolerance."
-                                 : "; a larger MeshOptions::planarity_tolerance would not do, contact needs plane boundary faces."));
+    throw MeshError(
+        soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
+        " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
+        number(options.planarity_tolerance * size) + " m is allowed. Set MeshOptions::non_planar to NonPlanarFaces::split" +
+        (n_cells > 1 ? ", or raise MeshOptions::planarity_tolerance."
+                     : "; a larger MeshOptions::planarity_tolerance would not do, contact needs plane boundary faces."));
 }
 
 /// Spreads the mark to all cells that are linked to a marked one through quadrangles.
@@ -78,12 +83,14 @@ void mark_neighbours(const CellSoup<3>& soup, std::vector<char>& cut) {
         for (const std::int32_t face : faces.cell_faces[cell]) {
             if (faces.face_vertices[face].size() != 4) continue;
             for (const std::int32_t neighbour : faces.face_cells[static_cast<std::size_t>(face)])
-                if (neighbour >= 0 && !std::exchange(cut[static_cast<std::size_t>(neighbour)], char{1})) open.push_back(neighbour);
+                if (neighbour >= 0 && !std::exchange(cut[static_cast<std::size_t>(neighbour)], char{1}))
+                    open.push_back(neighbour);
         }
     }
 }
 
-void append_cell(CellSoup<3>& soup, CellShape shape, std::span<const std::int32_t> vertices, std::int32_t body, std::int64_t label) {
+void append_cell(CellSoup<3>& soup, CellShape shape, std::span<const std::int32_t> vertices, std::int32_t body,
+                 std::int64_t label) {
     soup.cell_shape.push_back(shape);
     soup.cell_vertices.append(vertices);
     soup.cell_body.push_back(body);
@@ -120,10 +127,14 @@ void cut_cells(CellSoup<3>& soup, const std::vector<char>& cut) {
     soup.cell_label = std::move(result.cell_label);
 }
 
-/// A named quadrangle on a cut cell becomes two named triangles. Its vertices may come in any order: the cell knows the right one.
+/// A named quadrangle on a cut cell becomes two named triangles. Its vertices may come in any order: the cell knows the
+/// right one.
 void cut_named_faces(CellSoup<3>& soup, const std::vector<Quadrangle>& quadrangles, const std::vector<char>& cut) {
     using Key = std::array<std::int32_t, 4>;
-    const auto key = [](Key v) { std::sort(v.begin(), v.end()); return v; };
+    const auto key = [](Key v) {
+        std::sort(v.begin(), v.end());
+        return v;
+    };
     std::vector<std::pair<Key, Key>> ring_of;
     for (const Quadrangle& q : quadrangles)
         if (cut[static_cast<std::size_t>(q.cell)]) ring_of.emplace_back(key(q.vertices), q.vertices);

@@ -18,16 +18,22 @@ using GridPoint = std::array<int, Dim>;  ///< in half bricks: corners are even, 
 
 using LocalCell = std::vector<std::int32_t>;
 
-/// How a brick is cut: cells by the brick's own vertices, 0 .. 3 or 0 .. 7 in the order of quadrangle and hexahedron; 8 is its centre.
+/// How a brick is cut: cells by the brick's own vertices, 0 .. 3 or 0 .. 7 in the order of quadrangle and hexahedron; 8
+/// is its centre.
 std::vector<LocalCell> pieces_of_brick(CellShape shape) {
     switch (shape) {
-        case CellShape::quadrangle: return {{0, 1, 2, 3}};
-        case CellShape::triangle: return {{0, 1, 2}, {0, 2, 3}};
-        case CellShape::hexahedron: return {{0, 1, 2, 3, 4, 5, 6, 7}};
-        case CellShape::prism: return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
+        case CellShape::quadrangle:
+            return {{0, 1, 2, 3}};
+        case CellShape::triangle:
+            return {{0, 1, 2}, {0, 2, 3}};
+        case CellShape::hexahedron:
+            return {{0, 1, 2, 3, 4, 5, 6, 7}};
+        case CellShape::prism:
+            return {{0, 1, 2, 4, 5, 6}, {0, 2, 3, 4, 6, 7}};
         case CellShape::tetrahedron:  // six around the diagonal 0-6: diagonals of opposite faces are parallel
             return {{0, 1, 2, 6}, {0, 2, 3, 6}, {0, 3, 7, 6}, {0, 7, 4, 6}, {0, 4, 5, 6}, {0, 5, 1, 6}};
-        case CellShape::pyramid: break;
+        case CellShape::pyramid:
+            break;
     }
     std::vector<LocalCell> pieces;
     for (int i = 0; i < n_faces(CellShape::hexahedron); ++i) {
@@ -41,7 +47,8 @@ std::vector<LocalCell> pieces_of_brick(CellShape shape) {
 template <int Dim>
 class Grid {
 public:
-    Grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape, const std::string& name)
+    Grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
+         const std::string& name)
         : lower_(lower), upper_(upper), counts_(counts), pieces_(pieces_of_brick(shape)), shape_(shape) {
         soup_.name = name;
         soup_.body_names = {name};
@@ -61,7 +68,8 @@ private:
         GridPoint<Dim> at{};
         for (at[Dim - 1] = 0; at[Dim - 1] < counts[Dim - 1]; ++at[Dim - 1])
             for (at[Dim - 2] = 0; at[Dim - 2] < counts[Dim - 2]; ++at[Dim - 2]) {
-                if constexpr (Dim == 2) visit(at);
+                if constexpr (Dim == 2)
+                    visit(at);
                 else
                     for (at[0] = 0; at[0] < counts[0]; ++at[0]) visit(at);
             }
@@ -89,8 +97,10 @@ private:
 
     /// Number of a corner: that in which for_each visits it.
     std::int32_t corner(const GridPoint<Dim>& at) const {
-        if constexpr (Dim == 2) return at[0] + at[1] * (counts_[0] + 1);
-        else return at[0] + (counts_[0] + 1) * (at[1] + (counts_[1] + 1) * at[2]);
+        if constexpr (Dim == 2)
+            return at[0] + at[1] * (counts_[0] + 1);
+        else
+            return at[0] + (counts_[0] + 1) * (at[1] + (counts_[1] + 1) * at[2]);
     }
 
     std::vector<std::int32_t> vertices_of_brick(const GridPoint<Dim>& brick) {
@@ -128,7 +138,8 @@ private:
         for (int i = 0; i < n_faces(shape_); ++i) {
             const LocalFace face = local_face(cell, shape_, i);
             for (std::int32_t side = 0; side < 2 * Dim; ++side)
-                if (lies_on(face.view(), side)) soup_.named_faces.push_back({{face.view().begin(), face.view().end()}, side});
+                if (lies_on(face.view(), side))
+                    soup_.named_faces.push_back({{face.view().begin(), face.view().end()}, side});
         }
     }
 
@@ -149,35 +160,44 @@ private:
 };
 
 template <int Dim>
-void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape, const std::string& name) {
+void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
+                const std::string& name) {
     for (std::size_t i = 0; i < Dim; ++i) {
         if (counts[i] < 1)
-            throw MeshError(name + ": counts[" + std::to_string(i) + "] is " + std::to_string(counts[i]) + ", at least 1 is needed. Change the argument.");
+            throw MeshError(name + ": counts[" + std::to_string(i) + "] is " + std::to_string(counts[i]) +
+                            ", at least 1 is needed. Change the argument.");
         const double side = upper[static_cast<Eigen::Index>(i)] - lower[static_cast<Eigen::Index>(i)];
         if (!(side > 0.0) || !std::isfinite(side))
-            throw MeshError(name + ": the box is " + number(side) + " m long along " + "xyz"[i] + ", a finite length above 0 is needed. Swap lower and upper.");
+            throw MeshError(name + ": the box is " + number(side) + " m long along " + "xyz"[i] +
+                            ", a finite length above 0 is needed. Swap lower and upper.");
     }
     const double bricks = std::accumulate(counts.begin(), counts.end(), 1.0, std::multiplies<>());
     if (bricks * static_cast<double>(pieces_of_brick(shape).size()) > max_cells)
-        throw MeshError(name + ": " + number(bricks) + " bricks make " + number(bricks * static_cast<double>(pieces_of_brick(shape).size())) +
-                        " cells, at most " + std::to_string(max_cells) + " are allowed. Lower the counts.");
+        throw MeshError(name + ": " + number(bricks) + " bricks make " +
+                        number(bricks * static_cast<double>(pieces_of_brick(shape).size())) + " cells, at most " +
+                        std::to_string(max_cells) + " are allowed. Lower the counts.");
     if (dimension(shape) != Dim)
-        throw MeshError(name + ": a " + std::string(abut::mesh::name(shape)) + " cannot fill a box of dimension " + std::to_string(Dim) + ". Choose another shape.");
+        throw MeshError(name + ": a " + std::string(abut::mesh::name(shape)) + " cannot fill a box of dimension " +
+                        std::to_string(Dim) + ". Choose another shape.");
 }
 
 }  // namespace
 
 template <int Dim>
-Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
-                         const std::string& name, const MeshOptions& mesh_options) {
+Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts,
+                         CellShape shape, const std::string& name, const MeshOptions& mesh_options) {
     check_grid<Dim>(lower, upper, counts, shape, name);
     return build_mesh(Grid<Dim>(lower, upper, counts, shape, name).filled(), mesh_options);
 }
 
-Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double turn, const std::string& name, const MeshOptions& mesh_options) {
-    if (n_sectors < 3) throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) + ", at least 3 is needed. Change the argument.");
+Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double turn, const std::string& name,
+                 const MeshOptions& mesh_options) {
+    if (n_sectors < 3)
+        throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) +
+                        ", at least 3 is needed. Change the argument.");
     if (!(radius > 0.0) || !std::isfinite(radius))
-        throw MeshError(name + ": radius is " + number(radius) + " m, a finite length above 0 is needed. Change the argument.");
+        throw MeshError(name + ": radius is " + number(radius) +
+                        " m, a finite length above 0 is needed. Change the argument.");
     CellSoup<2> soup;
     soup.name = name;
     soup.body_names = {name};
@@ -195,7 +215,9 @@ Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double t
     return build_mesh(std::move(soup), mesh_options);
 }
 
-template Mesh<2> structured_box<2>(const Vector<2>&, const Vector<2>&, const std::array<int, 2>&, CellShape, const std::string&, const MeshOptions&);
-template Mesh<3> structured_box<3>(const Vector<3>&, const Vector<3>&, const std::array<int, 3>&, CellShape, const std::string&, const MeshOptions&);
+template Mesh<2> structured_box<2>(const Vector<2>&, const Vector<2>&, const std::array<int, 2>&, CellShape,
+                                   const std::string&, const MeshOptions&);
+template Mesh<3> structured_box<3>(const Vector<3>&, const Vector<3>&, const std::array<int, 3>&, CellShape,
+                                   const std::string&, const MeshOptions&);
 
 }  // namespace abut::mesh

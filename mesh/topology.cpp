@@ -97,7 +97,8 @@ std::vector<std::int32_t> find_twins(const CellSoup<Dim>& soup, const std::vecto
         const auto end = buckets.half_faces.begin() + buckets.begin[v + 1];
         std::sort(begin, end);
         for (auto first = begin; first != end;) {
-            const auto last = std::find_if(first, end, [&](const HalfFace& h) { return h.other_vertices != first->other_vertices; });
+            const auto last =
+                std::find_if(first, end, [&](const HalfFace& h) { return h.other_vertices != first->other_vertices; });
             if (last - first > 2) throw_non_manifold(soup, {first, last}, offsets);
             if (last - first == 2) {
                 twin[static_cast<std::size_t>(first[0].number)] = first[1].number;
@@ -109,12 +110,14 @@ std::vector<std::int32_t> find_twins(const CellSoup<Dim>& soup, const std::vecto
     return twin;
 }
 
-/// Whether `second` runs through the vertices of `first` one after the other, forwards (+1) or backwards (-1), from wherever.
+/// Whether `second` runs through the vertices of `first` one after the other, forwards (+1) or backwards (-1), from
+/// wherever.
 bool runs_through(std::span<const std::int32_t> first, std::span<const std::int32_t> second, std::ptrdiff_t sense) {
     const auto n = static_cast<std::ptrdiff_t>(second.size());
     const std::ptrdiff_t start = std::find(second.begin(), second.end(), first[0]) - second.begin();
     for (std::ptrdiff_t k = 0; k < n; ++k)
-        if (second[static_cast<std::size_t>((start + sense * k + n) % n)] != first[static_cast<std::size_t>(k)]) return false;
+        if (second[static_cast<std::size_t>((start + sense * k + n) % n)] != first[static_cast<std::size_t>(k)])
+            return false;
     return true;
 }
 
@@ -125,12 +128,14 @@ void check_opposite_sides(const CellSoup<Dim>& soup, std::int32_t cell, std::int
                           const LocalFace& as_seen_by_neighbour) {
     const auto first = face.view(), second = as_seen_by_neighbour.view();
     if (Dim == 2 ? second[0] == first[1] : runs_through(first, second, -1)) return;
-    const std::string cells = soup.name + ": cells " + std::to_string(soup.cell_label[static_cast<std::size_t>(cell)]) + " and " +
-                              std::to_string(soup.cell_label[static_cast<std::size_t>(neighbour)]);
+    const std::string cells = soup.name + ": cells " + std::to_string(soup.cell_label[static_cast<std::size_t>(cell)]) +
+                              " and " + std::to_string(soup.cell_label[static_cast<std::size_t>(neighbour)]);
     if (Dim == 3 && !runs_through(first, second, 1))
-        throw MeshError(cells + " run differently around their common face: " + vertex_list(first, soup.vertex_label) + " and " +
-                        vertex_list(second, soup.vertex_label) + ", its edges must be the same. Give the vertices of both cells in the order of their shapes.");
-    throw MeshError(cells + " lie on the same side of their common face with vertices " + vertex_list(first, soup.vertex_label) +
+        throw MeshError(cells + " run differently around their common face: " + vertex_list(first, soup.vertex_label) +
+                        " and " + vertex_list(second, soup.vertex_label) +
+                        ", its edges must be the same. Give the vertices of both cells in the order of their shapes.");
+    throw MeshError(cells + " lie on the same side of their common face with vertices " +
+                    vertex_list(first, soup.vertex_label) +
                     ". Remove the repeated cell, or give the vertices of the inverted one in the order of its shape.");
 }
 
@@ -163,7 +168,8 @@ Faces find_faces(const CellSoup<Dim>& soup) {
 
 BoundaryFaceFinder::Key BoundaryFaceFinder::key(std::span<const std::int32_t> vertices) { return sorted_key(vertices); }
 
-BoundaryFaceFinder::BoundaryFaceFinder(const Rows& face_vertices, const std::vector<std::array<std::int32_t, 2>>& face_cells) {
+BoundaryFaceFinder::BoundaryFaceFinder(const Rows& face_vertices,
+                                       const std::vector<std::array<std::int32_t, 2>>& face_cells) {
     for (std::int32_t face = 0; face < face_vertices.size(); ++face)
         if (face_cells[static_cast<std::size_t>(face)][1] < 0) sorted_.emplace_back(key(face_vertices[face]), face);
     std::sort(sorted_.begin(), sorted_.end());

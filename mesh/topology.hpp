@@ -16,7 +16,8 @@ struct Faces {
 
 /// Two cells share a face when it has the same vertices in both. Numbering as documented at Mesh. Sorts keys inside buckets
 /// of equal smallest vertex: time and memory are linear in the number of cells.
-/// Throws MeshError naming the cells when more than two share a face, or two lie on the same side of it (a cell given twice).
+/// Throws MeshError naming the cells when more than two share a face, or two lie on the same side of it (a cell given
+/// twice).
 template <int Dim>
 [[nodiscard]] Faces find_faces(const CellSoup<Dim>& soup);
 

@@ -13,8 +13,7 @@ std::mutex output_window_in_use;
 class Collector : public vtkOutputWindow {
 public:
     static Collector* New();
-    vtkTypeMacro(Collector, vtkOutputWindow)
-    void DisplayText(const char* text) override { all += text; }
+    vtkTypeMacro(Collector, vtkOutputWindow) void DisplayText(const char* text) override { all += text; }
     void DisplayErrorText(const char* text) override { all += text; }
     void DisplayWarningText(const char* text) override { all += text; }
     void DisplayGenericWarningText(const char* text) override { all += text; }
@@ -28,7 +27,8 @@ vtkStandardNewMacro(Collector);
 VtkMessages::VtkMessages()
     : lock_(output_window_in_use), before_(vtkOutputWindow::GetInstance()), collector_(vtkSmartPointer<Collector>::New()) {
     vtkOutputWindow::SetInstance(collector_);
-    // VTK's logger writes to stderr besides; what it writes cannot be asked for, so a host that has changed it is left alone.
+    // VTK's logger writes to stderr besides; what it writes cannot be asked for, so a host that has changed it is left
+    // alone.
     silenced_ = vtkLogger::GetCurrentVerbosityCutoff() == vtkLogger::VERBOSITY_INFO;
     if (silenced_) vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
 }

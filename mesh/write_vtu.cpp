@@ -31,7 +31,8 @@ namespace {
 using Path = std::filesystem::path;
 
 int vtk_type(CellShape shape) {
-    constexpr std::array<int, n_cell_shapes> types = {VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+    constexpr std::array<int, n_cell_shapes> types = {VTK_TRIANGLE,   VTK_QUAD,  VTK_TETRA,
+                                                      VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
     return types[static_cast<std::size_t>(shape)];
 }
 
@@ -46,7 +47,8 @@ void fill(double* tuple, const Vector<Dim>& value) {
 template <int Dim>
 void fill(double* tuple, const Matrix<Dim>& value) {
     constexpr std::array<std::array<int, 2>, 6> entries = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-    for (const auto& [row, column] : entries) *tuple++ = row < Dim && column < Dim ? 0.5 * (value(row, column) + value(column, row)) : 0.0;
+    for (const auto& [row, column] : entries)
+        *tuple++ = row < Dim && column < Dim ? 0.5 * (value(row, column) + value(column, row)) : 0.0;
 }
 
 template <class Value>
@@ -79,15 +81,17 @@ vtkSmartPointer<vtkDataArray> vtk_array(const std::string& name, std::span<const
 
 void add_field(vtkDataSetAttributes& data, vtkDataArray* array, std::size_t wanted, const char* of_what) {
     if (static_cast<std::size_t>(array->GetNumberOfTuples()) != wanted)
-        throw std::invalid_argument(std::string("VtuSeries: field '") + array->GetName() + "' has " + std::to_string(array->GetNumberOfTuples()) +
-                                    " values, one for each of the " + std::to_string(wanted) + " " + of_what + " is needed.");
+        throw std::invalid_argument(std::string("VtuSeries: field '") + array->GetName() + "' has " +
+                                    std::to_string(array->GetNumberOfTuples()) + " values, one for each of the " +
+                                    std::to_string(wanted) + " " + of_what + " is needed.");
     data.AddArray(array);
 }
 
 template <int Dim>
 void add_fields(vtkDataSetAttributes& data, const std::vector<Field<Dim>>& fields, std::size_t wanted, const char* of_what) {
     for (const Field<Dim>& field : fields)
-        std::visit([&](const auto& values) { add_field(data, vtk_array(field.name, values), wanted, of_what); }, field.values);
+        std::visit([&](const auto& values) { add_field(data, vtk_array(field.name, values), wanted, of_what); },
+                   field.values);
 }
 
 template <class Bodies>
@@ -155,8 +159,10 @@ vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, const std::v
     }
     auto surface = vtkSmartPointer<vtkPolyData>::New();
     surface->SetPoints(points);
-    if (Dim == 2) surface->SetLines(faces);
-    else surface->SetPolys(faces);
+    if (Dim == 2)
+        surface->SetLines(faces);
+    else
+        surface->SetPolys(faces);
     add_bodies(*surface, bodies);
     return surface;
 }
@@ -175,14 +181,17 @@ PreparedFile prepared_grid(vtkDataObject& grid, const Path& path) {
     const auto code = static_cast<int>(writer->GetErrorCode());  // the system's below VTK's own
     const std::string said = messages.all();
     if (is_written && code == 0 && said.empty()) return prepared;
-    const std::string reason = code > 0 && code < vtkErrorCode::FirstVTKErrorCode ? std::generic_category().message(code) : said;
-    throw MeshError(path.string() + ": cannot be written: " + (reason.empty() ? "VTK's error " + std::to_string(code) : reason) +
+    const std::string reason =
+        code > 0 && code < vtkErrorCode::FirstVTKErrorCode ? std::generic_category().message(code) : said;
+    throw MeshError(path.string() +
+                    ": cannot be written: " + (reason.empty() ? "VTK's error " + std::to_string(code) : reason) +
                     ". Check permissions and free space of its folder.");
 }
 
 /// Mean over the cells around each vertex. Bodies share no vertex, so nothing mixes between them.
 template <int Dim>
-std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices, std::size_t n_vertices) {
+std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices,
+                                      std::size_t n_vertices) {
     std::vector<Vector<Dim>> mean(n_vertices, Vector<Dim>::Zero());
     std::vector<int> count(n_vertices, 0);
     for (std::int32_t cell = 0; cell < cell_vertices.size(); ++cell)
@@ -199,10 +208,12 @@ std::string frame_name(const std::string& basename, std::size_t frame, const cha
     return basename + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + extension;
 }
 
-PreparedFile prepared_list(const Path& directory, const std::string& basename, const char* extension, const std::vector<double>& times) {
+PreparedFile prepared_list(const Path& directory, const std::string& basename, const char* extension,
+                           const std::vector<double>& times) {
     std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
     for (std::size_t i = 0; i < times.size(); ++i)
-        text += "<DataSet timestep=\"" + exact_number(times[i]) + "\" part=\"0\" file=\"" + frame_name(basename, i, extension) + "\"/>\n";
+        text += "<DataSet timestep=\"" + exact_number(times[i]) + "\" part=\"0\" file=\"" +
+                frame_name(basename, i, extension) + "\"/>\n";
     return prepared_text(directory / (basename + ".pvd"), text + "</Collection>\n</VTKFile>\n");
 }
 
@@ -241,7 +252,8 @@ void VtuSeries<Dim>::Files::publish_lists(const std::vector<double>& new_times) 
 }
 
 template <int Dim>
-void VtuSeries<Dim>::Files::add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells, vtkDataSet& of_surface) const {
+void VtuSeries<Dim>::Files::add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells,
+                                             vtkDataSet& of_surface) const {
     if (displacement.empty()) return;
     add_field(*of_cells.GetCellData(), vtk_array("displacement", displacement), n_cells(), "cells");
     const auto at_vertices = vertex_means(displacement, cell_vertices, static_cast<std::size_t>(cells->GetNumberOfPoints()));
@@ -282,10 +294,10 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
     add_fields(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces");
 
     auto times = files_->times;
-    auto of_cells =
-        prepared_grid<vtkXMLUnstructuredGridWriter>(*cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"));
-    auto of_surface =
-        prepared_grid<vtkXMLPolyDataWriter>(*surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"));
+    auto of_cells = prepared_grid<vtkXMLUnstructuredGridWriter>(
+        *cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"));
+    auto of_surface = prepared_grid<vtkXMLPolyDataWriter>(
+        *surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"));
     of_cells.move_into_place();
     of_surface.move_into_place();
     times.push_back(frame.time);

@@ -29,8 +29,9 @@ struct Frame {
     std::vector<Field<Dim>> boundary_fields{};    ///< each of boundary_faces.size(), in that order
 };
 
-/// The mesh in motion, as files for ParaView: <basename>_000000.vtu, ... with the cells and <basename>_surface_000000.vtp, ...
-/// with the boundary faces, and <basename>.pvd and <basename>_surface.pvd that list them with their times (open these two).
+/// The mesh in motion, as files for ParaView: <basename>_000000.vtu, ... with the cells and
+/// <basename>_surface_000000.vtp, ... with the boundary faces, and <basename>.pvd and <basename>_surface.pvd that list
+/// them with their times (open these two).
 ///
 /// Both carry the cell array "body". The displacement is written on cells and, averaged over the cells around a vertex, on
 /// points: that is what the filter Warp By Vector takes. 2D vectors get a third component 0, tensors six components (xx, yy,
@@ -46,8 +47,8 @@ public:
     VtuSeries(VtuSeries&&) noexcept;
     VtuSeries& operator=(VtuSeries&&) noexcept;
 
-    /// Throws std::invalid_argument naming the field whose size is wrong, MeshError if a file cannot be written: the lists are
-    /// then as before the call, and the next call writes the same frame again.
+    /// Throws std::invalid_argument naming the field whose size is wrong, MeshError if a file cannot be written: the
+    /// lists are then as before the call, and the next call writes the same frame again.
     void write(const Frame<Dim>& frame);
     [[nodiscard]] int n_frames() const;
 

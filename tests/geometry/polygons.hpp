@@ -114,7 +114,9 @@ struct Placement {
     Point offset;
 };
 inline std::vector<Placement> placements() {
-    return {{1.0, {0, 0}}, {0x1p-30, {0, 0}}, {0x1p30, {0, 0}}, {1e-9, {0, 0}}, {1e9, {0, 0}}, {0x1p-10, {0x1p23, -0x1p23}}, {1.0, {1000, 2000}}};
+    return {{1.0, {0, 0}},      {0x1p-30, {0, 0}}, {0x1p30, {0, 0}},
+            {1e-9, {0, 0}},     {1e9, {0, 0}},     {0x1p-10, {0x1p23, -0x1p23}},
+            {1.0, {1000, 2000}}};
 }
 
 }  // namespace abut::test

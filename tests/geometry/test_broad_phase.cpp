@@ -83,11 +83,13 @@ void check_against_brute_force(const Boxes<Dim>& boxes_1, const Boxes<Dim>& boxe
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("every broad phase is brute force on random boxes of every scale and place", "[broad_phase]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("every broad phase is brute force on random boxes of every scale and place", "[broad_phase]",
+                       ((int Dim), Dim), 2, 3) {
     const int count = GENERATE(1, 2, 7, 100, 700);
     const double largest = GENERATE(0.0, 0.01, 0.3);
     const Boxes<Dim> boxes_1 = random_boxes<Dim>(count, 1, largest), boxes_2 = random_boxes<Dim>(2 * count, 2, largest);
-    for (const auto& [scale, offset] : {std::pair{1.0, 0.0}, {1e-9, 0.0}, {1e9, 0.0}, {1e-3, 1e7}, {1.0, -1e6}, {1e-9, 1.0}, {1e30, 0.0}}) {
+    for (const auto& [scale, offset] :
+         {std::pair{1.0, 0.0}, {1e-9, 0.0}, {1e9, 0.0}, {1e-3, 1e7}, {1.0, -1e6}, {1e-9, 1.0}, {1e30, 0.0}}) {
         CAPTURE(scale, offset);
         check_against_brute_force<Dim>(placed(boxes_1, scale, offset), placed(boxes_2, scale, offset));
     }
@@ -145,7 +147,8 @@ TEST_CASE("boxes that miss by one last digit do not overlap, boxes that touch do
 
 TEST_CASE("an obstacle of 1e6 among boxes of 1e-3", "[broad_phase]") {
     Boxes<3> small = placed(random_boxes<3>(2000, 7, 0.05), 1e-3, 0.0);
-    const Boxes<3> obstacle = {{Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, 5e-4)}, {Vector<3>(-1e6, -1e6, -1e6), Vector<3>(-1, 1e6, 1e6)}};
+    const Boxes<3> obstacle = {{Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, 5e-4)},
+                               {Vector<3>(-1e6, -1e6, -1e6), Vector<3>(-1, 1e6, 1e6)}};
     check_against_brute_force<3>(small, obstacle);
     check_against_brute_force<3>(obstacle, small);
     small.insert(small.end(), obstacle.begin(), obstacle.end());
@@ -156,11 +159,13 @@ TEST_CASE("small boxes stay apart in single precision beside an obstacle 1e9 tim
     // Without care all 30,000 would fall on one float: 4.5e8 false pairs. Each touches its neighbour only.
     const int n = 30000;
     Boxes<3> boxes;
-    for (int i = 0; i < n; ++i) boxes.push_back({Vector<3>(i * 0x1p-10, 0, 0), Vector<3>((i + 1) * 0x1p-10, 0x1p-10, 0x1p-10)});
+    for (int i = 0; i < n; ++i)
+        boxes.push_back({Vector<3>(i * 0x1p-10, 0, 0), Vector<3>((i + 1) * 0x1p-10, 0x1p-10, 0x1p-10)});
     boxes.push_back({Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, -1.0)});
     CHECK(within(BroadPhase::embree, boxes).size() == n - 1);
     boxes.push_back({Vector<3>(-1e6, -1e6, -1e6), Vector<3>(1e6, 1e6, 0.0)});
-    CHECK(within(BroadPhase::embree, boxes).size() == 2 * n);  // the neighbours, the second obstacle with all, both obstacles
+    CHECK(within(BroadPhase::embree, boxes).size() ==
+          2 * n);  // the neighbours, the second obstacle with all, both obstacles
 }
 
 TEST_CASE("small boxes spread over many orders of magnitude", "[broad_phase]") {
@@ -203,9 +208,11 @@ TEST_CASE("a bound that is not finite is an error that names the box", "[broad_p
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a box around a point that is no number is no empty box, and an error", "[broad_phase][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a box around a point that is no number is no empty box, and an error", "[broad_phase][errors]",
+                       ((int Dim), Dim), 2, 3) {
     using Catch::Matchers::Contains;
-    const Vector<Dim> no_number = Vector<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()), point = Vector<Dim>::Ones();
+    const Vector<Dim> no_number = Vector<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()),
+                      point = Vector<Dim>::Ones();
     const auto around = [](const std::vector<Vector<Dim>>& points) {
         Box<Dim> box;
         for (const Vector<Dim>& p : points) box.extend(p);
@@ -216,9 +223,11 @@ TEMPLATE_TEST_CASE_SIG("a box around a point that is no number is no empty box, 
     Box<Dim> of_boxes = around({point});
     of_boxes.extend(around({no_number}));
     of_boxes.extend(around({point}));
-    for (const Box<Dim>& bad : {around({no_number}), around({no_number, point}), around({point, no_number}), around({point, half_a_number, point}), of_boxes}) {
+    for (const Box<Dim>& bad : {around({no_number}), around({no_number, point}), around({point, no_number}),
+                                around({point, half_a_number, point}), of_boxes}) {
         CHECK_FALSE(bad.empty());
-        for (const BroadPhase method : all_methods) CHECK_THROWS_WITH(within(method, Boxes<Dim>{around({point}), bad}), Contains("box 1") && Contains("nan"));
+        for (const BroadPhase method : all_methods)
+            CHECK_THROWS_WITH(within(method, Boxes<Dim>{around({point}), bad}), Contains("box 1") && Contains("nan"));
     }
 }
 
@@ -227,7 +236,8 @@ TEST_CASE("queries from several threads at once give the same answers", "[broad_
     const std::vector<IndexPair> expected = between(BroadPhase::brute_force, boxes_1, boxes_2);
     std::array<std::vector<IndexPair>, 4> answers;
     std::vector<std::jthread> threads;
-    for (std::vector<IndexPair>& answer : answers) threads.emplace_back([&] { answer = between(BroadPhase::embree, boxes_1, boxes_2); });
+    for (std::vector<IndexPair>& answer : answers)
+        threads.emplace_back([&] { answer = between(BroadPhase::embree, boxes_1, boxes_2); });
     threads.clear();
     for (const std::vector<IndexPair>& answer : answers) CHECK((answer == expected));
 }

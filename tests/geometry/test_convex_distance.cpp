@@ -19,7 +19,8 @@ using Points = std::vector<Vector<3>>;
 
 Points cube(const Vector<3>& lower, double side) {
     Points points;
-    for (int corner = 0; corner < 8; ++corner) points.push_back(lower + side * Vector<3>(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1));
+    for (int corner = 0; corner < 8; ++corner)
+        points.push_back(lower + side * Vector<3>(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1));
     return points;
 }
 
@@ -31,7 +32,9 @@ Points moved(const Points& points, const Matrix<3>& turn, const Vector<3>& by) {
 
 Matrix<3> random_turn(std::mt19937& random) {
     std::normal_distribution<double> number;
-    return Eigen::Quaterniond(number(random), number(random), number(random), number(random)).normalized().toRotationMatrix();
+    return Eigen::Quaterniond(number(random), number(random), number(random), number(random))
+        .normalized()
+        .toRotationMatrix();
 }
 
 ConvexProximity<3> proximity(const Points& body_1, const Points& body_2) { return convex_proximity<3>(body_1, body_2); }
@@ -44,7 +47,8 @@ TEST_CASE("libccd is the double build", "[convex_distance]") {
     CHECK(ccdVec3PointSegmentDist2(&origin, &a, &b, &nearest) == Approx((1.0 + 1e-12) * (1.0 + 1e-12)).epsilon(1e-15));
 }
 
-TEST_CASE("cubes face to face, edge to edge, corner to corner have the distance of elementary geometry", "[convex_distance]") {
+TEST_CASE("cubes face to face, edge to edge, corner to corner have the distance of elementary geometry",
+          "[convex_distance]") {
     const double scale = GENERATE(1.0, 1e-9, 1e9);
     const double g = 0.25;
     for (const Vector<3>& gap : {Vector<3>(g, 0, 0), Vector<3>(g, g, 0), Vector<3>(g, g, g), Vector<3>(1e-9, 0, 0)}) {
@@ -63,7 +67,8 @@ TEST_CASE("cubes that interlock by d have the depth d", "[convex_distance]") {
     std::mt19937 random(1);
     for (int trial = 0; trial < 20; ++trial) {
         const Matrix<3> turn = random_turn(random);
-        const Points body_1 = moved(cube(Vector<3>::Zero(), 1.0), turn, {5, 6, 7}), body_2 = moved(cube({1.0 - depth, 0.2, -0.1}, 1.0), turn, {5, 6, 7});
+        const Points body_1 = moved(cube(Vector<3>::Zero(), 1.0), turn, {5, 6, 7}),
+                     body_2 = moved(cube({1.0 - depth, 0.2, -0.1}, 1.0), turn, {5, 6, 7});
         const ConvexProximity<3> result = proximity(body_1, body_2);
         CAPTURE(depth, trial);
         CHECK(result.distance == 0.0);
@@ -77,15 +82,18 @@ TEST_CASE("touching cubes are neither apart nor interlocked", "[convex_distance]
     for (int trial = 0; trial < 50; ++trial) {
         CAPTURE(trial);
         const Matrix<3> turn = trial == 0 ? Matrix<3>(Matrix<3>::Identity()) : random_turn(random);
-        for (const Vector<3>& corner : {Vector<3>(1, 0, 0), Vector<3>(1, 0.3, 0.4), Vector<3>(1, 1, 0.2), Vector<3>(1, 1, 1)}) {
-            const ConvexProximity<3> result = proximity(moved(cube(Vector<3>::Zero(), 1.0), turn, {0, 0, 0}), moved(cube(corner, 1.0), turn, {0, 0, 0}));
+        for (const Vector<3>& corner :
+             {Vector<3>(1, 0, 0), Vector<3>(1, 0.3, 0.4), Vector<3>(1, 1, 0.2), Vector<3>(1, 1, 1)}) {
+            const ConvexProximity<3> result =
+                proximity(moved(cube(Vector<3>::Zero(), 1.0), turn, {0, 0, 0}), moved(cube(corner, 1.0), turn, {0, 0, 0}));
             CHECK(result.distance < 1e-9);
             CHECK(result.depth < 1e-9);
         }
     }
 }
 
-TEST_CASE("moving body 2 by the depth along the direction parts any two bodies, swapping them turns the direction", "[convex_distance]") {
+TEST_CASE("moving body 2 by the depth along the direction parts any two bodies, swapping them turns the direction",
+          "[convex_distance]") {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> number(-1.0, 1.0);
     int interlocked = 0;
@@ -93,7 +101,8 @@ TEST_CASE("moving body 2 by the depth along the direction parts any two bodies, 
         CAPTURE(trial);
         Points body_1(20), body_2(12);
         for (Vector<3>& p : body_1) p = {number(random), number(random), number(random)};
-        for (Vector<3>& p : body_2) p = Vector<3>(number(random), number(random), number(random)) + Vector<3>(2.0 * number(random), 1.0, 0.3);
+        for (Vector<3>& p : body_2)
+            p = Vector<3>(number(random), number(random), number(random)) + Vector<3>(2.0 * number(random), 1.0, 0.3);
         const ConvexProximity<3> result = proximity(body_1, body_2), swapped = proximity(body_2, body_1);
         CHECK(result.distance == Approx(swapped.distance).margin(1e-6));
         CHECK(result.depth == Approx(swapped.depth).margin(1e-6));
@@ -150,7 +159,8 @@ TEST_CASE("single points and coinciding bodies give an answer", "[convex_distanc
 TEST_CASE("bodies without points and coordinates that are not finite are errors", "[convex_distance][errors]") {
     const Points body = cube({0, 0, 0}, 1.0), bad = {{0, std::numeric_limits<double>::quiet_NaN(), 0}};
     CHECK_THROWS_AS(proximity(body, {}), std::invalid_argument);
-    CHECK_THROWS_WITH(proximity(body, {}), "convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
+    CHECK_THROWS_WITH(proximity(body, {}),
+                      "convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
     CHECK_THROWS_AS(proximity(bad, body), std::invalid_argument);
     CHECK_THROWS_WITH(proximity(bad, body), Catch::Contains("point 0 has the y coordinate nan, a finite number is needed."));
 }

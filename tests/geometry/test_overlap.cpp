@@ -36,7 +36,8 @@ Point central_difference(const Polygon& face_1, const Polygon& face_2, const Poi
     Point result;
     for (int axis = 0; axis < 2; ++axis) {
         const Point delta = step * Point::Unit(axis);
-        result[axis] = (shared(face_1, face_2, shift + delta).area - shared(face_1, face_2, shift - delta).area) / (2 * step);
+        result[axis] =
+            (shared(face_1, face_2, shift + delta).area - shared(face_1, face_2, shift - delta).area) / (2 * step);
     }
     return result;
 }
@@ -62,7 +63,8 @@ bool check_same_decision(const Polygon& face_1, const Polygon& face_2, const Poi
 TEST_CASE("a unit square and itself turned by 45 degrees share an octagon of area 2(sqrt 2 - 1)", "[overlap]") {
     const auto method = GENERATE(from_range(methods));
     const Polygon turned = rotated(unit_square(), std::numbers::pi / 4, {0.5, 0.5});
-    CHECK(shared(unit_square(), turned, Point::Zero(), method).area == Approx(2.0 * (std::numbers::sqrt2 - 1.0)).epsilon(1e-14));
+    CHECK(shared(unit_square(), turned, Point::Zero(), method).area ==
+          Approx(2.0 * (std::numbers::sqrt2 - 1.0)).epsilon(1e-14));
 }
 
 TEST_CASE("two unit squares shifted by s share an area of 1 - s", "[overlap]") {
@@ -90,7 +92,8 @@ TEST_CASE("special positions share the area of elementary geometry, at every sca
     for (const NamedPair& pair : special_positions())
         for (const Placement& place : placements()) {
             CAPTURE(pair.name, place.scale, place.offset.x());
-            const Polygon face_1 = placed(pair.face_1, place.scale, place.offset), face_2 = placed(pair.face_2, place.scale, place.offset);
+            const Polygon face_1 = placed(pair.face_1, place.scale, place.offset),
+                          face_2 = placed(pair.face_2, place.scale, place.offset);
             const double size = std::max(size_of(face_1), size_of(face_2));
             const double rounding = 4 * std::numeric_limits<double>::epsilon() * (place.offset.cwiseAbs().maxCoeff() + size);
             const SharedArea<3> result = shared(face_1, face_2, Point::Zero(), method);
@@ -106,7 +109,8 @@ TEST_CASE("faces that share only an edge or a vertex share nothing, wherever the
     std::mt19937 random(1);
     for (int trial = 0; trial < 300; ++trial) {
         CAPTURE(trial);
-        const Point a(uniform(random, -1, 1), uniform(random, -1, 1)), b = a + Point(uniform(random, 0.1, 1), uniform(random, -1, 1));
+        const Point a(uniform(random, -1, 1), uniform(random, -1, 1)),
+            b = a + Point(uniform(random, 0.1, 1), uniform(random, -1, 1));
         const Point along = b - a, left(-along.y(), along.x());
         const Point above = a + uniform(random, 0.1, 2) * left, below = a - uniform(random, 0.1, 2) * left;
         CHECK(shared({a, b, above}, {b, a, below}, Point::Zero(), method).area == 0.0);
@@ -178,9 +182,11 @@ TEST_CASE("swapping the faces leaves the area and negates the derivative", "[ove
     std::mt19937 random(5);
     for (int trial = 0; trial < (method == AreaMethod::fast ? 2000 : 50); ++trial) {
         const Polygon face_1 = random_polygon(random, 3 + trial % 5, {0, 0}, 1.0);
-        const Polygon face_2 = random_polygon(random, 3 + trial % 4, {uniform(random, -2, 2), uniform(random, -2, 2)}, uniform(random, 0.3, 1.5));
+        const Polygon face_2 = random_polygon(random, 3 + trial % 4, {uniform(random, -2, 2), uniform(random, -2, 2)},
+                                              uniform(random, 0.3, 1.5));
         const Point shift(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
-        const SharedArea<3> forward = shared(face_1, face_2, shift, method), backward = shared(face_2, face_1, -shift, method);
+        const SharedArea<3> forward = shared(face_1, face_2, shift, method),
+                            backward = shared(face_2, face_1, -shift, method);
         CHECK(std::abs(forward.area - backward.area) < 1e-14);
         CHECK((forward.shift_derivative + backward.shift_derivative).norm() < 1e-13);
     }
@@ -193,7 +199,9 @@ TEST_CASE("fast and exact agree on thousands of random pairs", "[overlap]") {
         CAPTURE(trial);
         const double scale = std::pow(10.0, trial % 19 - 9);
         const Polygon face_1 = random_polygon(random, 3 + trial % 2, {0, 0}, scale);
-        const Polygon face_2 = random_polygon(random, 3 + trial % 3, scale * Point(uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5)), scale * std::pow(10.0, uniform(random, -2, 0.5)));
+        const Polygon face_2 =
+            random_polygon(random, 3 + trial % 3, scale * Point(uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5)),
+                           scale * std::pow(10.0, uniform(random, -2, 0.5)));
         const Point shift = scale * Point(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
         const SharedArea<3> fast = shared(face_1, face_2, shift), exact = shared(face_1, face_2, shift, AreaMethod::exact);
         const double size = std::max(size_of(face_1), size_of(face_2));
@@ -209,7 +217,8 @@ TEST_CASE("fast and exact agree on thousands of random pairs", "[overlap]") {
 TEST_CASE("fast and exact agree on special positions", "[overlap]") {
     for (const NamedPair& pair : special_positions()) {
         CAPTURE(pair.name);
-        const SharedArea<3> fast = shared(pair.face_1, pair.face_2), exact = shared(pair.face_1, pair.face_2, Point::Zero(), AreaMethod::exact);
+        const SharedArea<3> fast = shared(pair.face_1, pair.face_2),
+                            exact = shared(pair.face_1, pair.face_2, Point::Zero(), AreaMethod::exact);
         CHECK((fast.area > 0.0) == (exact.area > 0.0));
         CHECK(std::abs(fast.area - exact.area) <= 4e-16);
         // The needles are thinner than the tolerance of `fast` for coinciding edges, which `exact` does not have.
@@ -243,21 +252,27 @@ TEST_CASE("slivers: the sign of the exact area decides, however thin", "[overlap
     CHECK(tested > 200);
 }
 
-TEST_CASE("fast and exact agree on whether faces that touch overlap, wherever they are and however they are shifted", "[overlap]") {
+TEST_CASE("fast and exact agree on whether faces that touch overlap, wherever they are and however they are shifted",
+          "[overlap]") {
     const double largest_offset = GENERATE(0.0, 1.0, 1e3, 1e7), largest_shift = GENERATE(0.0, 1e-16, 0.1, 10.0, 1e7);
     CAPTURE(largest_offset, largest_shift);
     std::mt19937 random(9);
     int overlapping = 0;
     for (int trial = 0; trial < 300; ++trial) {
         CAPTURE(trial);
-        const auto any_point = [&](double size) { return Point(uniform(random, -size, size), uniform(random, -size, size)); };
-        const Point a = any_point(largest_offset), b = a + Point(uniform(random, 0.1, 1), uniform(random, -1, 1)), left(a.y() - b.y(), b.x() - a.x());
+        const auto any_point = [&](double size) {
+            return Point(uniform(random, -size, size), uniform(random, -size, size));
+        };
+        const Point a = any_point(largest_offset), b = a + Point(uniform(random, 0.1, 1), uniform(random, -1, 1)),
+                    left(a.y() - b.y(), b.x() - a.x());
         const Point above = a + uniform(random, 0.1, 2) * left, below = b - uniform(random, 0.1, 2) * left;
         // The neighbour's edge is the whole edge, a part of it, or goes on beyond its end. It is put back by the shift.
-        const Point end_1 = trial % 3 == 0 ? b : a + uniform(random, 0.5, 2) * (b - a), end_2 = trial % 3 == 1 ? a + uniform(random, -1, 0.4) * (b - a) : a;
+        const Point end_1 = trial % 3 == 0 ? b : a + uniform(random, 0.5, 2) * (b - a),
+                    end_2 = trial % 3 == 1 ? a + uniform(random, -1, 0.4) * (b - a) : a;
         const Point shift = any_point(largest_shift);
         const Polygon neighbour = counter_clockwise({end_1 - shift, end_2 - shift, below - shift});
-        const Polygon quadrangle = counter_clockwise({end_1 - shift, end_2 - shift, end_2 - left - shift, end_1 - left - shift});
+        const Polygon quadrangle =
+            counter_clockwise({end_1 - shift, end_2 - shift, end_2 - left - shift, end_1 - left - shift});
         overlapping += check_same_decision({a, b, above}, trial % 2 == 0 ? neighbour : quadrangle, shift);
     }
     const bool is_exact = largest_offset == 0.0 && largest_shift == 0.0;
@@ -275,9 +290,11 @@ TEST_CASE("the derivative is that of central differences away from events", "[ov
         constexpr double step = 1e-4;
         std::vector<double> events;
         for (int axis = 0; axis < 2; ++axis)
-            geometry::append_overlap_events<3>(face_1, face_2, shift - step * Point::Unit(axis), shift + step * Point::Unit(axis), events);
+            geometry::append_overlap_events<3>(face_1, face_2, shift - step * Point::Unit(axis),
+                                               shift + step * Point::Unit(axis), events);
         if (!events.empty()) continue;  // between events the area is quadratic and the difference exact
-        CHECK((shared(face_1, face_2, shift).shift_derivative - central_difference(face_1, face_2, shift, step)).norm() < 1e-10);
+        CHECK((shared(face_1, face_2, shift).shift_derivative - central_difference(face_1, face_2, shift, step)).norm() <
+              1e-10);
         ++tested;
     }
     CHECK(tested > 1500);
@@ -286,12 +303,14 @@ TEST_CASE("the derivative is that of central differences away from events", "[ov
 TEST_CASE("polygons of the largest size are cut as well", "[overlap]") {
     constexpr int n = geometry::max_polygon_vertices;
     Polygon circle;
-    for (int i = 0; i < n; ++i) circle.emplace_back(std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n));
+    for (int i = 0; i < n; ++i)
+        circle.emplace_back(std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n));
     const Polygon turned = rotated(circle, std::numbers::pi / n, {0, 0});
     // A regular 2n-gon about the common inner circle of radius cos(pi/n).
     const double inner = std::cos(std::numbers::pi / n);
     const double expected = 2 * n * inner * inner * std::tan(std::numbers::pi / (2 * n));
-    for (const AreaMethod method : methods) CHECK(shared(circle, turned, Point::Zero(), method).area == Approx(expected).epsilon(1e-14));
+    for (const AreaMethod method : methods)
+        CHECK(shared(circle, turned, Point::Zero(), method).area == Approx(expected).epsilon(1e-14));
 }
 
 TEST_CASE("polygons that rounding made slightly non-convex are cut as well", "[overlap]") {
@@ -310,7 +329,8 @@ TEST_CASE("a large offset costs no more digits than the coordinates have", "[ove
     const double h = 0x1p-10, s = 0x1p-14;
     const Polygon face = placed(unit_square(), h, far);
     CHECK(shared(face, face, {s, 0.0}).area == Approx((h - s) * h).epsilon(1e-13));
-    CHECK(shared(face, face, {1e-13, 0.0}).area == Approx((h - 1e-13) * h).epsilon(1e-13));  // a shift far below the spacing of the coordinates
+    CHECK(shared(face, face, {1e-13, 0.0}).area ==
+          Approx((h - 1e-13) * h).epsilon(1e-13));  // a shift far below the spacing of the coordinates
 }
 
 TEST_CASE("2D: segments share the length of elementary geometry", "[overlap][2d]") {
@@ -319,37 +339,44 @@ TEST_CASE("2D: segments share the length of elementary geometry", "[overlap][2d]
     struct Row {
         double lower, upper, length, derivative;
     };
-    const Row row = GENERATE(Row{0.25, 0.75, 0.5, 0.0},    // inside
-                             Row{-1, 2, 1.0, 0.0},         // around
-                             Row{0.5, 2, 0.5, -1.0},       // beyond the right end
-                             Row{-1, 0.5, 0.5, 1.0},       // beyond the left end
-                             Row{0, 1, 1.0, 0.0},          // identical: half minus half
-                             Row{0, 0.5, 0.5, 0.5},        // left ends together
-                             Row{0.5, 1, 0.5, -0.5},       // right ends together
-                             Row{0, 2, 1.0, -0.5},         // left ends together, longer
-                             Row{1, 2, 0.0, 0.0},          // touching
-                             Row{-1, 0, 0.0, 0.0},         // touching
-                             Row{3, 4, 0.0, 0.0},          // apart
-                             Row{0.5, 0.5, 0.0, 0.0},      // no length
+    const Row row = GENERATE(Row{0.25, 0.75, 0.5, 0.0},  // inside
+                             Row{-1, 2, 1.0, 0.0},       // around
+                             Row{0.5, 2, 0.5, -1.0},     // beyond the right end
+                             Row{-1, 0.5, 0.5, 1.0},     // beyond the left end
+                             Row{0, 1, 1.0, 0.0},        // identical: half minus half
+                             Row{0, 0.5, 0.5, 0.5},      // left ends together
+                             Row{0.5, 1, 0.5, -0.5},     // right ends together
+                             Row{0, 2, 1.0, -0.5},       // left ends together, longer
+                             Row{1, 2, 0.0, 0.0},        // touching
+                             Row{-1, 0, 0.0, 0.0},       // touching
+                             Row{3, 4, 0.0, 0.0},        // apart
+                             Row{0.5, 0.5, 0.0, 0.0},    // no length
                              Row{1 - 0x1p-53, 2, 0x1p-53, -1.0});
     CAPTURE(row.lower, row.upper, scale);
-    const SharedArea<2> result = shared_length(segment(0, scale), segment(scale * row.lower, scale * row.upper), 0.0, method);
+    const SharedArea<2> result =
+        shared_length(segment(0, scale), segment(scale * row.lower, scale * row.upper), 0.0, method);
     CHECK(result.area == scale * row.length);
     if (row.length > 1e-12) CHECK(result.shift_derivative.x() == row.derivative);
-    const SharedArea<2> shifted = shared_length(segment(0, scale), segment(scale * (row.lower - 0.5), scale * (row.upper - 0.5)), 0.5 * scale, method);
+    const SharedArea<2> shifted =
+        shared_length(segment(0, scale), segment(scale * (row.lower - 0.5), scale * (row.upper - 0.5)), 0.5 * scale, method);
     CHECK(shifted.area == Approx(scale * row.length).margin(1e-15 * scale));
 }
 
-TEST_CASE("2D: fast and exact agree on whether segments that touch overlap, wherever they are and however they are shifted", "[overlap][2d]") {
+TEST_CASE("2D: fast and exact agree on whether segments that touch overlap, wherever they are and however they are shifted",
+          "[overlap][2d]") {
     std::mt19937 random(10);
     int overlapping = 0;
     for (int trial = 0; trial < 20000; ++trial) {
-        const double offset = std::pow(10.0, uniform(random, -3, 7)), shift = std::pow(10.0, uniform(random, -17, 3)) * (trial % 2 == 0 ? 1 : -1);
-        const double end = offset + uniform(random, 0, 1), length_1 = uniform(random, 0.1, 1), length_2 = uniform(random, 0.1, 1);
+        const double offset = std::pow(10.0, uniform(random, -3, 7)),
+                     shift = std::pow(10.0, uniform(random, -17, 3)) * (trial % 2 == 0 ? 1 : -1);
+        const double end = offset + uniform(random, 0, 1), length_1 = uniform(random, 0.1, 1),
+                     length_2 = uniform(random, 0.1, 1);
         const bool on_the_left = trial % 4 < 2;
         const Segment face_1 = segment(end - length_1, end);
-        const Segment face_2 = on_the_left ? segment(face_1[0].x() - shift - length_2, face_1[0].x() - shift) : segment(end - shift, end - shift + length_2);
-        const SharedArea<2> fast = shared_length(face_1, face_2, shift, AreaMethod::fast), swapped = shared_length(face_2, face_1, -shift, AreaMethod::fast);
+        const Segment face_2 = on_the_left ? segment(face_1[0].x() - shift - length_2, face_1[0].x() - shift)
+                                           : segment(end - shift, end - shift + length_2);
+        const SharedArea<2> fast = shared_length(face_1, face_2, shift, AreaMethod::fast),
+                            swapped = shared_length(face_2, face_1, -shift, AreaMethod::fast);
         const SharedArea<2> exact = shared_length(face_1, face_2, shift, AreaMethod::exact);
         const bool same = (fast.area > 0.0) == (exact.area > 0.0) && (swapped.area > 0.0) == (exact.area > 0.0);
         if (same && std::abs(fast.area - exact.area) <= 1e-15 * (std::abs(shift) + 1.0)) {

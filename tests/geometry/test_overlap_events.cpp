@@ -36,7 +36,8 @@ TEST_CASE("a square that slides over another has events where the edges pass", "
     // From x = 2 to x = -2: right edge on left edge, both aligned, left on right; at y = 1/4 nothing else.
     const std::vector<double> events = events_of(unit_square(), rectangle(0, 0.25, 1, 0.5), {2, 0}, {-2, 0});
     REQUIRE(!events.empty());
-    for (const double tau : events) CHECK(std::min({std::abs(tau - 0.25), std::abs(tau - 0.5), std::abs(tau - 0.75)}) < 1e-15);
+    for (const double tau : events)
+        CHECK(std::min({std::abs(tau - 0.25), std::abs(tau - 0.5), std::abs(tau - 0.75)}) < 1e-15);
     for (const double expected : {0.25, 0.5, 0.75})
         CHECK(std::any_of(events.begin(), events.end(), [&](double tau) { return std::abs(tau - expected) < 1e-15; }));
 }
@@ -68,10 +69,14 @@ TEST_CASE("between neighbouring events the area is a quadratic in tau, and acros
         const double scale = std::pow(10.0, trial % 19 - 9);
         const Polygon face_1 = random_polygon(random, 3 + trial % 3, {0, 0}, scale);
         const Polygon face_2 = random_polygon(random, 3 + trial % 4, {0, 0}, scale * uniform(random, 0.3, 1.5));
-        const Point shift_0 = scale * Point(uniform(random, -2, 2), uniform(random, -2, 2)), shift_1 = scale * Point(uniform(random, -2, 2), uniform(random, -2, 2));
-        const auto area = [&](double tau) { return shared(face_1, face_2, shift_0 + tau * (shift_1 - shift_0)).area / (scale * scale); };
+        const Point shift_0 = scale * Point(uniform(random, -2, 2), uniform(random, -2, 2)),
+                    shift_1 = scale * Point(uniform(random, -2, 2), uniform(random, -2, 2));
+        const auto area = [&](double tau) {
+            return shared(face_1, face_2, shift_0 + tau * (shift_1 - shift_0)).area / (scale * scale);
+        };
         const std::vector<double> cuts = cuts_of(face_1, face_2, shift_0, shift_1);
-        for (std::size_t k = 0; k + 1 < cuts.size(); ++k) worst_between = std::max(worst_between, std::abs(cubic_part(area, cuts[k], cuts[k + 1])));
+        for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+            worst_between = std::max(worst_between, std::abs(cubic_part(area, cuts[k], cuts[k + 1])));
         if (cuts.size() == 2) continue;
         ++paths_with_events;
         if (std::abs(cubic_part(area, 0.0, 1.0)) > 1e-3) ++broken_across;
@@ -85,15 +90,18 @@ TEST_CASE("the derivative integrated with two Gauss points between events is the
     std::mt19937 random(12);
     for (int trial = 0; trial < 500; ++trial) {
         CAPTURE(trial);
-        const Polygon face_1 = random_polygon(random, 3, {0, 0}, 1.0), face_2 = random_polygon(random, 3 + trial % 2, {0, 0}, uniform(random, 0.3, 1.5));
-        const Point shift_0(uniform(random, -2, 2), uniform(random, -2, 2)), shift_1(uniform(random, -2, 2), uniform(random, -2, 2));
+        const Polygon face_1 = random_polygon(random, 3, {0, 0}, 1.0),
+                      face_2 = random_polygon(random, 3 + trial % 2, {0, 0}, uniform(random, 0.3, 1.5));
+        const Point shift_0(uniform(random, -2, 2), uniform(random, -2, 2)),
+            shift_1(uniform(random, -2, 2), uniform(random, -2, 2));
         const Point motion = shift_1 - shift_0;
         const std::vector<double> cuts = cuts_of(face_1, face_2, shift_0, shift_1);
         double integral = 0.0;
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
             for (const double point : {0.5 - std::sqrt(3.0) / 6.0, 0.5 + std::sqrt(3.0) / 6.0}) {
                 const double tau = cuts[k] + point * (cuts[k + 1] - cuts[k]);
-                integral += 0.5 * (cuts[k + 1] - cuts[k]) * shared(face_1, face_2, shift_0 + tau * motion).shift_derivative.dot(motion);
+                integral += 0.5 * (cuts[k + 1] - cuts[k]) *
+                            shared(face_1, face_2, shift_0 + tau * motion).shift_derivative.dot(motion);
             }
         CHECK(std::abs(integral - (shared(face_1, face_2, shift_1).area - shared(face_1, face_2, shift_0).area)) < 1e-13);
     }
@@ -115,7 +123,8 @@ TEST_CASE("matching meshes that slide along a direction of their edges keep the 
 }
 
 TEST_CASE("2D: ends passing ends are the events, and the length is linear between them", "[events][2d]") {
-    const std::array<PlaneVector<2>, 2> face_1{PlaneVector<2>(0.0), PlaneVector<2>(1.0)}, face_2{PlaneVector<2>(0.0), PlaneVector<2>(0.5)};
+    const std::array<PlaneVector<2>, 2> face_1{PlaneVector<2>(0.0), PlaneVector<2>(1.0)},
+        face_2{PlaneVector<2>(0.0), PlaneVector<2>(0.5)};
     std::vector<double> events;
     append_overlap_events<2>(face_1, face_2, PlaneVector<2>(-1.0), PlaneVector<2>(3.0), events);
     std::sort(events.begin(), events.end());
@@ -123,6 +132,7 @@ TEST_CASE("2D: ends passing ends are the events, and the length is linear betwee
     events.clear();
     append_overlap_events<2>(face_1, face_2, PlaneVector<2>(0.1), PlaneVector<2>(0.2), events);
     append_overlap_events<2>(face_1, face_2, PlaneVector<2>(0.1), PlaneVector<2>(0.1), events);
-    append_overlap_events<2>(face_1, face_2, PlaneVector<2>(0.0), PlaneVector<2>(0.1), events);  // ends together at the start only
+    append_overlap_events<2>(face_1, face_2, PlaneVector<2>(0.0), PlaneVector<2>(0.1),
+                             events);  // ends together at the start only
     CHECK(events.empty());
 }

@@ -24,7 +24,8 @@ Vector<3> turned_axis(const Vector<3>& axis) { return turned({axis}, Vector<3>::
 
 Face regular(int n) {
     Face face;
-    for (int i = 0; i < n; ++i) face.emplace_back(std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n), 0.0);
+    for (int i = 0; i < n; ++i)
+        face.emplace_back(std::cos(2 * std::numbers::pi * i / n), std::sin(2 * std::numbers::pi * i / n), 0.0);
     return face;
 }
 
@@ -40,7 +41,8 @@ TEST_CASE("measure, centroid and normal of polygons are those of elementary geom
     const Face trapezium = turned({{0, 0, 0}, {3, 0, 0}, {2, 2, 0}, {1, 2, 0}}, by);
     CHECK(face_measure<3>(trapezium) == Approx(4.0).epsilon(1e-14));
     CHECK((face_centroid<3>(trapezium) - turned({{1.5, 2.0 / 3.0 * 5.0 / 4.0, 0}}, by)[0]).norm() < 1e-14);
-    for (const int n : {3, 4, 5, 16}) CHECK(face_measure<3>(regular(n)) == Approx(0.5 * n * std::sin(2 * std::numbers::pi / n)).epsilon(1e-14));
+    for (const int n : {3, 4, 5, 16})
+        CHECK(face_measure<3>(regular(n)) == Approx(0.5 * n * std::sin(2 * std::numbers::pi / n)).epsilon(1e-14));
 }
 
 TEST_CASE("reversing the vertices reverses the normal and nothing else", "[polygon]") {
@@ -54,7 +56,11 @@ TEST_CASE("a distant origin costs no digits beyond those of the vertices", "[pol
     Face face = regular(6);
     const Vector<3> far(0x1p23, -0x1p23, 0x1p23);
     for (Vector<3>& vertex : face) vertex = 0x1p-10 * (0x1p19 * vertex).array().round().matrix() * 0x1p-19 + far;
-    const Face near = [&] { Face copy = face; for (Vector<3>& vertex : copy) vertex -= far; return copy; }();
+    const Face near = [&] {
+        Face copy = face;
+        for (Vector<3>& vertex : copy) vertex -= far;
+        return copy;
+    }();
     CHECK(face_measure<3>(face) == Approx(face_measure<3>(near)).epsilon(1e-14));
     CHECK((face_normal<3>(face) - face_normal<3>(near)).norm() < 1e-14);
 }
@@ -106,8 +112,8 @@ TEST_CASE("degenerate faces have no measure, no normal and a finite centroid", "
 }
 
 TEST_CASE("a plane frame is orthonormal and right-handed for every normal", "[plane_frame]") {
-    for (const Vector<3>& direction : {Vector<3>(0, 0, 1), Vector<3>(0, 0, -1), Vector<3>(1, 0, 0), Vector<3>(0, -1, 0), Vector<3>(1, 1, 1),
-                                       Vector<3>(1e-9, 1, -1e-9), Vector<3>(-0.3, 0.2, 0.9)}) {
+    for (const Vector<3>& direction : {Vector<3>(0, 0, 1), Vector<3>(0, 0, -1), Vector<3>(1, 0, 0), Vector<3>(0, -1, 0),
+                                       Vector<3>(1, 1, 1), Vector<3>(1e-9, 1, -1e-9), Vector<3>(-0.3, 0.2, 0.9)}) {
         const PlaneFrame<3> frame(direction.normalized());
         const Vector<3> t0 = frame.tangents().col(0), t1 = frame.tangents().col(1);
         CHECK((t0.cross(t1) - frame.normal()).norm() < 1e-15);

@@ -1,6 +1,6 @@
 #pragma once
-#include "mesh/meshes.hpp"
 #include "abut/mesh/cell_shape.hpp"
+#include "mesh/meshes.hpp"
 
 namespace abut::mesh::test {
 
@@ -25,7 +25,8 @@ void check_closed_cells(const Mesh<Dim>& mesh) {
             surface += mesh.face_measure[f];
         }
         REQUIRE(sum.norm() <= 1e-14 * surface);
-        REQUIRE((flux - mesh.cell_measure[c] * Matrix<Dim>::Identity()).norm() <= 1e-13 * std::pow(surface, Dim / (Dim - 1.0)));
+        REQUIRE((flux - mesh.cell_measure[c] * Matrix<Dim>::Identity()).norm() <=
+                1e-13 * std::pow(surface, Dim / (Dim - 1.0)));
     }
 }
 
@@ -41,7 +42,8 @@ void check_two_sides(const Mesh<Dim>& mesh) {
         for (std::size_t i = 0; i < faces.size(); ++i) {
             ++n_sides[static_cast<std::size_t>(faces[i])];
             std::vector<std::int32_t> local;
-            for (const auto k : face_vertices(shape, static_cast<int>(i))) local.push_back(mesh.cell_vertices[cell][static_cast<std::size_t>(k)]);
+            for (const auto k : face_vertices(shape, static_cast<int>(i)))
+                local.push_back(mesh.cell_vertices[cell][static_cast<std::size_t>(k)]);
             const auto stored = mesh.face_vertices[faces[i]];
             REQUIRE(std::is_permutation(local.begin(), local.end(), stored.begin(), stored.end()));
         }
@@ -56,8 +58,11 @@ void check_two_sides(const Mesh<Dim>& mesh) {
         first_of_previous = first;
         REQUIRE(mesh.face_normal[f].norm() == Approx(1.0).epsilon(1e-14));
         REQUIRE(mesh.face_normal[f].dot(mesh.face_centroid[f] - mesh.cell_centroid[static_cast<std::size_t>(first)]) > 0.0);
-        if (second >= 0) REQUIRE(mesh.face_normal[f].dot(mesh.cell_centroid[static_cast<std::size_t>(second)] - mesh.face_centroid[f]) > 0.0);
-        else boundary.push_back(face);
+        if (second >= 0)
+            REQUIRE(mesh.face_normal[f].dot(mesh.cell_centroid[static_cast<std::size_t>(second)] - mesh.face_centroid[f]) >
+                    0.0);
+        else
+            boundary.push_back(face);
     }
     REQUIRE(mesh.boundary_faces == boundary);
 }

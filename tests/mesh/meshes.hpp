@@ -16,7 +16,8 @@
 namespace abut::mesh::test {
 
 inline constexpr std::array<CellShape, 2> shapes_2d = {CellShape::triangle, CellShape::quadrangle};
-inline constexpr std::array<CellShape, 4> shapes_3d = {CellShape::tetrahedron, CellShape::hexahedron, CellShape::prism, CellShape::pyramid};
+inline constexpr std::array<CellShape, 4> shapes_3d = {CellShape::tetrahedron, CellShape::hexahedron, CellShape::prism,
+                                                       CellShape::pyramid};
 
 /// The box (0,0,0) .. (2,1,3), in 4 x 3 x 5 bricks of unequal sides.
 inline Mesh<2> small_box(CellShape shape, const MeshOptions& options = {}, const Vector<2>& at = {0, 0}) {
@@ -44,7 +45,8 @@ CellSoup<Dim> soup_of(const Mesh<Dim>& mesh) {
     for (const auto& group : mesh.groups) {
         for (const std::int32_t face : group.faces) {
             const auto vertices = mesh.face_vertices[face];
-            soup.named_faces.push_back({{vertices.begin(), vertices.end()}, static_cast<std::int32_t>(soup.group_names.size())});
+            soup.named_faces.push_back(
+                {{vertices.begin(), vertices.end()}, static_cast<std::int32_t>(soup.group_names.size())});
         }
         soup.group_names.push_back(group.name);
     }
@@ -54,10 +56,14 @@ CellSoup<Dim> soup_of(const Mesh<Dim>& mesh) {
 /// One cell of each 3D shape, or of each 2D shape, on the unit lattice.
 inline std::vector<Vector<3>> corners_of(CellShape shape) {
     switch (shape) {
-        case CellShape::tetrahedron: return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        case CellShape::prism: return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
-        case CellShape::pyramid: return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
-        default: return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+        case CellShape::tetrahedron:
+            return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        case CellShape::prism:
+            return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+        case CellShape::pyramid:
+            return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+        default:
+            return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     }
 }
 
@@ -82,10 +88,11 @@ bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
 
 template <int Dim>
 bool same_bits(const Mesh<Dim>& a, const Mesh<Dim>& b) {
-    return same_bits(a.vertices, b.vertices) && a.cell_vertices.values == b.cell_vertices.values && a.cell_faces.values == b.cell_faces.values &&
-           a.face_vertices.values == b.face_vertices.values && a.face_cells == b.face_cells && same_bits(a.cell_measure, b.cell_measure) &&
-           same_bits(a.cell_centroid, b.cell_centroid) && same_bits(a.face_measure, b.face_measure) && same_bits(a.face_normal, b.face_normal) &&
-           same_bits(a.face_centroid, b.face_centroid);
+    return same_bits(a.vertices, b.vertices) && a.cell_vertices.values == b.cell_vertices.values &&
+           a.cell_faces.values == b.cell_faces.values && a.face_vertices.values == b.face_vertices.values &&
+           a.face_cells == b.face_cells && same_bits(a.cell_measure, b.cell_measure) &&
+           same_bits(a.cell_centroid, b.cell_centroid) && same_bits(a.face_measure, b.face_measure) &&
+           same_bits(a.face_normal, b.face_normal) && same_bits(a.face_centroid, b.face_centroid);
 }
 
 /// A folder of its own that is gone at the end of the test.
@@ -93,7 +100,8 @@ class ScratchFolder {
 public:
     ScratchFolder() {
         std::random_device random;
-        path_ = std::filesystem::temp_directory_path() / ("abut_test_mesh_" + std::to_string(random()) + std::to_string(random()));
+        path_ = std::filesystem::temp_directory_path() /
+                ("abut_test_mesh_" + std::to_string(random()) + std::to_string(random()));
         std::filesystem::create_directories(path_);
     }
     ~ScratchFolder() {

@@ -70,7 +70,8 @@ TEST_CASE("a coordinate that is no number is refused", "[mesh][quality]") {
 TEST_CASE("an inverted cell is refused with its measure", "[mesh][quality]") {
     auto soup = square();
     std::swap(soup.cell_vertices.values[4], soup.cell_vertices.values[5]);
-    CHECK_THAT(complaint(soup), Contains("square.msh: cell 1 (triangle) is inverted: its measure is -0.5 m^2, more than 2e-12 is needed."));
+    CHECK_THAT(complaint(soup),
+               Contains("square.msh: cell 1 (triangle) is inverted: its measure is -0.5 m^2, more than 2e-12 is needed."));
     for (const CellShape shape : test::shapes_3d) {
         auto corners = test::corners_of(shape);
         for (auto& corner : corners) corner.x() = -corner.x();
@@ -91,12 +92,14 @@ TEST_CASE("a face without measure is refused", "[mesh][quality]") {
 }
 
 TEST_CASE("in 3D, too, a face without measure is refused", "[mesh][quality]") {
-    // Two corners below and the two above them coincide: the hexahedron has the volume of a prism, and one face of its six none.
+    // Two corners below and the two above them coincide: the hexahedron has the volume of a prism, and one face of its
+    // six none.
     auto corners = test::corners_of(CellShape::hexahedron);
     corners[1] = corners[0];
     corners[5] = corners[4];
     const auto collapsed = complaint(test::one_cell<3>(CellShape::hexahedron, corners));
-    CHECK_THAT(collapsed, Contains("one.msh: face (0, 1, 5, 4) of cell 0 is degenerate: its measure is 0 m^2, more than ") && Contains(" is needed. Merge coinciding vertices"));
+    CHECK_THAT(collapsed, Contains("one.msh: face (0, 1, 5, 4) of cell 0 is degenerate: its measure is 0 m^2, more than ") &&
+                              Contains(" is needed. Merge coinciding vertices"));
 }
 
 TEST_CASE("a body without cells, and bodies or groups of one name are refused", "[mesh][quality]") {
@@ -119,7 +122,8 @@ TEST_CASE("rows refuse to count beyond 32 bits", "[mesh][quality]") {
     Rows rows;
     rows.append(std::array{1, 2});
     const std::span<const std::int32_t> too_long(rows.values.data(), std::size_t{1} << 31);
-    CHECK_THROWS_WITH(rows.append(too_long), "Rows: 2 values and 2147483648 more, at most 2147483647 are allowed. Coarsen the mesh.");
+    CHECK_THROWS_WITH(rows.append(too_long),
+                      "Rows: 2 values and 2147483648 more, at most 2147483647 are allowed. Coarsen the mesh.");
     CHECK(rows.size() == 1);
     CHECK_THROWS_WITH((structured_box<3>({0, 0, 0}, {1, 1, 1}, {10000, 10000, 10000}, CellShape::hexahedron)),
                       Contains("box: 1e+12 bricks make 1e+12 cells, at most 268435455 are allowed. Lower the counts."));
@@ -128,7 +132,8 @@ TEST_CASE("rows refuse to count beyond 32 bits", "[mesh][quality]") {
 TEST_CASE("neighbours that run differently around their common face are refused", "[mesh][quality]") {
     // The second hexahedron crosses over between two corners of the common face.
     auto soup = test::one_cell<3>(CellShape::hexahedron, test::corners_of(CellShape::hexahedron));
-    for (const Vector<3>& x : {Vector<3>(2, 0, 0), Vector<3>(2, 1, 0), Vector<3>(2, 0, 1), Vector<3>(2, 1, 1)}) soup.vertices.push_back(x);
+    for (const Vector<3>& x : {Vector<3>(2, 0, 0), Vector<3>(2, 1, 0), Vector<3>(2, 0, 1), Vector<3>(2, 1, 1)})
+        soup.vertices.push_back(x);
     soup.cell_shape.push_back(CellShape::hexahedron);
     soup.cell_body.push_back(0);
     auto good = soup;
@@ -142,7 +147,8 @@ TEST_CASE("neighbours that run differently around their common face are refused"
         bad.cell_label = {0, 1};
         bad.vertex_label.resize(bad.vertices.size());
         std::iota(bad.vertex_label.begin(), bad.vertex_label.end(), 0);
-        CHECK_THROWS_WITH(find_faces(bad), Contains("run differently around their common face: (") && Contains("its edges must be the same."));
+        CHECK_THROWS_WITH(find_faces(bad), Contains("run differently around their common face: (") &&
+                                               Contains("its edges must be the same."));
     }
 }
 
@@ -152,7 +158,8 @@ TEST_CASE("a face of three cells is refused", "[mesh][quality]") {
     soup.cell_shape.push_back(CellShape::triangle);
     soup.cell_vertices.append(std::array{0, 4, 2});
     soup.cell_body.push_back(0);
-    CHECK_THAT(complaint(soup), Contains("square.msh: face with vertices (") && Contains("belongs to 3 cells") && Contains("at most 2 are allowed."));
+    CHECK_THAT(complaint(soup), Contains("square.msh: face with vertices (") && Contains("belongs to 3 cells") &&
+                                    Contains("at most 2 are allowed."));
 }
 
 TEST_CASE("a cell given twice is refused", "[mesh][quality]") {
@@ -160,7 +167,8 @@ TEST_CASE("a cell given twice is refused", "[mesh][quality]") {
     soup.cell_shape.push_back(CellShape::tetrahedron);
     soup.cell_vertices.append(std::array{0, 1, 2, 3});
     soup.cell_body.push_back(0);
-    CHECK_THAT(complaint(soup), Contains("one.msh: cells ") && Contains("lie on the same side of their common face with vertices (0, 1, 3)"));
+    CHECK_THAT(complaint(soup),
+               Contains("one.msh: cells ") && Contains("lie on the same side of their common face with vertices (0, 1, 3)"));
     auto plane = test::one_cell<2>(CellShape::triangle, {{0, 0}, {1, 0}, {0, 1}});
     plane.cell_shape.push_back(CellShape::triangle);
     plane.cell_vertices.append(std::array{0, 1, 2});
@@ -173,8 +181,10 @@ TEST_CASE("a non-planar face is refused with distance, limit and remedy", "[mesh
     auto corners = test::corners_of(CellShape::hexahedron);
     corners[6].z() += 4e-3;
     const auto message = complaint(test::one_cell<3>(CellShape::hexahedron, corners));
-    CHECK_THAT(message, Contains("one.msh: face (4, 5, 6, 7) of cell 0 is not planar: a vertex lies 0.00") && Contains("m off its plane, 1e-10 m is allowed.") &&
-                            Contains("Set MeshOptions::non_planar to NonPlanarFaces::split; a larger MeshOptions::planarity_tolerance would not do"));
+    CHECK_THAT(message, Contains("one.msh: face (4, 5, 6, 7) of cell 0 is not planar: a vertex lies 0.00") &&
+                            Contains("m off its plane, 1e-10 m is allowed.") &&
+                            Contains("Set MeshOptions::non_planar to NonPlanarFaces::split; a larger "
+                                     "MeshOptions::planarity_tolerance would not do"));
     CHECK(complaint(test::one_cell<3>(CellShape::hexahedron, corners), {.planarity_tolerance = 0.01}) == "nothing");
 }
 
@@ -182,21 +192,24 @@ TEST_CASE("a face that is not convex is refused", "[mesh][quality]") {
     // An arrow head, extruded.
     std::vector<Vector<3>> corners;
     for (const double z : {0.0, 1.0})
-        for (const Vector<2>& p : {Vector<2>(0, 0), Vector<2>(1, -1), Vector<2>(0.1, 1), Vector<2>(0.05, 0.05)}) corners.push_back({p.x(), p.y(), z});
+        for (const Vector<2>& p : {Vector<2>(0, 0), Vector<2>(1, -1), Vector<2>(0.1, 1), Vector<2>(0.05, 0.05)})
+            corners.push_back({p.x(), p.y(), z});
     CHECK_THAT(complaint(test::one_cell<3>(CellShape::hexahedron, corners)), Contains("of cell 0 is not convex."));
 }
 
 TEST_CASE("a quadrangle whose edges cross is refused", "[mesh][quality]") {
     // Edges 12 and 30 cross; the larger lobe makes the area positive.
-    CHECK_THAT(complaint(test::one_cell<2>(CellShape::quadrangle, {{0, 0}, {2, 0}, {0.9, 1.2}, {1.1, 1.2}})), Contains("one.msh: cell 0 is folded"));
+    CHECK_THAT(complaint(test::one_cell<2>(CellShape::quadrangle, {{0, 0}, {2, 0}, {0.9, 1.2}, {1.1, 1.2}})),
+               Contains("one.msh: cell 0 is folded"));
 }
 
 TEST_CASE("a named face inside the body is refused", "[mesh][quality]") {
     auto soup = square();
     soup.group_names = {"inside"};
     soup.named_faces = {{{2, 0}, 0}};
-    CHECK_THAT(complaint(soup), Contains("square.msh: face (2, 0) of group 'inside' is not a boundary face of any cell.") ||
-                                    Contains("square.msh: face (0, 2) of group 'inside' is not a boundary face of any cell."));
+    CHECK_THAT(complaint(soup),
+               Contains("square.msh: face (2, 0) of group 'inside' is not a boundary face of any cell.") ||
+                   Contains("square.msh: face (0, 2) of group 'inside' is not a boundary face of any cell."));
     soup.vertices.push_back({5, 5});
     soup.named_faces = {{{0, 4}, 0}};
     CHECK_THAT(complaint(soup), Contains("face with a vertex that no cell has of group 'inside' is not a boundary face"));

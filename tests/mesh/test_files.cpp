@@ -19,7 +19,8 @@ constexpr std::array<int, 6> gmsh_types = {2, 3, 4, 5, 6, 7};  // by CellShape
 
 /// Writes a mesh with Gmsh's own writer: one physical group for the body, one for each boundary group.
 template <int Dim>
-void save_with_gmsh(const Mesh<Dim>& mesh, const std::filesystem::path& path, double version, bool binary, bool with_bodies = true) {
+void save_with_gmsh(const Mesh<Dim>& mesh, const std::filesystem::path& path, double version, bool binary,
+                    bool with_bodies = true) {
     gmsh::initialize();
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::model::add("saved");
@@ -33,7 +34,8 @@ void save_with_gmsh(const Mesh<Dim>& mesh, const std::filesystem::path& path, do
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
         std::vector<std::size_t> nodes;
         for (const auto vertex : mesh.cell_vertices[cell]) nodes.push_back(static_cast<std::size_t>(vertex) + 1);
-        gmsh::model::mesh::addElementsByType(body, gmsh_types[static_cast<std::size_t>(mesh.cell_shape[static_cast<std::size_t>(cell)])], {}, nodes);
+        gmsh::model::mesh::addElementsByType(
+            body, gmsh_types[static_cast<std::size_t>(mesh.cell_shape[static_cast<std::size_t>(cell)])], {}, nodes);
     }
     if (with_bodies) gmsh::model::setPhysicalName(Dim, gmsh::model::addPhysicalGroup(Dim, {body}), "the body");
     for (const auto& group : mesh.groups) {
@@ -65,7 +67,8 @@ void check_same_mesh(const Mesh<Dim>& mesh, const Mesh<Dim>& read, std::int64_t 
     REQUIRE(read.cell_vertices.values.size() == mesh.cell_vertices.values.size());
     // Gmsh hands nodes out by entity, so they are told by their labels.
     for (std::size_t i = 0; i < mesh.cell_vertices.values.size(); ++i)
-        REQUIRE(read.vertex_label[static_cast<std::size_t>(read.cell_vertices.values[i])] == mesh.cell_vertices.values[i] + first_label);
+        REQUIRE(read.vertex_label[static_cast<std::size_t>(read.cell_vertices.values[i])] ==
+                mesh.cell_vertices.values[i] + first_label);
     CHECK(read.face_cells == mesh.face_cells);
 }
 
@@ -85,7 +88,8 @@ std::string small_msh() {
 
 /// Format 4.1: a tetrahedron, in no group.
 std::string small_msh_41() {
-    return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+    return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 "
+           "1\n$EndNodes\n"
            "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 }
 
@@ -183,11 +187,16 @@ TEST_CASE("a mesh goes through VTU unchanged", "[mesh][files]") {
 TEST_CASE("voxels, both orders of wedges and lower cells are read from VTU", "[mesh][files]") {
     const test::ScratchFolder folder;
     const auto file = [](const std::string& connectivity, const std::string& offsets, const std::string& types, int n) {
-        return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
-               "<Piece NumberOfPoints=\"8\" NumberOfCells=\"" + std::to_string(n) + "\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
-               "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1</DataArray></Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" +
+        return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+               "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
+               "<Piece NumberOfPoints=\"8\" NumberOfCells=\"" +
+               std::to_string(n) +
+               "\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+               "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1</DataArray></Points>\n<Cells>\n<DataArray type=\"Int64\" "
+               "Name=\"connectivity\" format=\"ascii\">" +
                connectivity + "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
-               "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + types + "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+               "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + types +
+               "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     };
     save(folder / "voxel.vtu", file("0 1 2 3 4 5 6 7", "8", "11", 1));
     CHECK(read_vtu<3>(folder / "voxel.vtu").cell_measure[0] == Approx(1.0));
@@ -202,13 +211,16 @@ TEST_CASE("voxels, both orders of wedges and lower cells are read from VTU", "[m
     CHECK(mesh.report.n_unused_vertices == 4);
     CHECK(mesh.cell_label == std::vector<std::int64_t>{1});
     save(folder / "curved.vtu", file("0 1 2 3 4 5", "6", "22", 1));
-    CHECK_THAT(complaint_about_vtu(folder / "curved.vtu"), Contains("cell 0 has the VTK cell type 22") && Contains("Convert it to straight-sided"));
+    CHECK_THAT(complaint_about_vtu(folder / "curved.vtu"),
+               Contains("cell 0 has the VTK cell type 22") && Contains("Convert it to straight-sided"));
     const auto complaint_of = [&](const std::string& connectivity, const std::string& offsets) {
         save(folder / "range.vtu", file(connectivity, offsets, "10", 1));
         return complaint_about_vtu(folder / "range.vtu");
     };
-    CHECK_THAT(complaint_of("0 1 2 99", "4"), Contains("range.vtu: cell 0 has the point 99, the file has 8. Write the mesh again."));
-    CHECK_THAT(complaint_of("0 1 2 -1", "4"), Contains("range.vtu: cell 0 has the point -1, the file has 8. Write the mesh again."));
+    CHECK_THAT(complaint_of("0 1 2 99", "4"),
+               Contains("range.vtu: cell 0 has the point 99, the file has 8. Write the mesh again."));
+    CHECK_THAT(complaint_of("0 1 2 -1", "4"),
+               Contains("range.vtu: cell 0 has the point -1, the file has 8. Write the mesh again."));
     CHECK_THAT(complaint_of("0 1 2 4", "7"), Contains("range.vtu: ") && Contains(". Write the mesh again."));
     CHECK_THAT(complaint_of("0 1 2 4", "3"), Contains("range.vtu: ") && Contains(". Write the mesh again."));
 }
@@ -240,7 +252,8 @@ TEST_CASE("a truncated Gmsh file is refused wherever it is cut", "[mesh][files]"
     REQUIRE(complaint_about_msh(folder / "whole.msh") == "nothing");
     for (const double part : {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
         save(folder / "cut.msh", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-        CHECK_THAT(complaint_about_msh(folder / "cut.msh"), Contains("cut.msh: the file is truncated") || Contains("has the Gmsh format"));
+        CHECK_THAT(complaint_about_msh(folder / "cut.msh"),
+                   Contains("cut.msh: the file is truncated") || Contains("has the Gmsh format"));
     }
 }
 
@@ -256,7 +269,8 @@ TEST_CASE("a Gmsh file whose header promises more than its blocks hold is refuse
     REQUIRE(complaint_about_msh(folder / "a.msh") == "nothing");
     save(folder / "a.msh", replaced(small_msh_41(), "1 1 1 1\n3 1 4 1\n", "1 5 1 1\n3 1 4 1\n"));
     CHECK(complaint_about_msh(folder / "a.msh") ==
-          (folder / "a.msh").string() + ": the file is damaged: 1 elements could be read, its header promises 5. Write the mesh again.");
+          (folder / "a.msh").string() +
+              ": the file is damaged: 1 elements could be read, its header promises 5. Write the mesh again.");
 }
 
 TEST_CASE("what Gmsh warns of while it reads is in the report", "[mesh][files]") {
@@ -282,7 +296,9 @@ TEST_CASE("elements that are neither cells nor in a boundary group are counted, 
 
 TEST_CASE("a face in two boundary groups is in both, and no reason to count less", "[mesh][files]") {
     const test::ScratchFolder folder;
-    const std::string text = replaced(small_msh_41(), "$Nodes\n", "$Entities\n0 1 1 1\n1 0 0 0 1 0 0 0 0\n1 0 0 0 1 1 0 2 7 8 0\n1 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n");
+    const std::string text =
+        replaced(small_msh_41(), "$Nodes\n",
+                 "$Entities\n0 1 1 1\n1 0 0 0 1 0 0 0 0\n1 0 0 0 1 1 0 2 7 8 0\n1 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n");
     save(folder / "a.msh", replaced(text, "1 1 1 1\n3 1 4 1\n", "3 3 1 3\n1 1 1 1\n3 1 2\n2 1 2 1\n2 1 2 3\n3 1 4 1\n"));
     const auto mesh = read_gmsh<3>(folder / "a.msh");
     CHECK(mesh.group("physical_7").faces == mesh.group("physical_8").faces);
@@ -296,19 +312,24 @@ TEST_CASE("a physical group without cells and groups of one name are refused", "
         save(folder / "a.msh", text);
         return complaint_about_msh(folder / "a.msh");
     };
-    const std::string with_empty_volume = replaced(small_msh_41(), "$Nodes\n", "$Entities\n0 0 0 2\n1 0 0 0 1 1 1 1 7 0\n2 0 0 0 1 1 1 1 8 0\n$EndEntities\n$Nodes\n");
-    CHECK_THAT(said_of(with_empty_volume), Contains("a.msh: body 'physical_8' has 0 cells of dimension 3, at least 1 is needed."));
+    const std::string with_empty_volume = replaced(
+        small_msh_41(), "$Nodes\n", "$Entities\n0 0 0 2\n1 0 0 0 1 1 1 1 7 0\n2 0 0 0 1 1 1 1 8 0\n$EndEntities\n$Nodes\n");
+    CHECK_THAT(said_of(with_empty_volume),
+               Contains("a.msh: body 'physical_8' has 0 cells of dimension 3, at least 1 is needed."));
     // A group without a name is called by its tag, which may be the name of another one.
-    const std::string text = replaced(small_msh(), "2\n21 2 2 7 1 11 12 13\n", "3\n21 2 2 7 1 11 12 13\n23 2 2 8 2 11 13 14\n");
+    const std::string text =
+        replaced(small_msh(), "2\n21 2 2 7 1 11 12 13\n", "3\n21 2 2 7 1 11 12 13\n23 2 2 8 2 11 13 14\n");
     CHECK(said_of(text) == "nothing");
-    CHECK_THAT(said_of(replaced(text, "floor", "physical_8")), Contains("a.msh: 2 boundary groups are called 'physical_8', each needs a name of its own."));
+    CHECK_THAT(said_of(replaced(text, "floor", "physical_8")),
+               Contains("a.msh: 2 boundary groups are called 'physical_8', each needs a name of its own."));
 }
 
 TEST_CASE("a body without a group does not take the name of one that has it", "[mesh][files]") {
     const test::ScratchFolder folder;
-    save(folder / "a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 9 \"body_1\"\n$EndPhysicalNames\n"
-                           "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 5 0 0\n6 6 0 0\n7 5 1 0\n8 5 0 1\n$EndNodes\n"
-                           "$Elements\n2\n1 4 2 9 1 1 2 3 4\n2 4 2 0 2 5 6 7 8\n$EndElements\n");
+    save(folder / "a.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 9 \"body_1\"\n$EndPhysicalNames\n"
+         "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 5 0 0\n6 6 0 0\n7 5 1 0\n8 5 0 1\n$EndNodes\n"
+         "$Elements\n2\n1 4 2 9 1 1 2 3 4\n2 4 2 0 2 5 6 7 8\n$EndElements\n");
     CHECK(read_gmsh<3>(folder / "a.msh").body_names == std::vector<std::string>{"body_1", "body_2"});
 }
 
@@ -319,20 +340,30 @@ TEST_CASE("what is wrong inside a Gmsh file is said with the numbers of the file
         return complaint_about_msh(folder / "a.msh");
     };
     CHECK(said_of(small_msh()) == "nothing");
-    CHECK_THAT(said_of(replaced(small_msh(), "2.2 0 8", "1.0 0 8")), Contains("has the Gmsh format '1.0', 2.2 and 4.1 can be read."));
-    CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 13 12 14\n")), Contains("a.msh: cell 22 (tetrahedron) is inverted: its measure is -0.167 m^3, more than ") && Contains("counter-clockwise."));
-    CHECK_THAT(said_of(replaced(small_msh(), "14 0 0 1", "14 0 0 nan")), Contains("a.msh: vertex 14 has the z coordinate nan, a finite number is needed. Mesh the part again."));
-    CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 12 13 77\n")), Contains("a.msh: cannot be read: Gmsh says: Error: Wrong node index 77."));
+    CHECK_THAT(said_of(replaced(small_msh(), "2.2 0 8", "1.0 0 8")),
+               Contains("has the Gmsh format '1.0', 2.2 and 4.1 can be read."));
+    CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 13 12 14\n")),
+               Contains("a.msh: cell 22 (tetrahedron) is inverted: its measure is -0.167 m^3, more than ") &&
+                   Contains("counter-clockwise."));
+    CHECK_THAT(said_of(replaced(small_msh(), "14 0 0 1", "14 0 0 nan")),
+               Contains("a.msh: vertex 14 has the z coordinate nan, a finite number is needed. Mesh the part again."));
+    CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 12 13 77\n")),
+               Contains("a.msh: cannot be read: Gmsh says: Error: Wrong node index 77."));
 }
 
 TEST_CASE("the dimension of the file must be that asked for", "[mesh][files]") {
     const test::ScratchFolder folder;
     save_with_gmsh(test::small_box_3d(CellShape::tetrahedron), folder / "solid.msh", 4.1, false);
     save_with_gmsh(test::small_box(CellShape::triangle), folder / "plane.msh", 4.1, false);
-    CHECK_THROWS_WITH(read_gmsh<2>(folder / "solid.msh"), Contains("solid.msh: 360 cells of dimension 3 in what should be a mesh of dimension 2."));
-    CHECK_THROWS_WITH(read_gmsh<3>(folder / "plane.msh"), Contains("plane.msh: the mesh is empty: 0 cells of dimension 3 (and 24 of dimension 2)"));
+    CHECK_THROWS_WITH(read_gmsh<2>(folder / "solid.msh"),
+                      Contains("solid.msh: 360 cells of dimension 3 in what should be a mesh of dimension 2."));
+    CHECK_THROWS_WITH(read_gmsh<3>(folder / "plane.msh"),
+                      Contains("plane.msh: the mesh is empty: 0 cells of dimension 3 (and 24 of dimension 2)"));
     write_vtu(test::small_box_3d(CellShape::tetrahedron), folder / "solid.vtu");
-    CHECK_THROWS_WITH(read_vtu<2>(folder / "solid.vtu"), Contains("z runs from 0 to 3 m in a mesh of dimension 2, 3.74e-12 m of spread is allowed. Put the mesh into a plane"));
+    CHECK_THROWS_WITH(
+        read_vtu<2>(folder / "solid.vtu"),
+        Contains(
+            "z runs from 0 to 3 m in a mesh of dimension 2, 3.74e-12 m of spread is allowed. Put the mesh into a plane"));
 }
 
 TEST_CASE("a truncated or damaged VTU file is refused", "[mesh][files]") {
@@ -341,10 +372,13 @@ TEST_CASE("a truncated or damaged VTU file is refused", "[mesh][files]") {
     const std::string whole = text_of(folder / "whole.vtu");
     for (const double part : {0.3, 0.6, 0.99}) {
         save(folder / "cut.vtu", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
-        CHECK_THAT(complaint_about_vtu(folder / "cut.vtu"), Contains("cut.vtu: the file is truncated: '</VTKFile>' is missing after ") && Contains("Write the mesh again."));
+        CHECK_THAT(
+            complaint_about_vtu(folder / "cut.vtu"),
+            Contains("cut.vtu: the file is truncated: '</VTKFile>' is missing after ") && Contains("Write the mesh again."));
     }
     std::string damaged = whole;
     for (std::size_t i = 0; i < 200; ++i) damaged[damaged.size() / 2 + i] = 'x';
     save(folder / "damaged.vtu", damaged);
-    CHECK_THAT(complaint_about_vtu(folder / "damaged.vtu"), Contains("damaged.vtu: cannot be read: VTK says: ") && Contains(". Write the mesh again."));
+    CHECK_THAT(complaint_about_vtu(folder / "damaged.vtu"),
+               Contains("damaged.vtu: cannot be read: VTK says: ") && Contains(". Write the mesh again."));
 }

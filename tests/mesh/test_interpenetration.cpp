@@ -44,7 +44,8 @@ Mesh<Dim> both(const Mesh<Dim>& body_1, const Mesh<Dim>& body_2) {
 template <int Dim>
 std::vector<Vector<Dim>> points_of(const Mesh<Dim>& mesh, std::int32_t cell) {
     std::vector<Vector<Dim>> points;
-    for (const std::int32_t vertex : mesh.cell_vertices[cell]) points.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
+    for (const std::int32_t vertex : mesh.cell_vertices[cell])
+        points.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
     return points;
 }
 
@@ -87,7 +88,8 @@ Mesh<3> tetrahedron(const std::vector<Vector<3>>& corners, const std::string& na
     CellSoup<3> soup;
     soup.name = name;
     soup.vertices = corners;
-    if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) < 0.0) std::swap(soup.vertices[2], soup.vertices[3]);
+    if ((corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) < 0.0)
+        std::swap(soup.vertices[2], soup.vertices[3]);
     soup.cell_shape = {CellShape::tetrahedron};
     soup.cell_vertices.append(std::array{0, 1, 2, 3});
     soup.cell_body = {0};
@@ -97,11 +99,14 @@ Mesh<3> tetrahedron(const std::vector<Vector<3>>& corners, const std::string& na
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each body, whatever the broad phase", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
-    const auto broad_phase = GENERATE(geometry::BroadPhase::embree, geometry::BroadPhase::fcl, geometry::BroadPhase::brute_force);
+TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each body, whatever the broad phase",
+                       "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
+    const auto broad_phase =
+        GENERATE(geometry::BroadPhase::embree, geometry::BroadPhase::fcl, geometry::BroadPhase::brute_force);
     Vector<Dim> corner = Vector<Dim>::Constant(0.3);  // so that cells of different sizes lie in each other
     corner[0] = 0.7;
-    const auto mesh = both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 2, simplex<Dim>(), "low"), cube<Dim>(corner, 3, simplex<Dim>(), "high"));
+    const auto mesh =
+        both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 2, simplex<Dim>(), "low"), cube<Dim>(corner, 3, simplex<Dim>(), "high"));
     const auto found = find_interpenetrations<Dim>(mesh, broad_phase);
     REQUIRE(found.size() > 2);
     CHECK(found.front().depth > found.back().depth);
@@ -113,10 +118,12 @@ TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each 
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("the cells that are found are those that no axis separates", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the cells that are found are those that no axis separates", "[mesh][interpenetration]",
+                       ((int Dim), Dim), 2, 3) {
     Vector<Dim> corner = Vector<Dim>::Constant(0.31);
     corner[0] = 0.73;
-    const auto mesh = both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 2, simplex<Dim>(), "low"), cube<Dim>(corner, 3, simplex<Dim>(), "high"));
+    const auto mesh =
+        both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 2, simplex<Dim>(), "low"), cube<Dim>(corner, 3, simplex<Dim>(), "high"));
     std::vector<std::array<std::int32_t, 2>> expected;
     std::vector<double> depths;
     for (std::int32_t a = 0; a < mesh.n_cells(); ++a)
@@ -126,7 +133,8 @@ TEMPLATE_TEST_CASE_SIG("the cells that are found are those that no axis separate
                     expected.push_back({a, b});
                     depths.push_back(depth);
                 }
-    for (const auto broad_phase : {geometry::BroadPhase::embree, geometry::BroadPhase::fcl, geometry::BroadPhase::brute_force}) {
+    for (const auto broad_phase :
+         {geometry::BroadPhase::embree, geometry::BroadPhase::fcl, geometry::BroadPhase::brute_force}) {
         auto found = find_interpenetrations<Dim>(mesh, broad_phase);
         std::ranges::sort(found, {}, &Interpenetration::cells);
         REQUIRE(found.size() == expected.size());
@@ -137,18 +145,23 @@ TEMPLATE_TEST_CASE_SIG("the cells that are found are those that no axis separate
     }
 }
 
-TEST_CASE("cells that touch edge to edge, crossed, do not overlap, and a little further they do", "[mesh][interpenetration]") {
+TEST_CASE("cells that touch edge to edge, crossed, do not overlap, and a little further they do",
+          "[mesh][interpenetration]") {
     // The upper edge of one tetrahedron runs along x, the lower edge of the other across it; turned about z and in space.
     const double gap = GENERATE(0.0, 1e-9, -1e-9, -1e-3);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> number(-1.0, 1.0);
     for (int trial = 0; trial < 100; ++trial) {
         CAPTURE(gap, trial);
-        const double angle = trial == 0 ? 0.5 * std::numbers::pi : std::numbers::pi * (0.5 + 0.4 * number(random)), along = 0.8 * number(random);
+        const double angle = trial == 0 ? 0.5 * std::numbers::pi : std::numbers::pi * (0.5 + 0.4 * number(random)),
+                     along = 0.8 * number(random);
         const Vector<3> across(std::cos(angle), std::sin(angle), 0.0), middle(along, 0.0, gap);
-        const Matrix<3> turn = Eigen::AngleAxisd(trial == 0 ? 0.0 : 3.0 * number(random), Eigen::Vector3d(number(random), number(random), 1.0).normalized()).toRotationMatrix();
+        const Matrix<3> turn = Eigen::AngleAxisd(trial == 0 ? 0.0 : 3.0 * number(random),
+                                                 Eigen::Vector3d(number(random), number(random), 1.0).normalized())
+                                   .toRotationMatrix();
         std::vector<Vector<3>> low = {{-1, 0, 0}, {1, 0, 0}, {0, 1, -1}, {0, -1, -1}};
-        std::vector<Vector<3>> high = {middle - across, middle + across, middle + Vector<3>(-across.y(), across.x(), 1), middle + Vector<3>(across.y(), -across.x(), 1)};
+        std::vector<Vector<3>> high = {middle - across, middle + across, middle + Vector<3>(-across.y(), across.x(), 1),
+                                       middle + Vector<3>(across.y(), -across.x(), 1)};
         for (auto* points : {&low, &high})
             for (Vector<3>& x : *points) x = turn * x;
         const auto mesh = both<3>(tetrahedron(low, "low"), tetrahedron(high, "high"));
@@ -158,7 +171,8 @@ TEST_CASE("cells that touch edge to edge, crossed, do not overlap, and a little 
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("one cell pushed into another by d has the depth d", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("one cell pushed into another by d has the depth d", "[mesh][interpenetration]", ((int Dim), Dim), 2,
+                       3) {
     const double depth = GENERATE(1e-4, 0.01, 0.3);
     const auto mesh = both<Dim>(cube<Dim>(Vector<Dim>::Zero(), 1, brick<Dim>(), "low"),
                                 cube<Dim>((1.0 - depth) * Vector<Dim>::UnitX(), 1, brick<Dim>(), "high"));
@@ -175,7 +189,8 @@ TEMPLATE_TEST_CASE_SIG("bodies that touch or are apart do not overlap", "[mesh][
     CHECK_NOTHROW(check_apart<Dim>(mesh));
 }
 
-TEMPLATE_TEST_CASE_SIG("a body wholly inside another is found, though their surfaces are far apart", "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body wholly inside another is found, though their surfaces are far apart",
+                       "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
     const auto big = cube<Dim>(Vector<Dim>::Zero(), 4, simplex<Dim>(), "big");
     std::array<int, Dim> one;
     one.fill(1);
@@ -185,11 +200,14 @@ TEMPLATE_TEST_CASE_SIG("a body wholly inside another is found, though their surf
 }
 
 TEST_CASE("discs that overlap are refused by name, cells, depth and remedy", "[mesh][interpenetration]") {
-    const auto mesh = both<2>(disc({.centre = {0.0, 0.0}, .size = 0.3, .name = "left"}), disc({.centre = {1.9, 0.0}, .size = 0.3, .variant = 1, .name = "right"}));
+    const auto mesh = both<2>(disc({.centre = {0.0, 0.0}, .size = 0.3, .name = "left"}),
+                              disc({.centre = {1.9, 0.0}, .size = 0.3, .variant = 1, .name = "right"}));
     const auto worst = find_interpenetrations<2>(mesh).front();
-    const auto cells = std::to_string(mesh.cell_label[worst.cells[0]]) + "|" + std::to_string(mesh.cell_label[worst.cells[1]]);
+    const auto cells =
+        std::to_string(mesh.cell_label[worst.cells[0]]) + "|" + std::to_string(mesh.cell_label[worst.cells[1]]);
     CHECK_THROWS_WITH(check_apart<2>(mesh, "Raise the gap."),
-                      Catch::Contains("'left' and 'right'") && Catch::Contains("cells " + cells) && Catch::Contains("0 m is allowed") && Catch::Contains("Raise the gap."));
+                      Catch::Contains("'left' and 'right'") && Catch::Contains("cells " + cells) &&
+                          Catch::Contains("0 m is allowed") && Catch::Contains("Raise the gap."));
     CHECK_THROWS_AS(check_apart<2>(mesh), MeshError);
 }
 

@@ -4,8 +4,10 @@ using namespace abut;
 using namespace abut::mesh;
 
 TEST_CASE("cells of a box fill it exactly, whatever their shape", "[mesh][measures]") {
-    for (const CellShape shape : test::shapes_2d) CHECK(test::total_measure(test::small_box(shape)) == Approx(2.0).epsilon(1e-14));
-    for (const CellShape shape : test::shapes_3d) CHECK(test::total_measure(test::small_box_3d(shape)) == Approx(6.0).epsilon(1e-14));
+    for (const CellShape shape : test::shapes_2d)
+        CHECK(test::total_measure(test::small_box(shape)) == Approx(2.0).epsilon(1e-14));
+    for (const CellShape shape : test::shapes_3d)
+        CHECK(test::total_measure(test::small_box_3d(shape)) == Approx(6.0).epsilon(1e-14));
 }
 
 TEST_CASE("every cell is closed and obeys the divergence theorem", "[mesh][measures]") {
@@ -46,11 +48,17 @@ TEST_CASE("a trapezium has its area and its centroid", "[mesh][measures]") {
 
 TEST_CASE("regular cells have an aspect ratio of one", "[mesh][quality]") {
     const double r3 = std::sqrt(3.0);
-    CHECK(quality(build_mesh(test::one_cell<2>(CellShape::triangle, {{0, 0}, {1, 0}, {0.5, r3 / 2}}))).worst_aspect_ratio == Approx(1.0));
-    CHECK(quality(build_mesh(test::one_cell<2>(CellShape::quadrangle, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}))).worst_aspect_ratio == Approx(1.0));
+    CHECK(quality(build_mesh(test::one_cell<2>(CellShape::triangle, {{0, 0}, {1, 0}, {0.5, r3 / 2}}))).worst_aspect_ratio ==
+          Approx(1.0));
+    CHECK(
+        quality(build_mesh(test::one_cell<2>(CellShape::quadrangle, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}))).worst_aspect_ratio ==
+        Approx(1.0));
     const std::vector<Vector<3>> tetrahedron = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-    CHECK(quality(build_mesh(test::one_cell<3>(CellShape::tetrahedron, {tetrahedron[0], tetrahedron[2], tetrahedron[1], tetrahedron[3]}))).worst_aspect_ratio == Approx(1.0));
-    CHECK(quality(build_mesh(test::one_cell<3>(CellShape::hexahedron, test::corners_of(CellShape::hexahedron)))).worst_aspect_ratio == Approx(1.0));
+    CHECK(quality(build_mesh(test::one_cell<3>(CellShape::tetrahedron,
+                                               {tetrahedron[0], tetrahedron[2], tetrahedron[1], tetrahedron[3]})))
+              .worst_aspect_ratio == Approx(1.0));
+    CHECK(quality(build_mesh(test::one_cell<3>(CellShape::hexahedron, test::corners_of(CellShape::hexahedron))))
+              .worst_aspect_ratio == Approx(1.0));
     const std::vector<Vector<3>> prism = {{0, 0, 0}, {1, 0, 0}, {0.5, r3 / 2, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, r3 / 2, 1}};
     CHECK(quality(build_mesh(test::one_cell<3>(CellShape::prism, prism))).worst_aspect_ratio == Approx(1.0));
     const std::vector<Vector<3>> pyramid = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, std::sqrt(0.5)}};

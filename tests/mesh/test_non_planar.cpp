@@ -12,7 +12,8 @@ CellSoup<3> shaken_box(CellShape shape, double amplitude) {
     auto soup = test::soup_of(test::small_box_3d(shape));
     std::mt19937 random(7);
     for (auto& x : soup.vertices) {
-        const Vector<3> shift = amplitude * Vector<3>(random() / 4294967295.0 - 0.5, random() / 4294967295.0 - 0.5, random() / 4294967295.0 - 0.5);
+        const Vector<3> shift = amplitude * Vector<3>(random() / 4294967295.0 - 0.5, random() / 4294967295.0 - 0.5,
+                                                      random() / 4294967295.0 - 0.5);
         const bool inside = x.x() > 0.01 && x.x() < 1.99 && x.y() > 0.01 && x.y() < 0.99 && x.z() > 0.01 && x.z() < 2.99;
         if (inside) x += shift;
     }
@@ -24,8 +25,10 @@ CellSoup<3> shaken_box(CellShape shape, double amplitude) {
 TEST_CASE("cutting cells with warped faces conserves the volume and conforms", "[mesh][split]") {
     for (const CellShape shape : {CellShape::hexahedron, CellShape::prism, CellShape::pyramid}) {
         const auto soup = shaken_box(shape, 0.05);
-        REQUIRE_THROWS_WITH(build_mesh(soup), Catch::Contains("is not planar: a vertex lies ") && Catch::Contains(" m is allowed. Set MeshOptions::non_planar to "
-                                                  "NonPlanarFaces::split, or raise MeshOptions::planarity_tolerance."));
+        REQUIRE_THROWS_WITH(build_mesh(soup),
+                            Catch::Contains("is not planar: a vertex lies ") &&
+                                Catch::Contains(" m is allowed. Set MeshOptions::non_planar to "
+                                                "NonPlanarFaces::split, or raise MeshOptions::planarity_tolerance."));
         const auto mesh = build_mesh(soup, {.non_planar = NonPlanarFaces::split});
         CHECK(test::total_measure(mesh) == Approx(6.0).epsilon(1e-13));
         test::check_two_sides(mesh);
@@ -39,7 +42,8 @@ TEST_CASE("cutting cells with warped faces conserves the volume and conforms", "
         CHECK(mesh.report.worst_planarity > 1e-4);
         for (const auto& group : {"xmin", "xmax"}) {
             double area = 0.0;
-            for (const std::int32_t face : mesh.group(group).faces) area += mesh.face_measure[static_cast<std::size_t>(face)];
+            for (const std::int32_t face : mesh.group(group).faces)
+                area += mesh.face_measure[static_cast<std::size_t>(face)];
             CHECK(area == Approx(3.0).epsilon(1e-13));
         }
     }

@@ -71,7 +71,8 @@ TEST_CASE("cells come body after body, ordered or not", "[mesh][order]") {
         CHECK(std::is_sorted(mesh.cell_body.begin(), mesh.cell_body.end()));
         test::check_two_sides(mesh);
         for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
-            CHECK((mesh.cell_centroid[static_cast<std::size_t>(cell)].x() > 4.0) == (mesh.cell_body[static_cast<std::size_t>(cell)] == 1));
+            CHECK((mesh.cell_centroid[static_cast<std::size_t>(cell)].x() > 4.0) ==
+                  (mesh.cell_body[static_cast<std::size_t>(cell)] == 1));
     }
 }
 

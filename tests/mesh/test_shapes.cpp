@@ -38,7 +38,8 @@ TEST_CASE("disc, cylinder and sphere approach their formulas as h^2", "[mesh][sh
     double disc_error = 0.0, cylinder_error = 0.0, sphere_error = 0.0;
     for (const double h : {0.4, 0.2}) {
         const double disc_now = 1.0 - test::total_measure(disc({.radius = 2, .size = 2 * h})) / (4 * pi);
-        const double cylinder_now = 1.0 - test::total_measure(cylinder({.radius = 2, .length = 3, .size = 2 * h})) / (12 * pi);
+        const double cylinder_now =
+            1.0 - test::total_measure(cylinder({.radius = 2, .length = 3, .size = 2 * h})) / (12 * pi);
         const double sphere_now = 1.0 - test::total_measure(sphere({.radius = 2, .size = 2 * h})) / (32 * pi / 3);
         if (h < 0.3) {
             CHECK(disc_error / disc_now == Approx(4.0).epsilon(0.3));
@@ -62,7 +63,8 @@ TEST_CASE("the groups of a cylinder have its areas and normals", "[mesh][shapes]
         CHECK(mesh.face_normal[static_cast<std::size_t>(face)].z() == Approx(1.0));
         CHECK(mesh.face_centroid[static_cast<std::size_t>(face)].z() == Approx(4.0));
     }
-    for (const auto face : mesh.group("bottom").faces) CHECK(mesh.face_normal[static_cast<std::size_t>(face)].z() == Approx(-1.0));
+    for (const auto face : mesh.group("bottom").faces)
+        CHECK(mesh.face_normal[static_cast<std::size_t>(face)].z() == Approx(-1.0));
     CHECK(mesh.body_names == std::vector<std::string>{"cylinder"});
 }
 
@@ -70,10 +72,12 @@ TEST_CASE("an unstructured box is filled exactly and its sides are named", "[mes
     const auto plane = box<2>({.lower = {1, 2}, .upper = {3, 3}, .size = 0.2});
     CHECK(test::total_measure(plane) == Approx(2.0).epsilon(1e-13));
     CHECK(group_area(plane, "ymin") == Approx(2.0));
-    for (const auto face : plane.group("xmax").faces) CHECK(plane.face_normal[static_cast<std::size_t>(face)].x() == Approx(1.0));
+    for (const auto face : plane.group("xmax").faces)
+        CHECK(plane.face_normal[static_cast<std::size_t>(face)].x() == Approx(1.0));
     const auto solid = box<3>({.lower = {0, 0, 0}, .upper = {1, 2, 3}, .size = 0.5});
     CHECK(test::total_measure(solid) == Approx(6.0).epsilon(1e-13));
-    for (const auto& [name, area] : {std::pair{"xmin", 6.0}, {"xmax", 6.0}, {"ymin", 3.0}, {"ymax", 3.0}, {"zmin", 2.0}, {"zmax", 2.0}})
+    for (const auto& [name, area] :
+         {std::pair{"xmin", 6.0}, {"xmax", 6.0}, {"ymin", 3.0}, {"ymax", 3.0}, {"zmin", 2.0}, {"zmax", 2.0}})
         CHECK(group_area(solid, name) == Approx(area));
     test::check_two_sides(solid);
 }
@@ -128,23 +132,31 @@ TEST_CASE("impossible shapes are refused by name, value and limit", "[mesh][shap
     CHECK_THROWS_WITH(sphere({.refinement = Refinement<3>{{0, 0, 0}, 0, 1}}), Contains("sphere: refinement.size is 0 m"));
     CHECK_THROWS_WITH(cylinder({.length = 0, .name = "shaft"}), Contains("shaft: length is 0 m"));
     CHECK_THROWS_WITH(box<2>({.upper = {1, -1}}), Contains("box: shortest side is -1 m"));
-    CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, 1}, {2, 0}, CellShape::triangle)), Contains("box: counts[1] is 0, at least 1 is needed."));
-    CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, 1}, {2, 2}, CellShape::prism)), Contains("a prism cannot fill a box of dimension 2"));
-    CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, -1}, {2, 2}, CellShape::triangle)), Contains("the box is -1 m long along y"));
+    CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, 1}, {2, 0}, CellShape::triangle)),
+                      Contains("box: counts[1] is 0, at least 1 is needed."));
+    CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, 1}, {2, 2}, CellShape::prism)),
+                      Contains("a prism cannot fill a box of dimension 2"));
+    CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, -1}, {2, 2}, CellShape::triangle)),
+                      Contains("the box is -1 m long along y"));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 2), Contains("n_sectors is 2, at least 3 is needed."));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 0, 5), Contains("radius is 0 m"));
 }
 
 TEST_CASE("sizes and places that make no mesh are refused before Gmsh tries", "[mesh][shapes]") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH(disc({.centre = {0, nan}}), Contains("disc: the y coordinate of centre is nan, a finite number is needed."));
+    CHECK_THROWS_WITH(disc({.centre = {0, nan}}),
+                      Contains("disc: the y coordinate of centre is nan, a finite number is needed."));
     CHECK_THROWS_WITH(box<2>({.lower = {nan, 0}}), Contains("box: the x coordinate of lower is nan"));
-    CHECK_THROWS_WITH(sphere({.refinement = Refinement<3>{{0, 0, nan}, 0.01, 1}}), Contains("sphere: the z coordinate of refinement.point is nan"));
+    CHECK_THROWS_WITH(sphere({.refinement = Refinement<3>{{0, 0, nan}, 0.01, 1}}),
+                      Contains("sphere: the z coordinate of refinement.point is nan"));
     CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.2, 0.5}}),
                       Contains("disc: refinement.size is 0.2 m, at most size = 0.1 m is allowed. Lower it"));
-    CHECK_THROWS_WITH(cylinder({.size = 1e-4}), Contains("cylinder: the sizes asked for make about 1.45e+13 cells, at most 1e+08 are meshed. Raise size"));
+    CHECK_THROWS_WITH(
+        cylinder({.size = 1e-4}),
+        Contains("cylinder: the sizes asked for make about 1.45e+13 cells, at most 1e+08 are meshed. Raise size"));
     CHECK_THROWS_WITH(disc({.size = 1e-6}), Contains("at most 1e+08 are meshed."));
-    CHECK_THROWS_WITH(sphere({.size = 0.1, .refinement = Refinement<3>{{0, 0, 1}, 1e-3, 1e3}}), Contains("at most 1e+08 are meshed."));
+    CHECK_THROWS_WITH(sphere({.size = 0.1, .refinement = Refinement<3>{{0, 0, 1}, 1e-3, 1e3}}),
+                      Contains("at most 1e+08 are meshed."));
 }
 
 TEST_CASE("meshing leaves the locale of the program as it was", "[mesh][shapes]") {

@@ -1,6 +1,5 @@
 #include "mesh/meshes.hpp"
 
-#include <Eigen/Geometry>
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
@@ -11,6 +10,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
+#include <Eigen/Geometry>
 
 #include <fstream>
 #include <locale>
@@ -41,7 +41,8 @@ std::vector<Listed> list_of(const std::filesystem::path& path) {
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     const std::regex entry("timestep=\"([^\"]*)\" part=\"0\" file=\"([^\"]*)\"");
     std::vector<Listed> result;
-    for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i) result.push_back({std::stod((*i)[1]), (*i)[2]});
+    for (std::sregex_iterator i(text.begin(), text.end(), entry), end; i != end; ++i)
+        result.push_back({std::stod((*i)[1]), (*i)[2]});
     return result;
 }
 
@@ -51,17 +52,21 @@ std::size_t n_files(const std::filesystem::path& folder) {
 
 std::size_t n_half_written(const std::filesystem::path& folder) {
     std::size_t n = 0;
-    for (const auto& file : std::filesystem::directory_iterator(folder)) n += file.path().filename().string().find(".part") != std::string::npos;
+    for (const auto& file : std::filesystem::directory_iterator(folder))
+        n += file.path().filename().string().find(".part") != std::string::npos;
     return n;
 }
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a series read back by VTK holds the fields, padded to three dimensions", "[mesh][vtu]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a series read back by VTK holds the fields, padded to three dimensions", "[mesh][vtu]",
+                       ((int Dim), Dim), 2, 3) {
     const test::ScratchFolder folder;
     const auto mesh = [] {
-        if constexpr (Dim == 2) return test::small_box(CellShape::triangle);
-        else return test::small_box_3d(CellShape::prism);
+        if constexpr (Dim == 2)
+            return test::small_box(CellShape::triangle);
+        else
+            return test::small_box_3d(CellShape::prism);
     }();
     const auto n = static_cast<std::size_t>(mesh.n_cells());
     std::vector<Vector<Dim>> u(n);
@@ -112,13 +117,15 @@ TEMPLATE_TEST_CASE_SIG("a series read back by VTK holds the fields, padded to th
     CHECK(surface->GetNumberOfPoints() <= static_cast<vtkIdType>(mesh.vertices.size()));
 }
 
-TEST_CASE("a prism is written as VTK documents a wedge: its first triangle is counter-clockwise from outside", "[mesh][vtu]") {
+TEST_CASE("a prism is written as VTK documents a wedge: its first triangle is counter-clockwise from outside",
+          "[mesh][vtu]") {
     const test::ScratchFolder folder;
     write_vtu(test::small_box_3d(CellShape::prism), folder / "prisms.vtu");
     const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "prisms.vtu");
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
         std::array<Vector<3>, 6> x;
-        for (vtkIdType i = 0; i < 6; ++i) grid->GetCell(cell)->GetPoints()->GetPoint(i, x[static_cast<std::size_t>(i)].data());
+        for (vtkIdType i = 0; i < 6; ++i)
+            grid->GetCell(cell)->GetPoints()->GetPoint(i, x[static_cast<std::size_t>(i)].data());
         CHECK((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) < 0.0);
     }
 }
@@ -133,7 +140,8 @@ TEST_CASE("the displacement of a vertex is the mean of its own body's cells", "[
     series.write({.displacement = u});
     const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "pair_000000.vtu");
     auto* displacement = grid->GetPointData()->GetArray("displacement");
-    for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point) CHECK(displacement->GetComponent(point, 0) == (point < 7 ? 1.0 : -3.0));
+    for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point)
+        CHECK(displacement->GetComponent(point, 0) == (point < 7 ? 1.0 : -3.0));
 }
 
 TEST_CASE("a field of the wrong size is refused by name and writes nothing", "[mesh][vtu]") {
@@ -142,8 +150,10 @@ TEST_CASE("a field of the wrong size is refused by name and writes nothing", "[m
     VtuSeries<2> series(folder.path(), "run", mesh);
     const std::vector<double> values(5, 1.0);
     const std::vector<Vector<2>> u(5, Vector<2>::Zero());
-    CHECK_THROWS_WITH(series.write({.cell_fields = {{"energy", values}}}), "VtuSeries: field 'energy' has 5 values, one for each of the 12 cells is needed.");
-    CHECK_THROWS_WITH(series.write({.boundary_fields = {{"gap", values}}}), Contains("one for each of the 14 boundary faces is needed."));
+    CHECK_THROWS_WITH(series.write({.cell_fields = {{"energy", values}}}),
+                      "VtuSeries: field 'energy' has 5 values, one for each of the 12 cells is needed.");
+    CHECK_THROWS_WITH(series.write({.boundary_fields = {{"gap", values}}}),
+                      Contains("one for each of the 14 boundary faces is needed."));
     CHECK_THROWS_WITH(series.write({.displacement = u}), Contains("field 'displacement' has 5 values"));
     CHECK(n_files(folder.path()) == 0);
     CHECK(series.n_frames() == 0);
@@ -155,7 +165,8 @@ TEST_CASE("a folder that cannot be written is refused", "[mesh][vtu]") {
     std::ofstream(folder / "file") << "in the way";
     CHECK_THROWS_WITH((VtuSeries<2>(folder / "file", "run", mesh)), Contains("file: the folder cannot be made"));
     CHECK_THROWS_AS((VtuSeries<2>(folder / "file/below", "run", mesh)), MeshError);
-    CHECK_THROWS_WITH(write_vtu(mesh, folder / "missing/mesh.vtu"), Contains("mesh.vtu: cannot be written: No such file or directory. Check permissions"));
+    CHECK_THROWS_WITH(write_vtu(mesh, folder / "missing/mesh.vtu"),
+                      Contains("mesh.vtu: cannot be written: No such file or directory. Check permissions"));
     VtuSeries<2> series(folder / "gone", "run", mesh);
     series.write({});
     std::filesystem::remove_all(folder / "gone");
@@ -163,14 +174,15 @@ TEST_CASE("a folder that cannot be written is refused", "[mesh][vtu]") {
     CHECK(series.n_frames() == 1);
 }
 
-TEST_CASE("a frame that cannot be finished leaves the lists of the frames before it, and no half-written file", "[mesh][vtu]") {
+TEST_CASE("a frame that cannot be finished leaves the lists of the frames before it, and no half-written file",
+          "[mesh][vtu]") {
     const test::ScratchFolder folder;
     const auto mesh = test::small_box(CellShape::quadrangle);
     VtuSeries<2> series(folder.path(), "run", mesh);
     series.write({.time = 1.0});
     // Folders in the way: of a frame's second file, of its first, of the second list, and of where either list is prepared.
-    const std::string obstacle = GENERATE("run_surface_000001.vtp", "run_000001.vtu", "run_surface.pvd", ".run.part.pvd", ".run_surface.part.pvd",
-                                          ".run_surface_000001.part.vtp");
+    const std::string obstacle = GENERATE("run_surface_000001.vtp", "run_000001.vtu", "run_surface.pvd", ".run.part.pvd",
+                                          ".run_surface.part.pvd", ".run_surface_000001.part.vtp");
     CAPTURE(obstacle);
     const bool is_list = obstacle == "run_surface.pvd";
     if (is_list) std::filesystem::remove(folder / obstacle);
