@@ -39,14 +39,15 @@ struct Region {
 
 /// Cell-centred Galerkin operators of a mesh, without a matrix. METHOD.md, section 2.
 ///
-///     u_f by the stencils -> G_c -> jumps k [u]_f -> stress S_c -> face forces y_f -> dV/du_c = jumps + R^T y
+///     u_f by the stencils -> G_c and its traces I_c(x_f) -> S_c with the jumps k [u]_f -> face forces y_f -> dV/du_c
 ///
 /// Every result is a sum in a fixed order: the bits do not depend on the number of threads. Not safe to use from two
 /// threads at once: the work arrays are shared by all calls.
 template <int Dim>
 class Ccg {
 public:
-    /// One material a body. Throws as `check(Material)`, `sort_to_faces` and `select_stencils` do.
+    /// One material a body. Throws std::invalid_argument for another number of them, and as `check(Material)`, `sort_to_faces`
+    /// and `select_stencils` do.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions);
     ~Ccg();
     Ccg(Ccg&&) noexcept;
@@ -71,7 +72,7 @@ public:
     /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the forces of `corrections` are taken along.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
-    /// y_f - |f| t_f + pair force of every boundary face [N], as of the last call of `gradient`.
+    /// y_f - |f| t_f + pair force of a boundary face [N], as of the last call of `gradient`.
     [[nodiscard]] Vector<Dim> boundary_force(std::int32_t boundary_face) const;
 
     /// V(u, û + delta) less the work of tractions [J].
@@ -98,7 +99,8 @@ public:
     [[nodiscard]] double largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                         std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const;
 
-    /// G_c and sigma_c of the last call of `gradient` or `potential` [-], [Pa].
+    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells` since
+    /// then have set those of their region.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 

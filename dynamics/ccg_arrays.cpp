@@ -1,5 +1,6 @@
 #include "abut/dynamics/ccg_arrays.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -1,6 +1,5 @@
 #pragma once
 // Private to the sources of this layer.
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -8,13 +7,9 @@
 
 #include "abut/dynamics/boundary_reconstruction.hpp"
 #include "abut/dynamics/lanes.hpp"
+#include "abut/dynamics/sort_unique.hpp"
 
 namespace abut::dynamics {
-
-inline void sort_unique(std::vector<std::int32_t>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 /// A face as one of its cells has it.
 struct Slot {

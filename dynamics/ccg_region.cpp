@@ -1,5 +1,7 @@
 #include "abut/dynamics/ccg_region.hpp"
 
+#include <algorithm>
+
 namespace abut::dynamics {
 namespace {
 

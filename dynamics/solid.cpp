@@ -8,6 +8,7 @@
 #include <string>
 
 #include "abut/dynamics/parallel.hpp"
+#include "abut/dynamics/sort_unique.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -54,11 +55,6 @@ public:
 private:
     std::vector<std::int32_t> parent_;
 };
-
-void sort_unique(std::vector<std::int32_t>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 template <int Dim>
 void average(const BoundaryLoad<Dim>& a, const BoundaryLoad<Dim>& b, BoundaryLoad<Dim>& mean) {

@@ -285,3 +285,44 @@ TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = 
     }
     CHECK(worst < 1e-12 * young);
 }
+
+TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 2 mu) |f|/|c| and the depth (x_f - x_c) . n", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
+    const dynamics::Material material{.young = 2.0, .poisson = 0.25, .density = 1.0};  // lambda = mu = 0.8
+    const auto mesh = round_body<Dim>(0.5);
+    auto options = bodies<Dim>(1);
+    options.materials = {material};
+    dynamics::Solid<Dim> solid(mesh, options);
+    const auto& surface = solid.contact()->surface();
+    for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) {
+        const std::int32_t f = mesh.boundary_faces[b], c = mesh.face_cells[f][0];
+        const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];
+        CHECK(solid.ccg().normal_stiffness(static_cast<std::int32_t>(b)) == Approx(stiffness).epsilon(1e-13));
+        CHECK(surface.stiffness[b] == Approx(stiffness).epsilon(1e-13));
+        CHECK(surface.depth[b] == Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("face stiffnesses of a cell add up to its energy", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+    const double lambda = 0.7, mu = 0.9;
+    const auto mesh = round_body<Dim>(0.9);
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const double measure = mesh.cell_measure[c];
+        std::vector<Vector<Dim>> area, u;
+        Matrix<Dim> gradient = Matrix<Dim>::Zero();
+        for (const std::int32_t f : mesh.cell_faces[c]) {
+            area.push_back((mesh.face_cells[f][0] == c ? 1.0 : -1.0) * mesh.face_measure[f] * mesh.face_normal[f]);
+            u.push_back(Vector<Dim>::NullaryExpr([&](Eigen::Index) { return value(random); }));
+            gradient += u.back() * area.back().transpose() / measure;
+        }
+        const Matrix<Dim> strain = 0.5 * (gradient + gradient.transpose());
+        const double energy = 0.5 * measure * (lambda * strain.trace() * strain.trace() + 2.0 * mu * strain.squaredNorm());
+        double sum = 0.0;
+        for (std::size_t i = 0; i < u.size(); ++i)
+            for (std::size_t j = 0; j < u.size(); ++j)
+                sum += 0.5 * u[i].dot(dynamics::face_stiffness<Dim>(lambda, mu, measure, area[i], area[j]) * u[j]);
+        CHECK(sum == Approx(energy).epsilon(1e-12));
+    }
+}

@@ -179,3 +179,21 @@ TEST_CASE("a time step that is not positive and finite, or a state of another si
     CHECK_THROWS_AS(Memm<Well>(well, two, zero, 0.1), std::invalid_argument);
     CHECK_THROWS_WITH(Memm<Well>(well, zero, two, 0.1), Catch::Matchers::Contains("1 positions and 2 momenta"));
 }
+
+TEST_CASE("a kick to one half-step momentum is the parasitic momentum, and alternates in a linear system for ever", "[dynamics][memm]") {
+    Well well;
+    const double dt = 0.3, kick = 1e-3;
+    auto memm = from_rest(well, dt);
+    bool kicked = false;
+    memm.set_after_step([&](auto, double, auto, auto p_after) {
+        if (!kicked) p_after[0] += kick;
+        kicked = true;
+    });
+    std::vector<double> e(1);
+    double sign = 1.0;
+    for (int i = 0; i < 100; ++i, sign = -sign) {
+        memm.step();
+        memm.parasitic_momentum(e);
+        REQUIRE(e[0] == Approx(sign * kick).epsilon(1e-9));
+    }
+}

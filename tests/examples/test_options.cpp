@@ -70,7 +70,7 @@ TEST_CASE("each choice of the method changes the motion", "[examples]") {
     CHECK(read_summary(other)["bodies"][0]["velocity_final"] != read_summary(by_default)["bodies"][0]["velocity_final"]);
 }
 
-TEST_CASE("--cfl, --dt, --time and --steps say how long steps and the run are, and the summary what was used",
+TEST_CASE("the options --cfl, --dt, --time and --steps say how long steps and the run are, and the summary what was used",
           "[examples]") {
     const auto outcome = run_coarse("--cfl 0.5 --time 1.5", "cfl");
     const auto by_cfl = read_summary(outcome);
