@@ -25,7 +25,8 @@ std::vector<BodyFaces> faces_by_body(const SurfaceView<Dim>& surface) {
     std::vector<BodyFaces> bodies;
     for (std::int32_t face = 0; face < surface.size(); ++face) {
         const std::int32_t body = surface.body[face];
-        auto place = std::lower_bound(bodies.begin(), bodies.end(), body, [](const BodyFaces& b, std::int32_t id) { return b.body < id; });
+        auto place = std::lower_bound(bodies.begin(), bodies.end(), body,
+                                      [](const BodyFaces& b, std::int32_t id) { return b.body < id; });
         if (place == bodies.end() || place->body != body) place = bodies.insert(place, {body, {}});
         place->faces.push_back(face);
     }
@@ -37,8 +38,13 @@ class CandidateFinder {
 public:
     CandidateFinder(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
                     const ContactOptions& options, double skin)
-        : surface_(surface), u_0_(u_0), u_1_(u_1), options_(options), skin_(skin),
-          boxes_(swept_boxes(surface, u_0, u_1, options.facing_cosine, skin)), bodies_(faces_by_body(surface)) {
+        : surface_(surface),
+          u_0_(u_0),
+          u_1_(u_1),
+          options_(options),
+          skin_(skin),
+          boxes_(swept_boxes(surface, u_0, u_1, options.facing_cosine, skin)),
+          bodies_(faces_by_body(surface)) {
         for (std::int32_t face = 0; face < surface.size(); ++face) radius_.push_back(circumradius(surface, face));
     }
 
@@ -67,7 +73,8 @@ private:
         for (const auto& [i, j] : overlapping) {
             const auto [face_1, face_2] = std::minmax(bodies_[a].faces[i], bodies_[b].faces[j]);
             if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) continue;
-            if (are_facing(surface_, face_1, face_2, options_.facing_cosine) && can_touch(face_1, face_2)) found_.push_back({face_1, face_2});
+            if (are_facing(surface_, face_1, face_2, options_.facing_cosine) && can_touch(face_1, face_2))
+                found_.push_back({face_1, face_2});
         }
     }
 
@@ -116,13 +123,18 @@ std::vector<geometry::Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std
 
 template <int Dim>
 std::vector<geometry::IndexPair> find_candidates(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
-                                                 std::span<const Vector<Dim>> u_1, const ContactOptions& options, double skin) {
+                                                 std::span<const Vector<Dim>> u_1, const ContactOptions& options,
+                                                 double skin) {
     return CandidateFinder<Dim>(surface, u_0, u_1, options, skin).find();
 }
 
-template std::vector<geometry::Box<2>> swept_boxes<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const Vector<2>>, double, double);
-template std::vector<geometry::Box<3>> swept_boxes<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const Vector<3>>, double, double);
-template std::vector<geometry::IndexPair> find_candidates<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const Vector<2>>, const ContactOptions&, double);
-template std::vector<geometry::IndexPair> find_candidates<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const Vector<3>>, const ContactOptions&, double);
+template std::vector<geometry::Box<2>> swept_boxes<2>(const SurfaceView<2>&, std::span<const Vector<2>>,
+                                                      std::span<const Vector<2>>, double, double);
+template std::vector<geometry::Box<3>> swept_boxes<3>(const SurfaceView<3>&, std::span<const Vector<3>>,
+                                                      std::span<const Vector<3>>, double, double);
+template std::vector<geometry::IndexPair> find_candidates<2>(const SurfaceView<2>&, std::span<const Vector<2>>,
+                                                             std::span<const Vector<2>>, const ContactOptions&, double);
+template std::vector<geometry::IndexPair> find_candidates<3>(const SurfaceView<3>&, std::span<const Vector<3>>,
+                                                             std::span<const Vector<3>>, const ContactOptions&, double);
 
 }  // namespace abut::contact

@@ -14,7 +14,8 @@ template <int Dim>
 const ContactOptions& checked(const ContactOptions& options) {
     const auto refuse = [](const std::string& what) { throw std::invalid_argument("contact options: " + what); };
     if (options.quadrature < 0 || options.quadrature > 3)
-        refuse("quadrature is " + std::to_string(options.quadrature) + "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
+        refuse("quadrature is " + std::to_string(options.quadrature) +
+               "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
     if (!(options.facing_cosine >= -1.0 && options.facing_cosine < 0.0))
         refuse("facing_cosine is " + number(options.facing_cosine) + "; it must lie in [-1, 0). -0.5 is the default.");
     if (!(options.skin >= 0.0) || !std::isfinite(options.skin))
@@ -42,8 +43,8 @@ double default_skin(const SurfaceView<Dim>& surface) {
 template <int Dim>
 void require_finite(std::span<const Vector<Dim>> displacement, std::int32_t n_faces) {
     if (displacement.size() != static_cast<std::size_t>(n_faces))
-        throw std::invalid_argument("contact: " + std::to_string(displacement.size()) + " displacements are given for " + std::to_string(n_faces) +
-                                    " faces of the surface; give one each.");
+        throw std::invalid_argument("contact: " + std::to_string(displacement.size()) + " displacements are given for " +
+                                    std::to_string(n_faces) + " faces of the surface; give one each.");
     for (std::size_t face = 0; face < displacement.size(); ++face)
         if (!displacement[face].allFinite())
             throw std::runtime_error("contact: the displacement of face " + std::to_string(face) +
@@ -52,25 +53,32 @@ void require_finite(std::span<const Vector<Dim>> displacement, std::int32_t n_fa
 
 template <int Dim>
 void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
-    const auto refuse = [](const std::string& what) { throw std::invalid_argument("contact: the coupling of the listed faces " + what); };
+    const auto refuse = [](const std::string& what) {
+        throw std::invalid_argument("contact: the coupling of the listed faces " + what);
+    };
     const std::size_t n = coupling.columns.size();
-    if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 || static_cast<std::size_t>(coupling.offsets.back()) != n ||
+    if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 ||
+        static_cast<std::size_t>(coupling.offsets.back()) != n ||
         !std::is_sorted(coupling.offsets.begin(), coupling.offsets.end()))
-        refuse("has " + std::to_string(coupling.offsets.size()) + " offsets for " + std::to_string(n_faces) + " faces and " + std::to_string(n) +
-               " columns; they must be one more than faces and rise from 0 to the number of columns.");
+        refuse("has " + std::to_string(coupling.offsets.size()) + " offsets for " + std::to_string(n_faces) + " faces and " +
+               std::to_string(n) + " columns; they must be one more than faces and rise from 0 to the number of columns.");
     if (coupling.blocks.size() != n)
-        refuse("has " + std::to_string(coupling.blocks.size()) + " blocks for " + std::to_string(n) + " columns; give one each.");
+        refuse("has " + std::to_string(coupling.blocks.size()) + " blocks for " + std::to_string(n) +
+               " columns; give one each.");
     for (const std::int32_t column : coupling.columns)
         if (column < 0 || static_cast<std::size_t>(column) >= n_faces)
-            refuse("names face " + std::to_string(column) + " of " + std::to_string(n_faces) + "; columns are places in Contact::faces.");
+            refuse("names face " + std::to_string(column) + " of " + std::to_string(n_faces) +
+                   "; columns are places in Contact::faces.");
 }
 
 template <int Dim>
 void check_path(const FacePath<Dim>& path, std::size_t n_faces) {
-    for (const std::size_t size : {path.displacement_0.size(), path.displacement_1.size(), path.force_0.size(), path.force_1.size()})
+    for (const std::size_t size :
+         {path.displacement_0.size(), path.displacement_1.size(), path.force_0.size(), path.force_1.size()})
         if (size != n_faces)
-            throw std::invalid_argument("contact: the path of the listed faces has an array of " + std::to_string(size) + " entries for " +
-                                        std::to_string(n_faces) + " faces; give one for each of Contact::faces.");
+            throw std::invalid_argument("contact: the path of the listed faces has an array of " + std::to_string(size) +
+                                        " entries for " + std::to_string(n_faces) +
+                                        " faces; give one for each of Contact::faces.");
 }
 
 template <int Dim>
@@ -82,13 +90,17 @@ bool before(const ContactPair<Dim>& a, const ContactPair<Dim>& b) {
 
 template <int Dim>
 Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
-    : surface_(surface), options_(checked<Dim>(options)), local_face_(static_cast<std::size_t>(surface.size()), -1), integral_(options) {
+    : surface_(surface),
+      options_(checked<Dim>(options)),
+      local_face_(static_cast<std::size_t>(surface.size()), -1),
+      integral_(options) {
     check(surface_);
     skin_ = options.skin > 0.0 ? options.skin : default_skin(surface_);
 }
 
 template <int Dim>
-void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of) {
+void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
+                          const CouplingOf& coupling_of) {
     require_finite(u_0, surface_.size());
     require_finite(u_1, surface_.size());
     const std::vector<ContactPair<Dim>> known(pairs_.pairs().begin(), pairs_.pairs().end());
@@ -97,7 +109,8 @@ void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vect
     for (const ContactPair<Dim>& pair : known) {
         if (!pair.admitted) continue;
         const auto at = pairs_.position(surface_, pair, u_0[pair.face_1], u_0[pair.face_2]);
-        if (at.gap < 0.0 && pairs_.shared_area(pair, at.shift, options_.area).area > 0.0) found.push_back({pair.face_1, pair.face_2});
+        if (at.gap < 0.0 && pairs_.shared_area(pair, at.shift, options_.area).area > 0.0)
+            found.push_back({pair.face_1, pair.face_2});
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -137,10 +150,12 @@ template <int Dim>
 void Contact<Dim>::update_admission(std::span<const Vector<Dim>> displacement) {
     report_.not_admitted = 0;
     for (ContactPair<Dim>& pair : pairs_.pairs()) {
-        const auto at = pairs_.position(surface_, pair, displacement[local_face_[pair.face_1]], displacement[local_face_[pair.face_2]]);
+        const auto at =
+            pairs_.position(surface_, pair, displacement[local_face_[pair.face_1]], displacement[local_face_[pair.face_2]]);
         const bool wanted = at.gap > -pair.depth;
         if (wanted == pair.admitted && wanted) continue;
-        if (at.gap >= 0.0 || pairs_.stay_apart(pair, at.shift, at.shift) || pairs_.shared_area(pair, at.shift, options_.area).area == 0.0)
+        if (at.gap >= 0.0 || pairs_.stay_apart(pair, at.shift, at.shift) ||
+            pairs_.shared_area(pair, at.shift, options_.area).area == 0.0)
             pair.admitted = wanted;
         else if (!pair.admitted)
             ++report_.not_admitted;
@@ -172,9 +187,11 @@ void Contact<Dim>::integrate(const FacePath<Dim>& path) {
     if (integral_.compression() > options_.compression_warning) ++report_.compressed_steps;
     if (integral_.compression() > options_.compression_limit) {
         const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];
-        throw std::runtime_error("contact: faces " + std::to_string(pair.face_1) + " and " + std::to_string(pair.face_2) + " are pressed " +
-                                 number(integral_.compression()) + " times the depth of their cells into each other, " +
-                                 number(options_.compression_limit) + " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
+        throw std::runtime_error(
+            "contact: faces " + std::to_string(pair.face_1) + " and " + std::to_string(pair.face_2) + " are pressed " +
+            number(integral_.compression()) + " times the depth of their cells into each other, " +
+            number(options_.compression_limit) +
+            " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
     }
 }
 

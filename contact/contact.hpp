@@ -11,16 +11,16 @@ namespace abut::contact {
 
 /// What happened since the start, for the reader of a run.
 struct ContactReport {
-    std::int64_t candidates = 0;       ///< pairs in the current list
+    std::int64_t candidates = 0;  ///< pairs in the current list
     std::int64_t candidates_max = 0;
-    std::int64_t active_pairs = 0;     ///< pairs active in the last step
+    std::int64_t active_pairs = 0;  ///< pairs active in the last step
     std::int64_t active_pairs_max = 0;
-    std::int64_t events = 0;           ///< openings, closings and changes of overlap inside steps, all steps
-    std::int64_t rebuilds = 0;         ///< candidate lists made
-    std::int64_t lost_contacts = 0;    ///< pairs first seen with A > 0 and -D < g < 0: must stay 0
-    std::int64_t not_admitted = 0;     ///< pairs of the current list with A > 0 and g < 0 that are no contacts
-    std::int64_t compressed_steps = 0; ///< steps with |g|/D above the warning
-    double compression_max = 0.0;      ///< largest |g|/D
+    std::int64_t events = 0;            ///< openings, closings and changes of overlap inside steps, all steps
+    std::int64_t rebuilds = 0;          ///< candidate lists made
+    std::int64_t lost_contacts = 0;     ///< pairs first seen with A > 0 and -D < g < 0: must stay 0
+    std::int64_t not_admitted = 0;      ///< pairs of the current list with A > 0 and g < 0 that are no contacts
+    std::int64_t compressed_steps = 0;  ///< steps with |g|/D above the warning
+    double compression_max = 0.0;       ///< largest |g|/D
 };
 
 /// The contact of a set of surfaces, for any solver that moves its bodies along straight lines during a step.

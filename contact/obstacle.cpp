@@ -13,9 +13,11 @@ namespace abut::contact {
 template <int Dim>
 RigidObstacle<Dim> plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& normal, double half_width,
                                   std::function<Vector<Dim>(double time)> path) {
-    if (!(normal.norm() > 0.0) || !normal.allFinite()) throw std::invalid_argument("plane obstacle: its normal is zero or not finite. Give the direction it faces.");
+    if (!(normal.norm() > 0.0) || !normal.allFinite())
+        throw std::invalid_argument("plane obstacle: its normal is zero or not finite. Give the direction it faces.");
     if (!(half_width > 0.0) || !std::isfinite(half_width))
-        throw std::invalid_argument("plane obstacle: its half width is " + number(half_width) + " m; it must be finite and > 0. Give more than the bodies can reach.");
+        throw std::invalid_argument("plane obstacle: its half width is " + number(half_width) +
+                                    " m; it must be finite and > 0. Give more than the bodies can reach.");
     const geometry::PlaneFrame<Dim> frame(normal.normalized());
     std::vector<Vector<Dim>> corners;
     if constexpr (Dim == 2) {
@@ -32,8 +34,7 @@ RigidObstacle<Dim> plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& n
 
 template <int Dim>
 void append(Surface<Dim>& surface, const RigidObstacle<Dim>& obstacle, std::int32_t body) {
-    for (const auto& corners : obstacle.faces)
-        surface.append(corners, 0.0, std::numeric_limits<double>::infinity(), body);
+    for (const auto& corners : obstacle.faces) surface.append(corners, 0.0, std::numeric_limits<double>::infinity(), body);
 }
 
 template RigidObstacle<2> plane_obstacle<2>(const Vector<2>&, const Vector<2>&, double, std::function<Vector<2>(double)>);

@@ -9,8 +9,8 @@ namespace abut::contact {
 /// A rigid body that moves on a given path: it has no energy, so its partner takes the whole correction.
 template <int Dim>
 struct RigidObstacle {
-    std::vector<std::vector<Vector<Dim>>> faces;    ///< corners of each face, outside as in Surface::append [m]
-    std::function<Vector<Dim>(double time)> path;   ///< translation from rest at a time [m]; empty: it stands still
+    std::vector<std::vector<Vector<Dim>>> faces;   ///< corners of each face, outside as in Surface::append [m]
+    std::function<Vector<Dim>(double time)> path;  ///< translation from rest at a time [m]; empty: it stands still
 };
 
 /// A square (3D) or segment (2D) of a plane, half_width in every direction about `point`, facing along `normal`.

@@ -22,11 +22,12 @@ struct ContactOptions {
     geometry::AreaMethod area = geometry::AreaMethod::fast;
     OverlapMode overlap = OverlapMode::moving;
     Weights weights = Weights::stiffness;
-    bool events = true;         ///< cut the step where a pair opens, closes or changes its overlap formula
-    int quadrature = 0;         ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
+    bool events = true;           ///< cut the step where a pair opens, closes or changes its overlap formula
+    int quadrature = 0;           ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
     double facing_cosine = -0.5;  ///< n_1 . n_2 below this: the faces look at each other. In [-1, 0)
-    double skin = 0.0;          ///< [m] how far faces may move, together, before the candidate list is made anew; 0: half the mean face size
-    bool self_contact = false;  ///< also pairs of faces of one body
+    double skin =
+        0.0;  ///< [m] how far faces may move, together, before the candidate list is made anew; 0: half the mean face size
+    bool self_contact = false;         ///< also pairs of faces of one body
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
 };

@@ -66,8 +66,8 @@ void PairList<Dim>::clear() {
 }
 
 template <int Dim>
-PairPosition<Dim> PairList<Dim>::position(const SurfaceView<Dim>& surface, const ContactPair<Dim>& pair, const Vector<Dim>& u_1,
-                                          const Vector<Dim>& u_2) const {
+PairPosition<Dim> PairList<Dim>::position(const SurfaceView<Dim>& surface, const ContactPair<Dim>& pair,
+                                          const Vector<Dim>& u_1, const Vector<Dim>& u_2) const {
     const Vector<Dim> apart = (surface.centroid[pair.face_2] - surface.centroid[pair.face_1]) + (u_2 - u_1);
     return {apart.dot(pair.frame.normal()), pair.frame.project(apart)};
 }

@@ -17,12 +17,12 @@ struct ContactPair {
     geometry::PlaneFrame<Dim> frame;  ///< its normal is n_12, from face 1's body into face 2's
     double theta_1;                   ///< share of the correction that face 1 takes [-]
     double theta_2;
-    double reach;                     ///< sum of the circumradii of the projected faces: farther apart they share nothing [m]
-    double depth;                     ///< D = d_1 + d_2 [m]
-    std::int32_t corners_1 = 0;           ///< where the projected corners of face 1 begin in PairList::corners
+    double reach;                ///< sum of the circumradii of the projected faces: farther apart they share nothing [m]
+    double depth;                ///< D = d_1 + d_2 [m]
+    std::int32_t corners_1 = 0;  ///< where the projected corners of face 1 begin in PairList::corners
     std::int32_t corners_2 = 0;
     std::int32_t corners_end = 0;
-    bool admitted = false;                  ///< whether A > 0 and g < 0 means contact; decided only where A min(g, 0) = 0
+    bool admitted = false;  ///< whether A > 0 and g < 0 means contact; decided only where A min(g, 0) = 0
 };
 
 /// Relative position of the two faces of a pair.
@@ -50,12 +50,13 @@ public:
     [[nodiscard]] geometry::SharedArea<Dim> shared_area(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift,
                                                         geometry::AreaMethod method) const;
     /// Whether the faces are sure to share no area while the shift goes straight from shift_0 to shift_1 (a cheap test).
-    [[nodiscard]] bool stay_apart(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift_0, const PlaneVector<Dim>& shift_1) const {
+    [[nodiscard]] bool stay_apart(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift_0,
+                                  const PlaneVector<Dim>& shift_1) const {
         const double allowed = pair.reach + (shift_1 - shift_0).norm();
         return shift_0.squaredNorm() > allowed * allowed;
     }
-    void append_overlap_events(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift_0, const PlaneVector<Dim>& shift_1,
-                               std::vector<double>& events) const;
+    void append_overlap_events(const ContactPair<Dim>& pair, const PlaneVector<Dim>& shift_0,
+                               const PlaneVector<Dim>& shift_1, std::vector<double>& events) const;
 
 private:
     [[nodiscard]] geometry::ProjectedFace<Dim> face_1(const ContactPair<Dim>& pair) const;
@@ -76,6 +77,7 @@ template <int Dim>
 
 /// Whether two faces look at each other: n_1 . n_2 < facing_cosine.
 template <int Dim>
-[[nodiscard]] bool are_facing(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, double facing_cosine);
+[[nodiscard]] bool are_facing(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2,
+                              double facing_cosine);
 
 }  // namespace abut::contact

@@ -30,7 +30,8 @@ Value polynomial(const std::array<Value, 3>& c, double t) {
 
 /// Coefficients of the polynomial of degree n - 1 through n <= 3 values at the given nodes (Newton's divided differences).
 template <class Value>
-std::array<Value, 3> interpolate(int n, const std::array<double, 3>& node, const std::array<Value, 3>& value, const Value& zero) {
+std::array<Value, 3> interpolate(int n, const std::array<double, 3>& node, const std::array<Value, 3>& value,
+                                 const Value& zero) {
     if (n == 1) return {value[0], zero, zero};
     const Value first = (value[1] - value[0]) / (node[1] - node[0]);
     if (n == 2) return {value[0] - first * node[0], first, zero};
@@ -55,7 +56,8 @@ const PathPiece<Dim>* piece_at(std::span<const PathPiece<Dim>> pieces, double ta
 }
 
 template <int Dim>
-std::span<const PathPiece<Dim>> row(const std::vector<PathPiece<Dim>>& pieces, const std::vector<std::int32_t>& offsets, std::int32_t i) {
+std::span<const PathPiece<Dim>> row(const std::vector<PathPiece<Dim>>& pieces, const std::vector<std::int32_t>& offsets,
+                                    std::int32_t i) {
     return {pieces.data() + offsets[i], static_cast<std::size_t>(offsets[i + 1] - offsets[i])};
 }
 
@@ -88,8 +90,9 @@ PathIntegral<Dim>::PathIntegral(const ContactOptions& options) : options_(option
 }
 
 template <int Dim>
-void PathIntegral<Dim>::integrate(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs, std::span<const std::int32_t> local_face,
-                                  const FaceCoupling<Dim>& coupling, const FacePath<Dim>& path, Cuts cuts) {
+void PathIntegral<Dim>::integrate(const SurfaceView<Dim>& surface, const PairList<Dim>& pairs,
+                                  std::span<const std::int32_t> local_face, const FaceCoupling<Dim>& coupling,
+                                  const FacePath<Dim>& path, Cuts cuts) {
     const std::size_t n_faces = path.displacement_0.size();
     mean_correction_.assign(n_faces, Vector<Dim>::Zero());
     mean_force_.assign(n_faces, Vector<Dim>::Zero());
@@ -126,7 +129,8 @@ void PathIntegral<Dim>::find_closing(const Step& step) {
         const std::int32_t f_1 = step.local_face[pair.face_1];
         const std::int32_t f_2 = step.local_face[pair.face_2];
         const Motion motion{step.pairs.position(step.surface, pair, u_0[f_1], u_0[f_2]),
-                            step.pairs.position(step.surface, pair, u_1[f_1], u_1[f_2]), options_.overlap == OverlapMode::moving};
+                            step.pairs.position(step.surface, pair, u_1[f_1], u_1[f_2]),
+                            options_.overlap == OverlapMode::moving};
         if (motion.at_0.gap >= 0.0 && motion.at_1.gap >= 0.0) continue;
         if (step.pairs.stay_apart(pair, motion.at_0.shift, motion.at_1.shift)) continue;
         closing_.push_back({p, motion});
@@ -149,7 +153,8 @@ void PathIntegral<Dim>::find_active(const Step& step) {
     std::size_t i = 0;
     for (const std::int32_t p : active_) {
         while (closing_[i].pair != p) ++i;
-        const double compression = -std::min(closing_[i].motion.at_0.gap, closing_[i].motion.at_1.gap) / step.pairs.pairs()[p].depth;
+        const double compression =
+            -std::min(closing_[i].motion.at_0.gap, closing_[i].motion.at_1.gap) / step.pairs.pairs()[p].depth;
         if (compression <= compression_) continue;
         compression_ = compression;
         most_compressed_ = p;
@@ -191,12 +196,14 @@ void PathIntegral<Dim>::append_pair(const PairList<Dim>& pairs, const Closing& c
         std::erase_if(found.events, [](double tau) { return !(tau > 0.0 && tau < 1.0); });
         sort_and_close(found.events, 0.0, 1.0);
         for (std::size_t k = 0; k + 1 < found.events.size(); ++k)
-            if (found.events[k + 1] > found.events[k]) append_piece(pairs, pair, closing.motion, found.events[k], found.events[k + 1], found);
+            if (found.events[k + 1] > found.events[k])
+                append_piece(pairs, pair, closing.motion, found.events[k], found.events[k + 1], found);
     }
     if (found.pieces.size() == n_pieces) return;
     for (std::size_t i = n_pieces; i < found.pieces.size(); ++i)
         for (const double cut : {found.pieces[i].begin, found.pieces[i].end})
-            if (cut > 0.0 && cut < 1.0 && (found.cuts.size() == n_cuts || found.cuts.back() != cut)) found.cuts.push_back(cut);
+            if (cut > 0.0 && cut < 1.0 && (found.cuts.size() == n_cuts || found.cuts.back() != cut))
+                found.cuts.push_back(cut);
     found.active.push_back(closing.pair);
     found.n_pieces.push_back(static_cast<std::int32_t>(found.pieces.size() - n_pieces));
     found.n_cuts.push_back(static_cast<std::int32_t>(found.cuts.size() - n_cuts));
@@ -205,8 +212,8 @@ void PathIntegral<Dim>::append_pair(const PairList<Dim>& pairs, const Closing& c
 /// Between two events g is linear and A of degree Dim - 1. Its slope dA/ds . ds/dtau is of degree Dim - 2, so A at one time
 /// and dA/ds at Dim - 1 times, well inside, give all.
 template <int Dim>
-void PathIntegral<Dim>::append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin,
-                                     double end, Found& found) const {
+void PathIntegral<Dim>::append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion,
+                                     double begin, double end, Found& found) const {
     const double length = end - begin;
     if (motion.gap(begin + 0.5 * length) >= 0.0) return;
     PathPiece<Dim> piece;
@@ -225,13 +232,16 @@ void PathIntegral<Dim>::append_piece(const PairList<Dim>& pairs, const ContactPa
         double curvature = 0.0;
         if constexpr (Dim == 3) {
             constexpr double second = 0.75;
-            const geometry::SharedArea<Dim> at_second = pairs.shared_area(pair, motion.shift(begin + second * length), options_.area);
+            const geometry::SharedArea<Dim> at_second =
+                pairs.shared_area(pair, motion.shift(begin + second * length), options_.area);
             const PlaneVector<Dim> change = (at_second.shift_derivative - at_first.shift_derivative) / (second - first);
-            piece.shift_derivative = {PlaneVector<Dim>(at_first.shift_derivative - first * change), change, PlaneVector<Dim>::Zero()};
+            piece.shift_derivative = {PlaneVector<Dim>(at_first.shift_derivative - first * change), change,
+                                      PlaneVector<Dim>::Zero()};
             curvature = change.dot(travel);
         }
         // A(t) = A_first + slope (t - first) + curvature (t - first)^2 / 2
-        piece.area = {at_first.area - slope * first + 0.5 * curvature * first * first, slope - curvature * first, 0.5 * curvature};
+        piece.area = {at_first.area - slope * first + 0.5 * curvature * first * first, slope - curvature * first,
+                      0.5 * curvature};
     }
     if (piece.area[0] == 0.0 && piece.area[1] == 0.0 && piece.area[2] == 0.0) return;
     found.pieces.push_back(piece);
@@ -255,7 +265,8 @@ void PathIntegral<Dim>::append_sampled_piece(const PairList<Dim>& pairs, const C
         touches = touches || (area[k] > 0.0 && depth[k] < 0.0);
     }
     if (!touches) return;
-    found.pieces.push_back({0.0, 1.0, interpolate(rule.size, rule.node, area, 0.0), interpolate(rule.size, rule.node, depth, 0.0),
+    found.pieces.push_back({0.0, 1.0, interpolate(rule.size, rule.node, area, 0.0),
+                            interpolate(rule.size, rule.node, depth, 0.0),
                             interpolate<PlaneVector<Dim>>(rule.size, rule.node, derivative, PlaneVector<Dim>::Zero())});
 }
 
@@ -291,7 +302,8 @@ void PathIntegral<Dim>::add_mean_corrections(const PairList<Dim>& pairs) {
                                     correction_measure(piece, piece.begin + (piece.end - piece.begin) * rule.node[k]);
     for (std::size_t f = 0; f < mean_correction_.size(); ++f)
         for (std::int32_t t = term_offsets_[f]; t < term_offsets_[f + 1]; ++t)
-            mean_correction_[f] += terms_[t].weight * mean_measure_[terms_[t].active] * pairs.pairs()[active_[terms_[t].active]].frame.normal();
+            mean_correction_[f] +=
+                terms_[t].weight * mean_measure_[terms_[t].active] * pairs.pairs()[active_[terms_[t].active]].frame.normal();
 }
 
 /// scratch.coupled: every active pair whose h enters beta of this pair through the face forces, and its factor
@@ -334,7 +346,8 @@ void PathIntegral<Dim>::collect_cuts(double begin, double end, Cuts cuts, Scratc
 
 /// Mean over the step of beta A and of beta (A n + g dA/ds), beta = theta_1 y_1.n/|f_1| - theta_2 y_2.n/|f_2|.
 template <int Dim>
-typename PathIntegral<Dim>::PairForce PathIntegral<Dim>::pair_force(const Step& step, std::int32_t active, Scratch& scratch) const {
+typename PathIntegral<Dim>::PairForce PathIntegral<Dim>::pair_force(const Step& step, std::int32_t active,
+                                                                    Scratch& scratch) const {
     const ContactPair<Dim>& pair = step.pairs.pairs()[active_[active]];
     const Vector<Dim>& n = pair.frame.normal();
     const auto free_beta = [&](std::span<const Vector<Dim>> force) {

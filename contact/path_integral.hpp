@@ -31,10 +31,10 @@ struct FacePath {
 /// A pair on the part of the step where it is active, with all that varies as polynomials of a local parameter in [0, 1].
 template <int Dim>
 struct PathPiece {
-    double begin;  ///< tau
-    double end;    ///< tau
-    std::array<double, 3> area;        ///< coefficients of A
-    std::array<double, 3> depth;       ///< coefficients of min(g, 0)
+    double begin;                                      ///< tau
+    double end;                                        ///< tau
+    std::array<double, 3> area;                        ///< coefficients of A
+    std::array<double, 3> depth;                       ///< coefficients of min(g, 0)
     std::array<PlaneVector<Dim>, 3> shift_derivative;  ///< coefficients of dA/ds
 };
 
@@ -120,8 +120,10 @@ private:
     void find_closing(const Step& step);
     void find_active(const Step& step);
     void append_pair(const PairList<Dim>& pairs, const Closing& closing, Found& found) const;
-    void append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin, double end, Found& found) const;
-    void append_sampled_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, Found& found) const;
+    void append_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion, double begin,
+                      double end, Found& found) const;
+    void append_sampled_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion,
+                              Found& found) const;
     void join_found();
     void link_faces(const Step& step);
     void add_mean_corrections(const PairList<Dim>& pairs);
@@ -131,17 +133,17 @@ private:
 
     ContactOptions options_;
     std::vector<Closing> closing_;
-    std::vector<Found> found_;                       // by run of closing pairs
+    std::vector<Found> found_;  // by run of closing pairs
     std::vector<std::int32_t> active_;
     std::vector<PathPiece<Dim>> pieces_;
-    std::vector<std::int32_t> piece_offsets_;        // (n_active + 1)
-    std::vector<double> cuts_;                       // events of each active pair inside the step, sorted
-    std::vector<std::int32_t> cut_offsets_;          // (n_active + 1)
-    std::vector<std::int32_t> term_offsets_;         // (n + 1)
+    std::vector<std::int32_t> piece_offsets_;  // (n_active + 1)
+    std::vector<double> cuts_;                 // events of each active pair inside the step, sorted
+    std::vector<std::int32_t> cut_offsets_;    // (n_active + 1)
+    std::vector<std::int32_t> term_offsets_;   // (n + 1)
     std::vector<Term> terms_;
-    std::vector<double> mean_measure_;               // mean of h, by active pair
-    std::vector<PairForce> pair_forces_;             // by active pair
-    std::vector<Scratch> scratch_;                   // by run of active pairs
+    std::vector<double> mean_measure_;    // mean of h, by active pair
+    std::vector<PairForce> pair_forces_;  // by active pair
+    std::vector<Scratch> scratch_;        // by run of active pairs
     std::vector<Vector<Dim>> mean_correction_;
     std::vector<Vector<Dim>> mean_force_;
     std::vector<double> mean_normal_force_;

@@ -35,41 +35,52 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     require_size(surface.stiffness.size(), n, "stiffness");
     require_size(surface.body.size(), n, "body");
     const auto refuse_offsets = [](const std::string& what) {
-        throw std::invalid_argument("contact surface: `face_offsets` " + what + "; it must rise from 0 to the size of `face_vertices`.");
+        throw std::invalid_argument("contact surface: `face_offsets` " + what +
+                                    "; it must rise from 0 to the size of `face_vertices`.");
     };
     if (surface.face_offsets.front() != 0) refuse_offsets("begins with " + std::to_string(surface.face_offsets.front()));
     for (std::size_t face = 0; face < n; ++face)
-        if (surface.face_offsets[face + 1] < surface.face_offsets[face]) refuse_offsets("falls after face " + std::to_string(face));
+        if (surface.face_offsets[face + 1] < surface.face_offsets[face])
+            refuse_offsets("falls after face " + std::to_string(face));
     if (static_cast<std::size_t>(surface.face_offsets.back()) != surface.face_vertices.size())
-        refuse_offsets("ends with " + std::to_string(surface.face_offsets.back()) + " for " + std::to_string(surface.face_vertices.size()) + " entries");
+        refuse_offsets("ends with " + std::to_string(surface.face_offsets.back()) + " for " +
+                       std::to_string(surface.face_vertices.size()) + " entries");
 }
 
 template <int Dim>
 void check_corners(const SurfaceView<Dim>& surface, std::int32_t face) {
     const auto corners = surface.vertices_of(face);
-    if (corners.size() < static_cast<std::size_t>(Dim) || corners.size() > static_cast<std::size_t>(geometry::max_polygon_vertices))
+    if (corners.size() < static_cast<std::size_t>(Dim) ||
+        corners.size() > static_cast<std::size_t>(geometry::max_polygon_vertices))
         refuse(face, "has " + std::to_string(corners.size()) + " corners; " + std::to_string(Dim) + " to " +
                          std::to_string(geometry::max_polygon_vertices) + " are allowed. Cut it into triangles.");
     for (const std::int32_t v : corners) {
         if (v < 0 || static_cast<std::size_t>(v) >= surface.vertices.size())
-            refuse(face, "names vertex " + std::to_string(v) + ", but there are " + std::to_string(surface.vertices.size()) + ". Correct `face_vertices`.");
+            refuse(face, "names vertex " + std::to_string(v) + ", but there are " + std::to_string(surface.vertices.size()) +
+                             ". Correct `face_vertices`.");
         if (!surface.vertices[v].allFinite())
-            refuse(face, "has a corner (vertex " + std::to_string(v) + ") that is not finite. Correct it, or leave the face out.");
+            refuse(face,
+                   "has a corner (vertex " + std::to_string(v) + ") that is not finite. Correct it, or leave the face out.");
     }
 }
 
 template <int Dim>
 void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
     const double area = surface.area[face];
-    if (!(area > 0.0) || !std::isfinite(area)) refuse(face, "has the area " + number(area) + "; it must be finite and > 0. Leave it out.");
-    if (!surface.centroid[face].allFinite()) refuse(face, "has a centroid that is not finite. Correct it, or leave the face out.");
+    if (!(area > 0.0) || !std::isfinite(area))
+        refuse(face, "has the area " + number(area) + "; it must be finite and > 0. Leave it out.");
+    if (!surface.centroid[face].allFinite())
+        refuse(face, "has a centroid that is not finite. Correct it, or leave the face out.");
     const double length = surface.normal[face].norm();
     if (!(std::abs(length - 1.0) < tolerance))
         refuse(face, "has a normal of length " + number(length) + "; it must be 1 within 1e-10. Normalise it.");
     if (!(surface.stiffness[face] > 0.0))
-        refuse(face, "has the stiffness " + number(surface.stiffness[face]) + " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
+        refuse(face, "has the stiffness " + number(surface.stiffness[face]) +
+                         " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
     if (!(surface.depth[face] >= 0.0) || (surface.depth[face] == 0.0 && !surface.is_rigid(face)))
-        refuse(face, "has the depth " + number(surface.depth[face]) + " m; it must be > 0 (>= 0 if rigid). Give the distance from the centroid of its cell to its plane.");
+        refuse(face,
+               "has the depth " + number(surface.depth[face]) +
+                   " m; it must be > 0 (>= 0 if rigid). Give the distance from the centroid of its cell to its plane.");
 }
 
 template <int Dim>
@@ -85,7 +96,8 @@ void check_measures(const SurfaceView<Dim>& surface, std::int32_t face) {
     const auto corners = corners_of(surface, face);
     const double area = geometry::face_measure<Dim>(corners);
     if (!(std::abs(surface.area[face] - area) <= tolerance * area))
-        refuse(face, "has the area " + number(surface.area[face]) + ", its corners give " + number(area) + ". Compute it from the corners.");
+        refuse(face, "has the area " + number(surface.area[face]) + ", its corners give " + number(area) +
+                         ". Compute it from the corners.");
     const double off = (surface.centroid[face] - geometry::face_centroid<Dim>(corners)).norm();
     const double size = Dim == 2 ? area : std::sqrt(area);
     if (!(off <= tolerance * std::max(size, surface.centroid[face].norm())))
@@ -93,7 +105,8 @@ void check_measures(const SurfaceView<Dim>& surface, std::int32_t face) {
     const double cosine = surface.normal[face].dot(geometry::face_normal<Dim>(corners));
     if (!((Dim == 2 ? std::abs(cosine) : cosine) > 1.0 - tolerance))
         refuse(face, "has a normal whose cosine to that of its corners is " + number(cosine) +
-                         "; it must be 1: corners run counter-clockwise seen from outside. Turn them round, or compute the normal from them.");
+                         "; it must be 1: corners run counter-clockwise seen from outside. Turn them round, or compute the "
+                         "normal from them.");
 }
 
 void check_shape(const SurfaceView<3>& surface, std::int32_t face) {
@@ -101,7 +114,8 @@ void check_shape(const SurfaceView<3>& surface, std::int32_t face) {
     const double size = std::sqrt(surface.area[face]);
     const double deviation = geometry::planarity_deviation<3>(corners);
     if (deviation > tolerance * size)
-        refuse(face, "is not flat: a corner lies " + number(deviation / size) + " face sizes off its plane, 1e-10 is allowed. Cut it into triangles.");
+        refuse(face, "is not flat: a corner lies " + number(deviation / size) +
+                         " face sizes off its plane, 1e-10 is allowed. Cut it into triangles.");
     if (!geometry::is_convex<3>(corners, tolerance * size)) refuse(face, "is not convex. Cut it into triangles.");
 }
 
@@ -120,7 +134,8 @@ SurfaceView<Dim> Surface<Dim>::view() const {
 }
 
 template <int Dim>
-void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness, std::int32_t face_body) {
+void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness,
+                          std::int32_t face_body) {
     for (const Vector<Dim>& corner : corners) {
         face_vertices.push_back(static_cast<std::int32_t>(vertices.size()));
         vertices.push_back(corner);

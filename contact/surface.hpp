@@ -11,15 +11,17 @@ namespace abut::contact {
 /// Faces are flat and convex; each translates with its displacement. n is the number of faces.
 template <int Dim>
 struct SurfaceView {
-    std::span<const Vector<Dim>> vertices;         ///< [m]
-    std::span<const std::int32_t> face_offsets;    ///< (n + 1), into face_vertices
-    std::span<const std::int32_t> face_vertices;   ///< counter-clockwise seen from outside (3D); any order (2D)
-    std::span<const Vector<Dim>> centroid;         ///< x_f (n) [m]
-    std::span<const Vector<Dim>> normal;           ///< n_f (n), unit, out of the body
-    std::span<const double> area;                  ///< |f| (n) [m^(Dim-1)]
-    std::span<const double> depth;                 ///< d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
-    std::span<const double> stiffness;             ///< k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
-    std::span<const std::int32_t> body;            ///< (n) faces of one body do not touch each other unless self-contact is asked for
+    std::span<const Vector<Dim>> vertices;        ///< [m]
+    std::span<const std::int32_t> face_offsets;   ///< (n + 1), into face_vertices
+    std::span<const std::int32_t> face_vertices;  ///< counter-clockwise seen from outside (3D); any order (2D)
+    std::span<const Vector<Dim>> centroid;        ///< x_f (n) [m]
+    std::span<const Vector<Dim>> normal;          ///< n_f (n), unit, out of the body
+    std::span<const double> area;                 ///< |f| (n) [m^(Dim-1)]
+    std::span<const double>
+        depth;  ///< d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
+    std::span<const double>
+        stiffness;  ///< k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
+    std::span<const std::int32_t> body;  ///< (n) faces of one body do not touch each other unless self-contact is asked for
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
     [[nodiscard]] std::span<const std::int32_t> vertices_of(std::int32_t face) const {

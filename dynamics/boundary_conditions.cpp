@@ -40,9 +40,9 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
         for (const std::int32_t b : boundary_places(mesh, condition.group)) {
             const Matrix<Dim> added = projector(condition, mesh.face_normal[mesh.boundary_faces[b]]);
             if (!(added * sorted.prescribed[b]).isZero(1e-12))
-                throw std::invalid_argument("boundary condition on '" + condition.group + "': face " +
-                                            std::to_string(mesh.boundary_faces[b]) +
-                                            " already has a prescribed displacement in that direction. Prescribe each direction once.");
+                throw std::invalid_argument(
+                    "boundary condition on '" + condition.group + "': face " + std::to_string(mesh.boundary_faces[b]) +
+                    " already has a prescribed displacement in that direction. Prescribe each direction once.");
             sorted.prescribed[b] += added;
             faces.push_back({b, added});
         }
@@ -52,7 +52,8 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
         for (const std::int32_t b : sorted.traction.back())
             if (sorted.prescribed[b].isIdentity(1e-12))
                 throw std::invalid_argument("traction on '" + condition.group + "': the displacement of face " +
-                                            std::to_string(mesh.boundary_faces[b]) + " is fully prescribed. Give one or the other.");
+                                            std::to_string(mesh.boundary_faces[b]) +
+                                            " is fully prescribed. Give one or the other.");
     }
     return sorted;
 }

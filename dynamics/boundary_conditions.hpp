@@ -30,18 +30,18 @@ enum class Constraint {
 
 template <int Dim>
 struct DirichletCondition {
-    std::string group;                            ///< name of a boundary group of the mesh
+    std::string group;  ///< name of a boundary group of the mesh
     Constraint constraint = Constraint::full;
-    std::array<bool, Dim> components{};           ///< for Constraint::components
-    Vector<Dim> value = Vector<Dim>::Zero();      ///< u_D [m]
-    Field<Dim> history;                           ///< u_D(t, x) [m] if it varies; then `value` is not used
+    std::array<bool, Dim> components{};       ///< for Constraint::components
+    Vector<Dim> value = Vector<Dim>::Zero();  ///< u_D [m]
+    Field<Dim> history;                       ///< u_D(t, x) [m] if it varies; then `value` is not used
 };
 
 template <int Dim>
 struct TractionCondition {
     std::string group;
-    Vector<Dim> value = Vector<Dim>::Zero();      ///< t [Pa]
-    Field<Dim> history;                           ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
+    Vector<Dim> value = Vector<Dim>::Zero();  ///< t [Pa]
+    Field<Dim> history;                       ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
 };
 
 template <int Dim>
@@ -54,14 +54,14 @@ struct BoundaryConditions {
 /// The conditions sorted to the boundary faces of a mesh, in the order of `Mesh::boundary_faces`.
 template <int Dim>
 struct FaceConditions {
-    std::vector<Matrix<Dim>> prescribed;          ///< P_f, projector onto all prescribed directions (n_boundary)
+    std::vector<Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
     /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
     struct Prescribed {
         std::int32_t face;
         Matrix<Dim> projector;
     };
-    std::vector<std::vector<Prescribed>> dirichlet;         ///< by condition
-    std::vector<std::vector<std::int32_t>> traction;        ///< boundary faces by condition
+    std::vector<std::vector<Prescribed>> dirichlet;   ///< by condition
+    std::vector<std::vector<std::int32_t>> traction;  ///< boundary faces by condition
 };
 
 /// Throws std::invalid_argument for an unknown group, two conditions that prescribe the same direction of a face, a

@@ -20,7 +20,8 @@ struct Row {
     std::vector<Term> traction;
 
     static void add(std::vector<Term>& terms, std::int32_t index, const Matrix<Dim>& weight) {
-        const auto place = std::lower_bound(terms.begin(), terms.end(), index, [](const Term& t, std::int32_t i) { return t.index < i; });
+        const auto place =
+            std::lower_bound(terms.begin(), terms.end(), index, [](const Term& t, std::int32_t i) { return t.index < i; });
         if (place != terms.end() && place->index == index)
             place->weight += weight;
         else
@@ -36,9 +37,16 @@ class Builder {
 public:
     Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
             const FaceConditions<Dim>& conditions, Neumann neumann)
-        : mesh_(mesh), interior_(interior), materials_(materials), conditions_(conditions), neumann_(neumann),
-          place_(static_cast<std::size_t>(mesh.n_faces()), -1), affine_(mesh.boundary_faces.size()), rows_(mesh.boundary_faces.size()) {
-        for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) place_[mesh.boundary_faces[b]] = static_cast<std::int32_t>(b);
+        : mesh_(mesh),
+          interior_(interior),
+          materials_(materials),
+          conditions_(conditions),
+          neumann_(neumann),
+          place_(static_cast<std::size_t>(mesh.n_faces()), -1),
+          affine_(mesh.boundary_faces.size()),
+          rows_(mesh.boundary_faces.size()) {
+        for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b)
+            place_[mesh.boundary_faces[b]] = static_cast<std::int32_t>(b);
     }
 
     BoundaryReconstruction<Dim> build() {
@@ -66,8 +74,10 @@ private:
             if (!is_free(b)) continue;
             const std::int32_t cell = mesh_.face_cells[mesh_.boundary_faces[b]][0];
             const auto others = boundary_of(cell);
-            const auto n_free = std::count_if(others.begin(), others.end(), [&](std::int32_t other) { return is_free(other); });
-            if (neumann_ == Neumann::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0)) wanted.push_back(b);
+            const auto n_free =
+                std::count_if(others.begin(), others.end(), [&](std::int32_t other) { return is_free(other); });
+            if (neumann_ == Neumann::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
+                wanted.push_back(b);
         }
         std::vector<std::int32_t> faces;
         for (const std::int32_t b : wanted) faces.push_back(mesh_.boundary_faces[b]);
@@ -149,12 +159,14 @@ private:
             packed.offsets.push_back(static_cast<std::int32_t>(packed.cells.size()));
             const bool prescribed = std::any_of(row.displacement.begin(), row.displacement.end(),
                                                 [](const auto& term) { return !term.weight.isZero(0.0); });
-            packed.deficit.push_back(prescribed ? Matrix<Dim>(Matrix<Dim>::Identity() - sum) : Matrix<Dim>(Matrix<Dim>::Zero()));
+            packed.deficit.push_back(prescribed ? Matrix<Dim>(Matrix<Dim>::Identity() - sum)
+                                                : Matrix<Dim>(Matrix<Dim>::Zero()));
             for (std::size_t i = 0; i < row.displacement.size(); ++i) {
                 const auto& [face, weight] = row.displacement[i];
                 packed.load_faces.push_back(face);
                 packed.from_displacement.push_back(weight);
-                packed.from_traction.push_back(row.traction.empty() ? Matrix<Dim>(Matrix<Dim>::Zero()) : row.traction[i].weight);
+                packed.from_traction.push_back(row.traction.empty() ? Matrix<Dim>(Matrix<Dim>::Zero())
+                                                                    : row.traction[i].weight);
             }
             packed.load_offsets.push_back(static_cast<std::int32_t>(packed.load_faces.size()));
         }
@@ -166,8 +178,8 @@ private:
     std::span<const Material> materials_;
     const FaceConditions<Dim>& conditions_;
     Neumann neumann_;
-    std::vector<std::int32_t> place_;           // of a face among the boundary faces, -1 inside
-    std::vector<FaceStencil<Dim>> affine_;      // by boundary face, where wanted
+    std::vector<std::int32_t> place_;       // of a face among the boundary faces, -1 inside
+    std::vector<FaceStencil<Dim>> affine_;  // by boundary face, where wanted
     std::vector<Row<Dim>> rows_;
     StencilReport report_;
 };
@@ -175,8 +187,10 @@ private:
 }  // namespace
 
 template <int Dim>
-Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f, const Vector<Dim>& area_g) {
-    return (lambda * area_f * area_g.transpose() + mu * (area_f.dot(area_g) * Matrix<Dim>::Identity() + area_g * area_f.transpose())) /
+Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f,
+                           const Vector<Dim>& area_g) {
+    return (lambda * area_f * area_g.transpose() +
+            mu * (area_f.dot(area_g) * Matrix<Dim>::Identity() + area_g * area_f.transpose())) /
            cell_measure;
 }
 
@@ -187,10 +201,11 @@ BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, st
     return Builder<Dim>(mesh, interior, materials, conditions, neumann).build();
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                                    \
-    template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);                    \
-    template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>,    \
-                                                                   std::span<const Material>, const FaceConditions<Dim>&, Neumann);
+#define ABUT_INSTANTIATE(Dim)                                                                                             \
+    template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
+    template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
+        const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
+        Neumann);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

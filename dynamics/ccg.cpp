@@ -45,20 +45,25 @@ struct Ccg<Dim>::Impl {
     std::vector<std::array<std::int32_t, 2>> body_boundary_cells;  // ranges of arrays.boundary_cells, one a body
     std::vector<double> body_amplification;                        // largest sum of the norms of a boundary face's weights
 
-    Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& boundary_conditions);
+    Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+         const BoundaryConditions<Dim>& boundary_conditions);
     void set_motion_bound(const mesh::Mesh<Dim>& mesh);
     [[nodiscard]] double free_motion_bound(std::span<const Vector<Dim>> from, std::span<const Vector<Dim>> to) const;
 };
 
 template <int Dim>
-Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& boundary_conditions)
-    : conditions(boundary_conditions), face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann), sweeps(arrays) {
+Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                     const BoundaryConditions<Dim>& boundary_conditions)
+    : conditions(boundary_conditions),
+      face_conditions(sort_to_faces(mesh, boundary_conditions)),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann),
+      sweeps(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
         const std::int32_t c = mesh.face_cells[f][0];
         boundary_centroid.push_back(mesh.face_centroid[f]);
         boundary_measure.push_back(mesh.face_measure[f]);
-        boundary_stiffness.push_back(materials[mesh.cell_body[c]].wave_modulus() * mesh.face_measure[f] / mesh.cell_measure[c]);
+        boundary_stiffness.push_back(materials[mesh.cell_body[c]].wave_modulus() * mesh.face_measure[f] /
+                                     mesh.cell_measure[c]);
     }
     for (const auto& condition : conditions.dirichlet) varies = varies || condition.history;
     for (const auto& condition : conditions.traction) varies = varies || condition.history;
@@ -71,7 +76,8 @@ void Ccg<Dim>::Impl::set_motion_bound(const mesh::Mesh<Dim>& mesh) {
     const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
     for (std::int32_t b = 0; b < boundary.size(); ++b) {
         double sum = 0.0;
-        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) sum += spectral_norm<Dim>(boundary.weights[i]);
+        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
+            sum += spectral_norm<Dim>(boundary.weights[i]);
         double& largest = body_amplification[mesh.cell_body[arrays.cell_of(b)]];
         largest = std::max(largest, sum);
     }
@@ -146,9 +152,11 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
         return condition.history ? condition.history(time, m.boundary_centroid[b]) : condition.value;
     };
     for (std::size_t i = 0; i < m.conditions.dirichlet.size(); ++i)
-        for (const auto& [b, projector] : m.face_conditions.dirichlet[i]) prescribed[b] += projector * value_at(m.conditions.dirichlet[i], displacement_time, b);
+        for (const auto& [b, projector] : m.face_conditions.dirichlet[i])
+            prescribed[b] += projector * value_at(m.conditions.dirichlet[i], displacement_time, b);
     for (std::size_t i = 0; i < m.conditions.traction.size(); ++i)
-        for (const std::int32_t b : m.face_conditions.traction[i]) traction[b] += value_at(m.conditions.traction[i], traction_time, b);
+        for (const std::int32_t b : m.face_conditions.traction[i])
+            traction[b] += value_at(m.conditions.traction[i], traction_time, b);
 
     load.displacement.assign(n, Vector<Dim>::Zero());
     load.traction.assign(n, Vector<Dim>::Zero());
@@ -182,13 +190,14 @@ bool Ccg<Dim>::has_prescribed_face(std::int32_t cell) const {
 }
 
 template <int Dim>
-void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement) {
+void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                     std::span<Vector<Dim>> displacement) {
     impl_->sweeps.boundary_displacement(u, load, displacement);
 }
 
 template <int Dim>
-void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                        std::span<Vector<Dim>> result) {
+void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     impl_->sweeps.gradient(u, load, corrections, result);
 }
 
@@ -198,7 +207,8 @@ Vector<Dim> Ccg<Dim>::boundary_force(std::int32_t boundary_face) const {
 }
 
 template <int Dim>
-double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections) {
+double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                           const FaceCorrections<Dim>& corrections) {
     const double stored = impl_->sweeps.stored_energy(u, load, corrections);
     double work = 0.0;
     for (std::size_t b = 0; b < load.traction.size(); ++b)
@@ -234,14 +244,15 @@ contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const std::int32_t> face
 }
 
 template <int Dim>
-double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from, std::span<const Vector<Dim>> u_to,
-                              const BoundaryLoad<Dim>& load_to) const {
-    return load_to.displacement.empty() ? impl_->free_motion_bound(u_from, u_to) : largest_motion(u_from, load_from, u_to, load_to);
+double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                              std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const {
+    return load_to.displacement.empty() ? impl_->free_motion_bound(u_from, u_to)
+                                        : largest_motion(u_from, load_from, u_to, load_to);
 }
 
 template <int Dim>
-double Ccg<Dim>::largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from, std::span<const Vector<Dim>> u_to,
-                                const BoundaryLoad<Dim>& load_to) const {
+double Ccg<Dim>::largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                                std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const {
     const auto squared_motion = [&](std::ptrdiff_t i) {
         const auto b = static_cast<std::int32_t>(i);
         Vector<Dim> motion = impl_->sweeps.boundary_motion(b, u_from, u_to);

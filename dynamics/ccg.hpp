@@ -12,24 +12,25 @@ namespace abut::dynamics {
 /// What boundary conditions give at a time.
 template <int Dim>
 struct BoundaryLoad {
-    std::vector<Vector<Dim>> displacement;  ///< B u_D + L t, the part of û that does not come from the cells (n_boundary) [m]
-    std::vector<Vector<Dim>> traction;      ///< |f| t_f (n_boundary) [N]
+    std::vector<Vector<Dim>>
+        displacement;                   ///< B u_D + L t, the part of û that does not come from the cells (n_boundary) [m]
+    std::vector<Vector<Dim>> traction;  ///< |f| t_f (n_boundary) [N]
 };
 
 /// Changes of some boundary faces: what contact adds. Empty where there is no contact.
 template <int Dim>
 struct FaceCorrections {
-    std::span<const std::int32_t> faces;          ///< places in Mesh::boundary_faces, increasing (n)
-    std::span<const Vector<Dim>> displacement;    ///< delta_f = ũ_f - û_f (n) [m]
-    std::span<const Vector<Dim>> force;           ///< dV/dû_f of the pairs (n) [N]; may be empty
+    std::span<const std::int32_t> faces;        ///< places in Mesh::boundary_faces, increasing (n)
+    std::span<const Vector<Dim>> displacement;  ///< delta_f = ũ_f - û_f (n) [m]
+    std::span<const Vector<Dim>> force;         ///< dV/dû_f of the pairs (n) [N]; may be empty
 };
 
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
 template <int Dim>
 struct Region {
-    std::vector<std::int32_t> faces;            ///< boundary faces whose û and y are wanted, as places in Mesh::boundary_faces
-    std::vector<std::int32_t> cells;            ///< cells whose force is wanted
-    std::vector<std::int32_t> loaded_cells;     ///< all below: what is evaluated on the way, increasing
+    std::vector<std::int32_t> faces;         ///< boundary faces whose û and y are wanted, as places in Mesh::boundary_faces
+    std::vector<std::int32_t> cells;         ///< cells whose force is wanted
+    std::vector<std::int32_t> loaded_cells;  ///< all below: what is evaluated on the way, increasing
     std::vector<std::int32_t> reconstructed;
     std::vector<std::int32_t> reconstructed_boundary;
     std::vector<std::int32_t> gradient_cells;
@@ -67,7 +68,8 @@ public:
     [[nodiscard]] bool has_prescribed_face(std::int32_t cell) const;
 
     /// û on all boundary faces for the cell displacements u (n_cells) [m].
-    void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement);
+    void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                               std::span<Vector<Dim>> displacement);
 
     /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the forces of `corrections` are taken along.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
@@ -76,7 +78,8 @@ public:
     [[nodiscard]] Vector<Dim> boundary_force(std::int32_t boundary_face) const;
 
     /// V(u, û + delta) less the work of tractions [J].
-    [[nodiscard]] double potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections);
+    [[nodiscard]] double potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                   const FaceCorrections<Dim>& corrections);
 
     /// What `evaluate_faces` needs for these boundary faces (places in Mesh::boundary_faces).
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const std::int32_t> faces) const;

@@ -34,7 +34,8 @@ std::array<double, Dim> to_array(const Vector<Dim>& v) {
 }  // namespace
 
 template <int Dim>
-CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions, Neumann neumann) {
+CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                          const FaceConditions<Dim>& conditions, Neumann neumann) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
     set_boundary(mesh, materials, conditions, neumann);
@@ -96,14 +97,15 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
 }
 
 template <int Dim>
-void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-                                  Neumann neumann) {
+void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                                  const FaceConditions<Dim>& conditions, Neumann neumann) {
     boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, neumann);
     for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load<Dim>(weight));
     boundary_cells = boundary.cells;
     sort_unique(boundary_cells);
     boundary_cell_place.assign(cells.size(), -1);
-    for (std::size_t i = 0; i < boundary_cells.size(); ++i) boundary_cell_place[boundary_cells[i]] = static_cast<std::int32_t>(i);
+    for (std::size_t i = 0; i < boundary_cells.size(); ++i)
+        boundary_cell_place[boundary_cells[i]] = static_cast<std::int32_t>(i);
     of_boundary_cell = occurrences<LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
         for (std::int32_t b = 0; b < boundary.size(); ++b)
             for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)

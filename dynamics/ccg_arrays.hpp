@@ -43,7 +43,8 @@ struct Occurrences {
 /// What the operators of a mesh are made of, in the order in which they run over it.
 template <int Dim>
 struct CcgArrays {
-    CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions, Neumann neumann);
+    CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
+              Neumann neumann);
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(sides.size()); }
@@ -61,23 +62,24 @@ struct CcgArrays {
     StencilReport report;
     // Cells and their slots, cell by cell.
     std::vector<CellGeometry<Dim>> cells;
-    std::vector<std::int32_t> slot_offsets;            // (n_cells + 1)
+    std::vector<std::int32_t> slot_offsets;  // (n_cells + 1)
     std::vector<Slot> slots;
-    std::vector<std::array<double, Dim>> arms;         // x_f - x_c, by slot
-    Occurrences<double> of_cell;                       // interior stencils that use a cell
+    std::vector<std::array<double, Dim>> arms;  // x_f - x_c, by slot
+    Occurrences<double> of_cell;                // interior stencils that use a cell
     // Boundary faces.
     std::vector<std::int32_t> boundary_faces;
-    std::vector<std::int32_t> boundary_place;          // of a face, -1 inside
+    std::vector<std::int32_t> boundary_place;  // of a face, -1 inside
     BoundaryReconstruction<Dim> boundary;
-    std::vector<LaneTensor<Dim>> boundary_weights;     // as boundary.weights
-    std::vector<std::int32_t> boundary_cells;          // cells that some boundary face depends on
-    std::vector<std::int32_t> boundary_cell_place;     // of a cell, -1 elsewhere
-    Occurrences<LaneTensor<Dim>> of_boundary_cell;     // rows of `boundary` by place in boundary_cells, transposed
+    std::vector<LaneTensor<Dim>> boundary_weights;  // as boundary.weights
+    std::vector<std::int32_t> boundary_cells;       // cells that some boundary face depends on
+    std::vector<std::int32_t> boundary_cell_place;  // of a cell, -1 elsewhere
+    Occurrences<LaneTensor<Dim>> of_boundary_cell;  // rows of `boundary` by place in boundary_cells, transposed
 
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
-    void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions, Neumann neumann);
+    void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                      const FaceConditions<Dim>& conditions, Neumann neumann);
 };
 
 }  // namespace abut::dynamics

@@ -37,7 +37,8 @@ void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
                                        boundary.cells.begin() + boundary.offsets[b + 1]);
         } else {
             region.reconstructed.push_back(f);
-            region.loaded_cells.insert(region.loaded_cells.end(), arrays.stencils[f].cells.begin(), arrays.stencils[f].cells.end());
+            region.loaded_cells.insert(region.loaded_cells.end(), arrays.stencils[f].cells.begin(),
+                                       arrays.stencils[f].cells.end());
         }
     }
     sort_unique(region.loaded_cells);
@@ -63,7 +64,8 @@ Vector<Dim> boundary_area_vector(const CcgArrays<Dim>& arrays, std::int32_t b) {
 /// dI_c(x_f)/dw_b for boundary face b of cell c: this number times the identity; f is the face of the cell's slot i.
 template <int Dim>
 double trace_answer(const CcgArrays<Dim>& arrays, std::int32_t slot, std::int32_t b) {
-    return arrays.cells[arrays.cell_of(b)].inverse_measure * boundary_area_vector(arrays, b).dot(vector<Dim>(arrays.arms[slot]));
+    return arrays.cells[arrays.cell_of(b)].inverse_measure *
+           boundary_area_vector(arrays, b).dot(vector<Dim>(arrays.arms[slot]));
 }
 
 /// The elastic energy couples faces of one cell; the jump over an interior face those of its two cells.
@@ -74,7 +76,8 @@ Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, std::int32_t b, std::in
     Matrix<Dim> block = Matrix<Dim>::Zero();
     if (same_cell) {
         const auto& [inverse_measure, lambda, mu] = arrays.cells[cell];
-        block = face_stiffness<Dim>(lambda, mu, 1.0 / inverse_measure, boundary_area_vector(arrays, b), boundary_area_vector(arrays, other));
+        block = face_stiffness<Dim>(lambda, mu, 1.0 / inverse_measure, boundary_area_vector(arrays, b),
+                                    boundary_area_vector(arrays, other));
     }
     for (std::int32_t i = arrays.slot_offsets[cell]; i < arrays.slot_offsets[cell + 1]; ++i) {
         const Slot& slot = arrays.slots[i];
@@ -102,14 +105,16 @@ Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const std::i
 template <int Dim>
 Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> cells) {
     const auto append_rows = [](std::vector<std::int32_t>& rows, const auto& occurrences, std::int32_t i) {
-        rows.insert(rows.end(), occurrences.rows.begin() + occurrences.offsets[i], occurrences.rows.begin() + occurrences.offsets[i + 1]);
+        rows.insert(rows.end(), occurrences.rows.begin() + occurrences.offsets[i],
+                    occurrences.rows.begin() + occurrences.offsets[i + 1]);
     };
     Region<Dim> region;
     region.cells.assign(cells.begin(), cells.end());
     for (const std::int32_t c : cells) {
         region.stress_cells.push_back(c);
         append_rows(region.force_faces, arrays.of_cell, c);
-        if (const std::int32_t place = arrays.boundary_cell_place[c]; place >= 0) append_rows(region.faces, arrays.of_boundary_cell, place);
+        if (const std::int32_t place = arrays.boundary_cell_place[c]; place >= 0)
+            append_rows(region.faces, arrays.of_boundary_cell, place);
     }
     sort_unique(region.force_faces);
     sort_unique(region.faces);

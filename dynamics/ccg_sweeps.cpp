@@ -62,7 +62,8 @@ inline void CcgSweeps<Dim>::set_gradient(std::ptrdiff_t c) {
     for (std::int32_t i = begin; i < end; ++i) {
         const Slot& slot = arrays_.slots[i];
         const double sign = slot.first == c ? 1.0 : -1.0;
-        gradient.add_outer(sign * (load<Dim>(relative_, slot.face) + (displacement(slot.first) - u_c)), arrays_.faces[slot.face].area_vector);
+        gradient.add_outer(sign * (load<Dim>(relative_, slot.face) + (displacement(slot.first) - u_c)),
+                           arrays_.faces[slot.face].area_vector);
     }
     for (Lanes<Dim>& column : gradient.col) column = arrays_.cells[c].inverse_measure * column;
     store_tensor(gradient, g_, c);
@@ -76,7 +77,8 @@ inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
     Lanes<Dim> direct;
     for (std::int32_t i = arrays_.slot_offsets[c]; i < arrays_.slot_offsets[c + 1]; ++i) {
         const Slot& slot = arrays_.slots[i];
-        const Lanes<Dim> force = arrays_.faces[slot.face].jump_stiffness * (load<Dim>(trace_, i) - load<Dim>(trace_, slot.opposite));
+        const Lanes<Dim> force =
+            arrays_.faces[slot.face].jump_stiffness * (load<Dim>(trace_, i) - load<Dim>(trace_, slot.opposite));
         sum.add_outer(force, arrays_.arms[i]);
         direct += force;
     }
@@ -99,7 +101,8 @@ inline Lanes<Dim> CcgSweeps<Dim>::interior_force(std::ptrdiff_t f) const {
 template <int Dim>
 Lanes<Dim> CcgSweeps<Dim>::boundary_force(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
     const std::int32_t f = arrays_.boundary_faces[b];
-    const Lanes<Dim> force = load_tensor<Dim>(s_, arrays_.sides[f][0]).times(arrays_.faces[f].area_vector) + load<Dim>(pair_force_, b);
+    const Lanes<Dim> force =
+        load_tensor<Dim>(s_, arrays_.sides[f][0]).times(arrays_.faces[f].area_vector) + load<Dim>(pair_force_, b);
     return boundary_load.traction.empty() ? force : force - load<Dim>(boundary_load.traction[b]);
 }
 
@@ -115,7 +118,8 @@ template <int Dim>
 Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t place) const {
     const auto& [offsets, rows, weights] = arrays_.of_boundary_cell;
     Lanes<Dim> sum;
-    for (std::int32_t i = offsets[place]; i < offsets[place + 1]; ++i) sum += weights[i] * load<Dim>(y_, arrays_.boundary_faces[rows[i]]);
+    for (std::int32_t i = offsets[place]; i < offsets[place + 1]; ++i)
+        sum += weights[i] * load<Dim>(y_, arrays_.boundary_faces[rows[i]]);
     return sum;
 }
 
@@ -143,7 +147,8 @@ Matrix<Dim> CcgSweeps<Dim>::stress(std::int32_t c) const {
 }
 
 template <int Dim>
-Vector<Dim> CcgSweeps<Dim>::boundary_motion(std::int32_t b, std::span<const Vector<Dim>> u_from, std::span<const Vector<Dim>> u_to) const {
+Vector<Dim> CcgSweeps<Dim>::boundary_motion(std::int32_t b, std::span<const Vector<Dim>> u_from,
+                                            std::span<const Vector<Dim>> u_to) const {
     const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
     Lanes<Dim> motion;
     for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
@@ -200,7 +205,8 @@ void CcgSweeps<Dim>::set_chunks() {
     for (std::int32_t k = 0; k <= n_chunks; ++k) {
         const std::int32_t cell = std::min(k * chunk_size, a.n_cells());
         const auto face = static_cast<std::int32_t>(
-            std::partition_point(a.sides.begin(), a.sides.end(), [&](const auto& side) { return side[0] < cell; }) - a.sides.begin());
+            std::partition_point(a.sides.begin(), a.sides.end(), [&](const auto& side) { return side[0] < cell; }) -
+            a.sides.begin());
         chunks_.push_back({cell, face, place(a.boundary_faces, face), place(a.boundary_cells, cell)});
     }
 
@@ -218,7 +224,8 @@ void CcgSweeps<Dim>::set_chunks() {
     }
     for (std::int32_t c = 0; c < a.n_cells(); ++c) {
         for (const Stage stage : {gradients, stresses, face_forces, cell_gradients}) need(stage, c, c);
-        for (std::int32_t i = a.of_cell.offsets[c]; i < a.of_cell.offsets[c + 1]; ++i) need(cell_gradients, c, a.sides[a.of_cell.rows[i]][0]);
+        for (std::int32_t i = a.of_cell.offsets[c]; i < a.of_cell.offsets[c + 1]; ++i)
+            need(cell_gradients, c, a.sides[a.of_cell.rows[i]][0]);
         if (const std::int32_t p = a.boundary_cell_place[c]; p >= 0)
             for (std::int32_t i = a.of_boundary_cell.offsets[p]; i < a.of_boundary_cell.offsets[p + 1]; ++i)
                 need(cell_gradients, c, a.cell_of(a.of_boundary_cell.rows[i]));
@@ -234,7 +241,8 @@ void CcgSweeps<Dim>::set_chunks() {
 template <int Dim>
 class CcgSweeps<Dim>::PlacedCorrections {
 public:
-    PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections) : sweeps_(sweeps), corrections_(corrections) {
+    PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
+        : sweeps_(sweeps), corrections_(corrections) {
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
             store(load<Dim>(corrections.displacement[i]), sweeps.correction_, corrections.faces[i]);
             if (!corrections.force.empty()) store(load<Dim>(corrections.force[i]), sweeps.pair_force_, corrections.faces[i]);
@@ -270,23 +278,29 @@ CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays) : arrays_(arrays) {
 }
 
 template <int Dim>
-void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                              std::span<Vector<Dim>> result) {
+void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     load_displacement(u);
     schedule_.run([&](int stage, std::int32_t chunk) {
         switch (stage) {
-            case reconstruction: return reconstruct_chunk(chunk, load);
-            case gradients: return gradients_of_chunk(chunk);
-            case stresses: return stresses_of_chunk(chunk);
-            case face_forces: return face_forces_of_chunk(chunk, load);
-            default: return cell_gradients_of_chunk(chunk, result);
+            case reconstruction:
+                return reconstruct_chunk(chunk, load);
+            case gradients:
+                return gradients_of_chunk(chunk);
+            case stresses:
+                return stresses_of_chunk(chunk);
+            case face_forces:
+                return face_forces_of_chunk(chunk, load);
+            default:
+                return cell_gradients_of_chunk(chunk, result);
         }
     });
 }
 
 template <int Dim>
-double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections) {
+double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                     const FaceCorrections<Dim>& corrections) {
     const PlacedCorrections placed(*this, corrections);
     load_displacement(u);
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
@@ -296,7 +310,8 @@ double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const Bound
 }
 
 template <int Dim>
-void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement) {
+void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                           std::span<Vector<Dim>> displacement) {
     load_displacement(u);
     parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
         displacement[b] = u[arrays_.cell_of(static_cast<std::int32_t>(b))] + unload<Dim>(reconstructed_boundary(b, load));
@@ -306,9 +321,11 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
 // A part of the mesh -------------------------------------------------------------------------------------------------
 
 template <int Dim>
-void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load) {
+void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                        const BoundaryLoad<Dim>& boundary_load) {
     const auto for_all = [](const std::vector<std::int32_t>& list, const auto& body) {
-        parallel_each(static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
+        parallel_each(
+            static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
     };
     for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
     for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
@@ -319,8 +336,9 @@ void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<con
 }
 
 template <int Dim>
-void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load,
-                                    std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force) {
+void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                    const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
+                                    std::span<Vector<Dim>> force) {
     evaluate_to_stress(region, u, boundary_load);
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         displacement[i] = face_displacement(arrays_.boundary_faces[region.faces[i]]);
@@ -329,8 +347,9 @@ void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const V
 }
 
 template <int Dim>
-void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load,
-                                    const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                    const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
+                                    std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     evaluate_to_stress(region, u, boundary_load);
     for (const std::int32_t f : region.force_faces) store(interior_force(f), y_, f);

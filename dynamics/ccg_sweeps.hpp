@@ -31,18 +31,23 @@ public:
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
     /// V without the work of the loads [J].
-    [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections);
-    void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement);
+    [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                       const FaceCorrections<Dim>& corrections);
+    void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                               std::span<Vector<Dim>> displacement);
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force);
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
     /// How far a boundary face has moved, in each direction [m].
-    [[nodiscard]] Vector<Dim> boundary_motion(std::int32_t b, std::span<const Vector<Dim>> u_from, std::span<const Vector<Dim>> u_to) const;
+    [[nodiscard]] Vector<Dim> boundary_motion(std::int32_t b, std::span<const Vector<Dim>> u_from,
+                                              std::span<const Vector<Dim>> u_to) const;
 
     // Of the last call.
-    [[nodiscard]] Vector<Dim> face_displacement(std::int32_t f) const { return unload<Dim>(load<Dim>(relative_, f) + load<Dim>(u_, arrays_.sides[f][0])); }
+    [[nodiscard]] Vector<Dim> face_displacement(std::int32_t f) const {
+        return unload<Dim>(load<Dim>(relative_, f) + load<Dim>(u_, arrays_.sides[f][0]));
+    }
     [[nodiscard]] Vector<Dim> face_force(std::int32_t f) const { return unload<Dim>(load<Dim>(y_, f)); }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(load_tensor<Dim>(g_, c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
@@ -76,17 +81,18 @@ private:
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
 
     // A part of the mesh
-    void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& boundary_load);
+    void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                            const BoundaryLoad<Dim>& boundary_load);
 
     const CcgArrays<Dim>& arrays_;
     // Work arrays of registers.
-    std::vector<double> u_;         // displacement, by cell
-    std::vector<double> relative_;  // u_f - u_c of the first side, by face
-    std::vector<double> g_;         // displacement gradient, by cell
-    std::vector<double> trace_;     // I_c(x_f) - u_c of the first side, by slot
-    std::vector<double> s_;         // S_c, by cell
-    std::vector<double> direct_;    // sum of k [u], by cell
-    std::vector<double> y_;         // face forces, by face
+    std::vector<double> u_;           // displacement, by cell
+    std::vector<double> relative_;    // u_f - u_c of the first side, by face
+    std::vector<double> g_;           // displacement gradient, by cell
+    std::vector<double> trace_;       // I_c(x_f) - u_c of the first side, by slot
+    std::vector<double> s_;           // S_c, by cell
+    std::vector<double> direct_;      // sum of k [u], by cell
+    std::vector<double> y_;           // face forces, by face
     std::vector<double> correction_;  // delta_f, by boundary face; zero but during a call
     std::vector<double> pair_force_;  // by boundary face; zero but during a call
     std::vector<Chunk> chunks_;       // one more at the end

@@ -27,14 +27,22 @@ struct Lanes {
     friend Lanes operator-(Lanes a, Lanes b) { return {a.r - b.r}; }
     friend Lanes operator-(Lanes a) { return {-a.r}; }
     friend Lanes operator*(double s, Lanes a) { return {s * a.r}; }
-    Lanes& operator+=(Lanes a) { r += a.r; return *this; }
-    Lanes& operator-=(Lanes a) { r -= a.r; return *this; }
+    Lanes& operator+=(Lanes a) {
+        r += a.r;
+        return *this;
+    }
+    Lanes& operator-=(Lanes a) {
+        r -= a.r;
+        return *this;
+    }
 };
 
 template <int Dim>
 [[nodiscard]] inline Lanes<Dim> load(const Vector<Dim>& v) {
-    if constexpr (Dim == 2) return {Register2{v[0], v[1]}};
-    else return {Register4{v[0], v[1], v[2], 0.0}};
+    if constexpr (Dim == 2)
+        return {Register2{v[0], v[1]}};
+    else
+        return {Register4{v[0], v[1], v[2], 0.0}};
 }
 
 /// Doubles that an element of an array of registers takes.
@@ -63,8 +71,10 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] inline double dot(Lanes<Dim> a, Lanes<Dim> b) {
     const auto p = a.r * b.r;
-    if constexpr (Dim == 2) return p[0] + p[1];
-    else return p[0] + p[1] + p[2];
+    if constexpr (Dim == 2)
+        return p[0] + p[1];
+    else
+        return p[0] + p[1] + p[2];
 }
 
 /// A tensor by columns: T v = sum_j col[j] v_j.
@@ -88,12 +98,14 @@ struct LaneTensor {
     }
     [[nodiscard]] LaneTensor transposed() const {
         if constexpr (Dim == 2) {
-            return {Lanes<2>{__builtin_shufflevector(col[0].r, col[1].r, 0, 2)}, Lanes<2>{__builtin_shufflevector(col[0].r, col[1].r, 1, 3)}};
+            return {Lanes<2>{__builtin_shufflevector(col[0].r, col[1].r, 0, 2)},
+                    Lanes<2>{__builtin_shufflevector(col[0].r, col[1].r, 1, 3)}};
         } else {
             const Register4 low = __builtin_shufflevector(col[0].r, col[1].r, 0, 4, 2, 6);
             const Register4 high = __builtin_shufflevector(col[0].r, col[1].r, 1, 5, 3, 7);
             const Register4 third = col[2].r;  // (x, y, z, 0)
-            return {Lanes<3>{__builtin_shufflevector(low, third, 0, 1, 4, 7)}, Lanes<3>{__builtin_shufflevector(high, third, 0, 1, 5, 7)},
+            return {Lanes<3>{__builtin_shufflevector(low, third, 0, 1, 4, 7)},
+                    Lanes<3>{__builtin_shufflevector(high, third, 0, 1, 5, 7)},
                     Lanes<3>{__builtin_shufflevector(low, third, 2, 3, 6, 7)}};
         }
     }

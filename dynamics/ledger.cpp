@@ -13,14 +13,17 @@ using Rotation = Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign>;
 
 template <int Dim>
 Rotation<Dim> moment(const Vector<Dim>& arm, const Vector<Dim>& momentum) {
-    if constexpr (Dim == 2) return Rotation<2>(arm[0] * momentum[1] - arm[1] * momentum[0]);
-    else return arm.cross(momentum);
+    if constexpr (Dim == 2)
+        return Rotation<2>(arm[0] * momentum[1] - arm[1] * momentum[0]);
+    else
+        return arm.cross(momentum);
 }
 
 template <int Dim, class Entry>
 void append_names(std::vector<std::string>& names, const std::string& name, Entry n) {
     static constexpr std::array<const char*, 3> axis{"_x", "_y", "_z"};
-    if (n == 1) names.push_back(name);
+    if (n == 1)
+        names.push_back(name);
     else
         for (int i = 0; i < n; ++i) names.push_back(name + axis[i]);
 }
@@ -51,10 +54,17 @@ std::vector<std::string> ledger_columns() {
 
 template <int Dim>
 std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
-    std::vector<double> values{static_cast<double>(entry.step), entry.time, entry.pseudo_energy, entry.energy, entry.kinetic, entry.potential, entry.work};
+    std::vector<double> values{static_cast<double>(entry.step),
+                               entry.time,
+                               entry.pseudo_energy,
+                               entry.energy,
+                               entry.kinetic,
+                               entry.potential,
+                               entry.work};
     values.insert(values.end(), entry.linear_momentum.begin(), entry.linear_momentum.end());
     values.insert(values.end(), entry.angular_momentum.begin(), entry.angular_momentum.end());
-    values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events), entry.restart_jumps});
+    values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events),
+                                 entry.restart_jumps});
     return values;
 }
 
@@ -119,15 +129,16 @@ template <int Dim>
 std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity) {
     std::vector<double> momentum(solid.size());
     const auto p = as_vectors<Dim>(std::span<double>(momentum));
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) p[c] = solid.cell_mass()[c] * body_velocity[solid.mesh().cell_body[c]];
+    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
+        p[c] = solid.cell_mass()[c] * body_velocity[solid.mesh().cell_body[c]];
     return momentum;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                           \
-    template std::vector<std::string> ledger_columns<Dim>();                                            \
-    template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                           \
-    template LedgerEntry<Dim> measure<Dim>(Memm<Solid<Dim>>&, Solid<Dim>&);                             \
-    template class Ledger<Dim>;                                                                         \
+#define ABUT_INSTANTIATE(Dim)                                                                            \
+    template std::vector<std::string> ledger_columns<Dim>();                                             \
+    template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                            \
+    template LedgerEntry<Dim> measure<Dim>(Memm<Solid<Dim>>&, Solid<Dim>&);                              \
+    template class Ledger<Dim>;                                                                          \
     template std::vector<BodyMotion<Dim>> body_motions<Dim>(const Memm<Solid<Dim>>&, const Solid<Dim>&); \
     template std::vector<double> uniform_momentum<Dim>(const Solid<Dim>&, std::span<const Vector<Dim>>);
 ABUT_INSTANTIATE(2)

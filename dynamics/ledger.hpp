@@ -18,18 +18,18 @@ inline constexpr int n_rotations = Dim == 2 ? 1 : 3;
 template <int Dim>
 struct LedgerEntry {
     std::int64_t step;
-    double time;                    ///< [s]
-    double pseudo_energy;           ///< H~ = 1/2 p^- . M^-1 p^+ + V [J]
-    double energy;                  ///< H = 1/2 p . M^-1 p + V with p = (p^- + p^+)/2 [J]
-    double kinetic;                 ///< 1/2 p . M^-1 p [J]
-    double potential;               ///< V, less the work of constant loads [J]
-    double work;                    ///< done from outside so far [J]
-    double restart_jumps;           ///< what restarts with another step have added to H~ so far [J]
-    Vector<Dim> linear_momentum;    ///< [kg m/s]
+    double time;                  ///< [s]
+    double pseudo_energy;         ///< H~ = 1/2 p^- . M^-1 p^+ + V [J]
+    double energy;                ///< H = 1/2 p . M^-1 p + V with p = (p^- + p^+)/2 [J]
+    double kinetic;               ///< 1/2 p . M^-1 p [J]
+    double potential;             ///< V, less the work of constant loads [J]
+    double work;                  ///< done from outside so far [J]
+    double restart_jumps;         ///< what restarts with another step have added to H~ so far [J]
+    Vector<Dim> linear_momentum;  ///< [kg m/s]
     Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign> angular_momentum;  ///< about the origin [kg m^2/s]
-    double parasitic;               ///< largest |e_c| / m_c [m/s]
-    std::int64_t active_pairs;      ///< in the last step
-    std::int64_t events;            ///< so far
+    double parasitic;                                                               ///< largest |e_c| / m_c [m/s]
+    std::int64_t active_pairs;                                                      ///< in the last step
+    std::int64_t events;                                                            ///< so far
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
@@ -73,8 +73,8 @@ private:
 /// Mass and mean velocity of a body.
 template <int Dim>
 struct BodyMotion {
-    double mass;             ///< [kg]
-    Vector<Dim> velocity;    ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
+    double mass;           ///< [kg]
+    Vector<Dim> velocity;  ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
 };
 template <int Dim>
 [[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const Memm<Solid<Dim>>& integrator, const Solid<Dim>& solid);

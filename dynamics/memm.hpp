@@ -20,10 +20,12 @@ enum class StepChange {
 
 namespace detail {
 /// result = a + s M^-1 p and result = a + s f, element by element.
-void add_scaled_velocity(std::span<const double> a, double s, std::span<const double> inverse_mass, std::span<const double> p, std::span<double> result);
+void add_scaled_velocity(std::span<const double> a, double s, std::span<const double> inverse_mass,
+                         std::span<const double> p, std::span<double> result);
 void add_scaled(std::span<const double> a, double s, std::span<const double> f, std::span<double> result);
 /// 1/2 a . M^-1 b
-[[nodiscard]] double half_product(std::span<const double> a, std::span<const double> inverse_mass, std::span<const double> b);
+[[nodiscard]] double half_product(std::span<const double> a, std::span<const double> inverse_mass,
+                                  std::span<const double> b);
 [[noreturn]] void refuse_step(double dt);
 }  // namespace detail
 
@@ -38,15 +40,18 @@ template <System S>
 class Memm {
 public:
     /// Called at the end of each step with p^{n+1/2} and p^{n+3/2} at q^{n+1}; may change the latter (a filter).
-    using AfterStep = std::function<void(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after)>;
+    using AfterStep = std::function<void(std::span<const double> q, double dt, std::span<const double> p_before,
+                                         std::span<double> p_after)>;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
     /// Throws std::invalid_argument if dt is not > 0 and finite or the sizes disagree.
-    Memm(S& system, std::vector<double> q, std::span<const double> p, double dt) : system_(system), q_(std::move(q)), dt_(dt) {
+    Memm(S& system, std::vector<double> q, std::span<const double> p, double dt)
+        : system_(system), q_(std::move(q)), dt_(dt) {
         if (!(dt > 0.0) || !std::isfinite(dt)) detail::refuse_step(dt);
         if (q_.size() != system.size() || p.size() != system.size())
-            throw std::invalid_argument("MEMM: the state has " + std::to_string(q_.size()) + " positions and " + std::to_string(p.size()) +
-                                        " momenta, the system " + std::to_string(system.size()) + " degrees of freedom.");
+            throw std::invalid_argument("MEMM: the state has " + std::to_string(q_.size()) + " positions and " +
+                                        std::to_string(p.size()) + " momenta, the system " + std::to_string(system.size()) +
+                                        " degrees of freedom.");
         for (auto* array : {&q_next_, &force_, &p_before_, &p_after_}) array->resize(q_.size());
         split_momentum(p);
     }
@@ -80,7 +85,9 @@ public:
     [[nodiscard]] std::span<const double> p_before() const { return p_before_; }  ///< p^{n-1/2}
     [[nodiscard]] std::span<const double> p_after() const { return p_after_; }    ///< p^{n+1/2}
 
-    [[nodiscard]] double pseudo_kinetic_energy() const { return detail::half_product(p_before_, system_.inverse_mass(), p_after_); }
+    [[nodiscard]] double pseudo_kinetic_energy() const {
+        return detail::half_product(p_before_, system_.inverse_mass(), p_after_);
+    }
     /// H~^n [J]; work from outside is not taken out.
     [[nodiscard]] double pseudo_energy() { return pseudo_kinetic_energy() + system_.potential(q_); }
     /// H - H~ = 1/8 |p^{n+1/2} - p^{n-1/2}|^2_{M^-1} >= 0 [J]: the size of what H~ does not see.

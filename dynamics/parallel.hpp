@@ -20,7 +20,8 @@ inline constexpr std::ptrdiff_t parallel_grain = 1024;
 /// Threads that work at once here: the arena's slots, unless the host has allowed fewer.
 inline std::int32_t thread_limit() {
     const auto allowed = oneapi::tbb::global_control::active_value(oneapi::tbb::global_control::max_allowed_parallelism);
-    return static_cast<std::int32_t>(std::min<std::size_t>(allowed, static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency())));
+    return static_cast<std::int32_t>(
+        std::min<std::size_t>(allowed, static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency())));
 }
 
 /// Calls body(begin, end) on parts of [0, n), concurrently when n is worth it. What is computed for one index must not

@@ -13,7 +13,8 @@ inline constexpr double motionless = 1e-12;  // v . M v' below this times v . M 
 Matrix<3> pseudo_inverse(const Matrix<3>& inertia) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
     const double cut = 1e-12 * eigen.eigenvalues().maxCoeff();
-    const Eigen::Vector3d inverse = eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
+    const Eigen::Vector3d inverse =
+        eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
     return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
@@ -21,7 +22,8 @@ Matrix<3> pseudo_inverse(const Matrix<3>& inertia) {
 template <int Dim>
 class RigidMotion {
 public:
-    RigidMotion(std::span<const double> mass, std::span<const Vector<Dim>> position) : mass_(mass), arm_(position.begin(), position.end()) {
+    RigidMotion(std::span<const double> mass, std::span<const Vector<Dim>> position)
+        : mass_(mass), arm_(position.begin(), position.end()) {
         Vector<Dim> centre = Vector<Dim>::Zero();
         for (std::size_t i = 0; i < mass.size(); ++i) {
             total_ += mass[i];
@@ -76,7 +78,8 @@ double mass_product(std::span<const double> mass, std::span<const Vector<Dim>> a
 }  // namespace
 
 template <int Dim>
-void NeutralFilter<Dim>::operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after) {
+void NeutralFilter<Dim>::operator()(std::span<const double> q, double dt, std::span<const double> p_before,
+                                    std::span<double> p_after) {
     const std::vector<ContactPatch> patches = solid_.contact_patches();
     if (patches.empty()) return;
     cells_.clear();
@@ -89,8 +92,9 @@ void NeutralFilter<Dim>::operator()(std::span<const double> q, double dt, std::s
 }
 
 template <int Dim>
-void NeutralFilter<Dim>::filter(const ContactPatch& patch, std::span<const Vector<Dim>> q, double dt, std::span<const Vector<Dim>> p_before,
-                                std::span<Vector<Dim>> p_after, std::span<const Vector<Dim>> force) {
+void NeutralFilter<Dim>::filter(const ContactPatch& patch, std::span<const Vector<Dim>> q, double dt,
+                                std::span<const Vector<Dim>> p_before, std::span<Vector<Dim>> p_after,
+                                std::span<const Vector<Dim>> force) {
     const std::size_t n = patch.cells.size();
     std::vector<double> mass(n);
     std::vector<Vector<Dim>> position(n);

@@ -30,11 +30,13 @@ template <int Dim>
 const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
     if (!options.acceleration.empty() && options.acceleration.size() != n_bodies)
-        throw std::invalid_argument(mesh.name + ": " + std::to_string(options.acceleration.size()) + " accelerations are given for " +
-                                    std::to_string(n_bodies) + " bodies. Give one a body, or none.");
+        throw std::invalid_argument(mesh.name + ": " + std::to_string(options.acceleration.size()) +
+                                    " accelerations are given for " + std::to_string(n_bodies) +
+                                    " bodies. Give one a body, or none.");
     if (!options.obstacles.empty() && !options.contact)
         throw std::invalid_argument(mesh.name + ": " + std::to_string(options.obstacles.size()) +
-                                    " obstacles are given without contact, so nothing would feel them. Give SolidOptions::contact, or no obstacles.");
+                                    " obstacles are given without contact, so nothing would feel them. Give "
+                                    "SolidOptions::contact, or no obstacles.");
     return options;
 }
 
@@ -59,7 +61,8 @@ private:
 template <int Dim>
 void average(const BoundaryLoad<Dim>& a, const BoundaryLoad<Dim>& b, BoundaryLoad<Dim>& mean) {
     mean = b;
-    for (std::size_t i = 0; i < mean.displacement.size(); ++i) mean.displacement[i] = 0.5 * (a.displacement[i] + b.displacement[i]);
+    for (std::size_t i = 0; i < mean.displacement.size(); ++i)
+        mean.displacement[i] = 0.5 * (a.displacement[i] + b.displacement[i]);
 }
 
 }  // namespace
@@ -141,7 +144,8 @@ double Solid<Dim>::potential(std::span<const double> q) {
     evaluate_contact(u);
     double energy = ccg_.potential(u, load_, corrections());
     if (!body_force_.empty())
-        energy -= ordered_sum(static_cast<std::ptrdiff_t>(u.size()), 0.0, [&](std::ptrdiff_t c) { return body_force_[c].dot(u[c]); });
+        energy -= ordered_sum(static_cast<std::ptrdiff_t>(u.size()), 0.0,
+                              [&](std::ptrdiff_t c) { return body_force_[c].dot(u[c]); });
     return energy;
 }
 
@@ -151,7 +155,8 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
 }
 
 template <int Dim>
-void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt, std::span<double> force) {
+void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
+                            std::span<double> force) {
     const auto u_0 = as_vectors<Dim>(q_0);
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
@@ -159,7 +164,8 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     midpoint_.resize(u_0.size());
-    parallel_each(static_cast<std::ptrdiff_t>(u_0.size()), [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (u_0[c] + u_1[c]); });
+    parallel_each(static_cast<std::ptrdiff_t>(u_0.size()),
+                  [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (u_0[c] + u_1[c]); });
     const auto gradient = as_vectors<Dim>(force);
     if (ccg_.load_varies()) {
         BoundaryLoad<Dim> mean;
@@ -314,20 +320,23 @@ Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const {
 
 template <int Dim>
 typename Solid<Dim>::ContactField Solid<Dim>::contact_field(std::span<const double> q) {
-    ContactField field{std::vector<double>(static_cast<std::size_t>(ccg_.n_boundary()), 0.0),
-                       std::vector<double>(static_cast<std::size_t>(ccg_.n_boundary()), std::numeric_limits<double>::infinity())};
+    ContactField field{
+        std::vector<double>(static_cast<std::size_t>(ccg_.n_boundary()), 0.0),
+        std::vector<double>(static_cast<std::size_t>(ccg_.n_boundary()), std::numeric_limits<double>::infinity())};
     if (!contact_) return field;
     evaluate_contact(as_vectors<Dim>(q));
     for (std::size_t i = 0; i < local_boundary_.size(); ++i)
         if (!contact_->result().active_pairs().empty())
-            field.pressure[local_boundary_[i]] = contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[local_boundary_[i]]];
+            field.pressure[local_boundary_[i]] =
+                contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[local_boundary_[i]]];
     const auto lower_gap = [&](std::int32_t face, double gap) {
         if (surface_.view().is_rigid(face)) return;
         double& smallest = field.gap[surface_boundary_[face]];
         smallest = std::min(smallest, gap);
     };
     for (const auto& pair : contact_->pairs().pairs()) {
-        const auto at = contact_->pairs().position(contact_->surface(), pair, u_1_[contact_->local(pair.face_1)], u_1_[contact_->local(pair.face_2)]);
+        const auto at = contact_->pairs().position(contact_->surface(), pair, u_1_[contact_->local(pair.face_1)],
+                                                   u_1_[contact_->local(pair.face_2)]);
         if (!pair.admitted || contact_->pairs().shared_area(pair, at.shift, options_.contact->area).area == 0.0) continue;
         lower_gap(pair.face_1, at.gap);
         lower_gap(pair.face_2, at.gap);

@@ -15,12 +15,13 @@ namespace abut::dynamics {
 /// What a scene holds beside its mesh.
 template <int Dim>
 struct SolidOptions {
-    std::vector<Material> materials;                                      ///< one a body
+    std::vector<Material> materials;  ///< one a body
     BoundaryConditions<Dim> boundary;
-    std::vector<Vector<Dim>> acceleration;                                ///< of gravity, one a body [m/s^2]; empty: none
-    std::function<Vector<Dim>(const Vector<Dim>& position)> body_load;    ///< force density [N/m^3], constant in time; empty: none
-    std::optional<contact::ContactOptions> contact;                       ///< empty: bodies pass through each other, at no cost
-    std::vector<contact::RigidObstacle<Dim>> obstacles;                   ///< with contact only
+    std::vector<Vector<Dim>> acceleration;  ///< of gravity, one a body [m/s^2]; empty: none
+    std::function<Vector<Dim>(const Vector<Dim>& position)>
+        body_load;                                       ///< force density [N/m^3], constant in time; empty: none
+    std::optional<contact::ContactOptions> contact;      ///< empty: bodies pass through each other, at no cost
+    std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
 };
 
 /// Where the time of a run went [s].
@@ -54,7 +55,8 @@ public:
     /// Displacements q are cell by cell, shape (n_cells, Dim) [m].
     void force(std::span<const double> q, std::span<double> force);
     /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way. METHOD.md, section 4.
-    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt, std::span<double> force);
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
+                    std::span<double> force);
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
@@ -93,8 +95,8 @@ private:
     void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const;
-    void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time, std::vector<Vector<Dim>>& displacement,
-                        std::vector<Vector<Dim>>& force);
+    void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
+                        std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force);
     void evaluate_contact(std::span<const Vector<Dim>> q);
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
     void add_work();
@@ -106,29 +108,29 @@ private:
     Ccg<Dim> ccg_;
     std::vector<double> cell_mass_;
     std::vector<double> inverse_mass_;
-    std::vector<Vector<Dim>> body_force_;               // by cell; empty without loads
+    std::vector<Vector<Dim>> body_force_;  // by cell; empty without loads
     double work_ = 0.0;
-    double time_ = 0.0;                                 // of the last state that `mean_force` ended in
-    BoundaryLoad<Dim> load_;                            // at that state
-    BoundaryLoad<Dim> load_start_;                      // at the start of the current step
+    double time_ = 0.0;             // of the last state that `mean_force` ended in
+    BoundaryLoad<Dim> load_;        // at that state
+    BoundaryLoad<Dim> load_start_;  // at the start of the current step
 
     contact::Surface<Dim> surface_;
-    std::vector<std::int32_t> surface_boundary_;        // place in boundary_faces of each deformable surface face
+    std::vector<std::int32_t> surface_boundary_;  // place in boundary_faces of each deformable surface face
     std::int64_t left_out_ = 0;
     std::optional<contact::Contact<Dim>> contact_;
     struct Reference {
-        std::vector<Vector<Dim>> u;                     // cell displacements
+        std::vector<Vector<Dim>> u;  // cell displacements
         BoundaryLoad<Dim> load;
     };
-    Reference searched_;                                // state at the last search
+    Reference searched_;  // state at the last search
     double searched_time_ = 0.0;
-    Reference measured_;                                // state at which the motion since the search was last measured
+    Reference measured_;  // state at which the motion since the search was last measured
     double measured_motion_ = 0.0;
-    Region<Dim> region_;                                // of the faces in the candidate list
-    std::vector<std::int32_t> local_boundary_;          // their places in boundary_faces (deformable faces come first)
-    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;    // path of the listed faces
+    Region<Dim> region_;                              // of the faces in the candidate list
+    std::vector<std::int32_t> local_boundary_;        // their places in boundary_faces (deformable faces come first)
+    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // path of the listed faces
     std::vector<Vector<Dim>> midpoint_;
-    std::vector<std::int32_t> active_pairs_;            // of the last step
+    std::vector<std::int32_t> active_pairs_;  // of the last step
     std::vector<Vector<Dim>> obstacle_force_;
     Region<Dim> patch_region_;
     SolidTimes times_;

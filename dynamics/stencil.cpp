@@ -18,7 +18,7 @@ namespace {
 
 template <int Dim>
 inline constexpr std::size_t n_nearest = Dim == 2 ? 10 : 14;
-inline constexpr double volume_floor = 0.05;    // of the volume of the face's first cell
+inline constexpr double volume_floor = 0.05;  // of the volume of the face's first cell
 inline constexpr int max_floor_halvings = 20;
 inline constexpr double extrapolation_step = 1e-3;
 
@@ -29,9 +29,13 @@ struct BodyCentroids {
     std::int32_t first_cell;
 
     [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<Eigen::Index>(axis)]; }
+    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return points[i][static_cast<Eigen::Index>(axis)];
+    }
     template <class Bounds>
-    bool kdtree_get_bbox(Bounds&) const { return false; }
+    bool kdtree_get_bbox(Bounds&) const {
+        return false;
+    }
 };
 
 template <int Dim>
@@ -45,7 +49,8 @@ public:
     NearestCells(const mesh::Mesh<Dim>& mesh) {
         std::int32_t begin = 0;
         for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
-            const auto end = static_cast<std::int32_t>(std::upper_bound(mesh.cell_body.begin(), mesh.cell_body.end(), body) - mesh.cell_body.begin());
+            const auto end = static_cast<std::int32_t>(std::upper_bound(mesh.cell_body.begin(), mesh.cell_body.end(), body) -
+                                                       mesh.cell_body.begin());
             bodies_.push_back(std::make_unique<BodyTree>(
                 BodyCentroids<Dim>{{mesh.cell_centroid.data() + begin, static_cast<std::size_t>(end - begin)}, begin}));
             begin = end;
@@ -62,12 +67,14 @@ public:
         near.reserve(n);
         for (std::size_t i = 0; i < n; ++i)
             near.push_back({std::sqrt(squared[i]), tree.centroids.first_cell + static_cast<std::int32_t>(index[i])});
-        std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell); });
+        std::sort(near.begin(), near.end(),
+                  [](const Near& a, const Near& b) { return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell); });
         return near;
     }
 
 private:
-    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, BodyCentroids<Dim>>, BodyCentroids<Dim>, Dim, std::uint32_t>;
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, BodyCentroids<Dim>>,
+                                                     BodyCentroids<Dim>, Dim, std::uint32_t>;
     struct BodyTree {
         explicit BodyTree(BodyCentroids<Dim> c) : centroids(c), index(Dim, centroids) { index.buildIndex(); }
         BodyCentroids<Dim> centroids;
@@ -147,19 +154,22 @@ FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& ne
             if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
         if (near.size() < wanted) break;
     }
-    throw std::runtime_error(mesh.name + ": face " + std::to_string(face) + " of cell " + std::to_string(cell) +
-                             ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
-                             "The body is one cell thick there: put at least two cells across it.");
+    throw std::runtime_error(
+        mesh.name + ": face " + std::to_string(face) + " of cell " + std::to_string(cell) +
+        ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
+        "The body is one cell thick there: put at least two cells across it.");
 }
 
 }  // namespace
 
 template <int Dim>
-std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces, StencilReport& report) {
+std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces,
+                                              StencilReport& report) {
     const NearestCells<Dim> nearest(mesh);
     std::vector<FaceStencil<Dim>> stencils(faces.size());
     std::vector<int> halvings(faces.size(), 0);
-    parallel_each(static_cast<std::ptrdiff_t>(faces.size()), [&](std::ptrdiff_t i) { stencils[i] = select(mesh, nearest, faces[i], halvings[i]); });
+    parallel_each(static_cast<std::ptrdiff_t>(faces.size()),
+                  [&](std::ptrdiff_t i) { stencils[i] = select(mesh, nearest, faces[i], halvings[i]); });
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const double lowest = *std::min_element(stencils[i].weights.begin(), stencils[i].weights.end());
         ++report.faces;

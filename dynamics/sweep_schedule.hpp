@@ -23,7 +23,8 @@ public:
     SweepSchedule() = default;
 
     /// needs[s - 1][k]: chunks of stage s - 1 that task (s, k) reads, for s = 1 .. Stages - 1.
-    SweepSchedule(std::int32_t n_chunks, const std::array<std::vector<std::vector<std::int32_t>>, Stages - 1>& needs) : n_chunks_(n_chunks) {
+    SweepSchedule(std::int32_t n_chunks, const std::array<std::vector<std::vector<std::int32_t>>, Stages - 1>& needs)
+        : n_chunks_(n_chunks) {
         spans_[0].resize(static_cast<std::size_t>(n_chunks));
         for (std::int32_t k = 0; k < n_chunks; ++k) spans_[0][k] = {k, k};
         for (int s = 1; s < Stages; ++s)
@@ -42,10 +43,13 @@ public:
     template <class Task>
     void run(const Task& task) const {
         const std::int32_t n_parts = std::clamp<std::int32_t>(thread_limit(), 1, std::max(1, n_chunks_ / chunks_a_part));
-        const auto begin_of = [&](std::int32_t part) { return static_cast<std::int32_t>(std::int64_t{n_chunks_} * part / n_parts); };
+        const auto begin_of = [&](std::int32_t part) {
+            return static_cast<std::int32_t>(std::int64_t{n_chunks_} * part / n_parts);
+        };
         if (n_parts == 1) return run_part(0, n_chunks_, task);
-        oneapi::tbb::parallel_for(std::int32_t{0}, n_parts, [&](std::int32_t part) { run_part(begin_of(part), begin_of(part + 1), task); },
-                                  oneapi::tbb::static_partitioner{});
+        oneapi::tbb::parallel_for(
+            std::int32_t{0}, n_parts, [&](std::int32_t part) { run_part(begin_of(part), begin_of(part + 1), task); },
+            oneapi::tbb::static_partitioner{});
         for (int s = 1; s < Stages; ++s) {
             std::vector<std::int32_t> rest;
             for (std::int32_t part = 0; part < n_parts; ++part)

@@ -15,10 +15,10 @@ template <class S>
 concept System = requires(S& system, std::span<const double> q, std::span<double> force, double t, double dt) {
     { system.size() } -> std::convertible_to<std::size_t>;
     { system.inverse_mass() } -> std::convertible_to<std::span<const double>>;  ///< [1/kg]
-    system.force(q, force);                      ///< F(q) = -dV/dq [N]
-    system.mean_force(q, q, t, dt, force);       ///< [N]
-    { system.potential(q) } -> std::convertible_to<double>;  ///< V(q) [J]
-    { system.work() } -> std::convertible_to<double>;        ///< done on the system from outside since the start [J]
+    system.force(q, force);                                                     ///< F(q) = -dV/dq [N]
+    system.mean_force(q, q, t, dt, force);                                      ///< [N]
+    { system.potential(q) } -> std::convertible_to<double>;                     ///< V(q) [J]
+    { system.work() } -> std::convertible_to<double>;  ///< done on the system from outside since the start [J]
 };
 
 /// Arrays of shape (n, Dim) and arrays of n vectors are the same memory.

@@ -7,9 +7,9 @@ namespace abut::examples {
 /// What the picture of the energies of a run is drawn from and scaled by.
 struct EnergyPicture {
     std::string title;
-    double pseudo_energy;  ///< H~ at the start [J]
-    double scale;          ///< what drifts are divided by [J]
-    std::string scale_name;   ///< "K0": a letter and its index
+    double pseudo_energy;    ///< H~ at the start [J]
+    double scale;            ///< what drifts are divided by [J]
+    std::string scale_name;  ///< "K0": a letter and its index
 };
 
 /// energy.gp beside energy.csv, and energy.png, which gnuplot makes of it: above kinetic and potential energy, H and H~;

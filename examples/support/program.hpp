@@ -8,10 +8,10 @@ namespace abut::examples {
 
 /// What a program is called and what it leaves behind.
 struct Program {
-    std::string name;      ///< as it is typed; results go to out/<name> by default
-    std::string purpose;   ///< one sentence for --help
-    std::string series;    ///< of its files for ParaView: <series>.pvd, <series>_surface.pvd and their frames
-    std::string footer;    ///< ends --help
+    std::string name;     ///< as it is typed; results go to out/<name> by default
+    std::string purpose;  ///< one sentence for --help
+    std::string series;   ///< of its files for ParaView: <series>.pvd, <series>_surface.pvd and their frames
+    std::string footer;   ///< ends --help
 };
 
 /// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either

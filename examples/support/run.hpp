@@ -14,14 +14,14 @@ namespace abut::examples {
 
 /// What the energies of a run are measured with.
 struct EnergyScale {
-    std::string name = "K0";   ///< a letter and its index
-    double value = 0.0;        ///< [J]; 0: the kinetic energy at the start
+    std::string name = "K0";  ///< a letter and its index
+    double value = 0.0;       ///< [J]; 0: the kinetic energy at the start
 };
 
 /// Something that a scene alone can tell about its run.
 struct Finding {
-    std::string key;                ///< in summary.json
-    std::string text;               ///< in the table, unit included
+    std::string key;   ///< in summary.json
+    std::string text;  ///< in the table, unit included
     nlohmann::ordered_json value;
 };
 
@@ -32,23 +32,23 @@ struct RunResult;
 template <int Dim>
 struct Scene {
     mesh::Mesh<Dim> mesh{};
-    dynamics::SolidOptions<Dim> solid{};          ///< all but the choices of RunOptions: contact and Neumann
-    std::vector<Vector<Dim>> velocity{};          ///< at the start, one a body [m/s]
-    double time = 0.0;                            ///< end of the run where no option says it [s]
-    EnergyScale energy_scale{};                   ///< to be given where all is at rest at the start
-    std::string remedy_if_overlapping{};          ///< ends the message if bodies overlap at the start
-    nlohmann::ordered_json options{};             ///< the scene's own, as they were used
-    std::function<void(const dynamics::Solid<Dim>&, double dt)> after_step{};       ///< looks on; may be empty
-    std::function<std::vector<Finding>(const RunResult<Dim>&)> findings{};          ///< at the end; may be empty
+    dynamics::SolidOptions<Dim> solid{};  ///< all but the choices of RunOptions: contact and Neumann
+    std::vector<Vector<Dim>> velocity{};  ///< at the start, one a body [m/s]
+    double time = 0.0;                    ///< end of the run where no option says it [s]
+    EnergyScale energy_scale{};           ///< to be given where all is at rest at the start
+    std::string remedy_if_overlapping{};  ///< ends the message if bodies overlap at the start
+    nlohmann::ordered_json options{};     ///< the scene's own, as they were used
+    std::function<void(const dynamics::Solid<Dim>&, double dt)> after_step{};  ///< looks on; may be empty
+    std::function<std::vector<Finding>(const RunResult<Dim>&)> findings{};     ///< at the end; may be empty
 };
 
 /// Where the time of a run went [s].
 struct RunSeconds {
     double total = 0.0;
-    double mesh = 0.0;     ///< making or reading it
-    double setup = 0.0;    ///< check for overlapping bodies, operators, stable step
+    double mesh = 0.0;   ///< making or reading it
+    double setup = 0.0;  ///< check for overlapping bodies, operators, stable step
     double ledger = 0.0;
-    double output = 0.0;   ///< energy.csv, frames, picture
+    double output = 0.0;  ///< energy.csv, frames, picture
 };
 
 /// A finished run.
@@ -56,22 +56,22 @@ template <int Dim>
 struct RunResult {
     dynamics::Ledger<Dim> ledger;
     dynamics::StableStep stable;
-    double dt = 0.0;                             ///< [s]
+    double dt = 0.0;  ///< [s]
     std::int64_t steps = 0;
-    EnergyScale scale;                           ///< with its value, > 0
-    double skin = 0.0;                           ///< of the candidate list [m]
-    int threads = 0;                             ///< allowed
+    EnergyScale scale;  ///< with its value, > 0
+    double skin = 0.0;  ///< of the candidate list [m]
+    int threads = 0;    ///< allowed
     contact::ContactReport contact;
-    std::int64_t candidates_max = 0;             ///< largest candidate list at a record
-    std::int64_t not_admitted_max = 0;           ///< most pairs at a record that face each other inside and are no contacts
-    std::int64_t contact_faces_left_out = 0;     ///< their displacement is prescribed
+    std::int64_t candidates_max = 0;          ///< largest candidate list at a record
+    std::int64_t not_admitted_max = 0;        ///< most pairs at a record that face each other inside and are no contacts
+    std::int64_t contact_faces_left_out = 0;  ///< their displacement is prescribed
     dynamics::StencilReport stencils;
     std::vector<dynamics::BodyMotion<Dim>> start;
     std::vector<dynamics::BodyMotion<Dim>> end;
     dynamics::SolidTimes times;
     RunSeconds seconds;
-    std::vector<Finding> findings;               ///< of the scene
-    std::string without_picture;                 ///< why there is none; empty: there is
+    std::vector<Finding> findings;  ///< of the scene
+    std::string without_picture;    ///< why there is none; empty: there is
 };
 
 /// Makes the scene, runs it, and leaves energy.csv, energy.gp, energy.png, the VTU series and summary.json in `options.out`.

@@ -14,18 +14,18 @@ inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 /// How a scene is run: what all examples share.
 struct RunOptions {
-    double time = not_given;         ///< end of the run [s]; not given: as many steps as `steps`, or the scene's own time
-    int steps = 0;                   ///< of the run where no time is given; 0: not given
-    double cfl = 0.9;                ///< time step over the stable step [-]
-    double dt = not_given;           ///< time step [s], instead of `cfl`
+    double time = not_given;  ///< end of the run [s]; not given: as many steps as `steps`, or the scene's own time
+    int steps = 0;            ///< of the run where no time is given; 0: not given
+    double cfl = 0.9;         ///< time step over the stable step [-]
+    double dt = not_given;    ///< time step [s], instead of `cfl`
     bool allow_unstable = false;
     contact::ContactOptions contact;
     dynamics::Neumann neumann = dynamics::Neumann::local_equilibrium;
-    bool filter = false;             ///< energy-neutral filter of the parasitic mode
-    int threads = 0;                 ///< 0: all
+    bool filter = false;  ///< energy-neutral filter of the parasitic mode
+    int threads = 0;      ///< 0: all
     std::filesystem::path out;
-    int interval = 0;                ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
-    int frames = 21;                 ///< of the VTU series, the first and the last included; 0: none
+    int interval = 0;  ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
+    int frames = 21;   ///< of the VTU series, the first and the last included; 0: none
 };
 
 /// Groups of options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of

@@ -22,7 +22,8 @@ struct Patch {
     Vector<Dim> derivative = Vector<Dim>::Zero();
 };
 
-inline Patch<2> shared_patch(const std::vector<Vector<2>>& face_1, const std::vector<Vector<2>>& face_2, const Vector<2>& normal) {
+inline Patch<2> shared_patch(const std::vector<Vector<2>>& face_1, const std::vector<Vector<2>>& face_2,
+                             const Vector<2>& normal) {
     const Vector<2> t(-normal[1], normal[0]);
     const auto [lower_1, upper_1] = std::minmax({t.dot(face_1[0]), t.dot(face_1[1])});
     const auto [lower_2, upper_2] = std::minmax({t.dot(face_2[0]), t.dot(face_2[1])});
@@ -32,7 +33,8 @@ inline Patch<2> shared_patch(const std::vector<Vector<2>>& face_1, const std::ve
 }
 
 /// Sutherland-Hodgman for the area; for its derivative every edge of face 2 is cut to the part inside face 1.
-inline Patch<3> shared_patch(const std::vector<Vector<3>>& face_1, const std::vector<Vector<3>>& face_2, const Vector<3>& normal) {
+inline Patch<3> shared_patch(const std::vector<Vector<3>>& face_1, const std::vector<Vector<3>>& face_2,
+                             const Vector<3>& normal) {
     using Point = Eigen::Vector2d;
     const Vector<3> e_1 = Eigen::Vector3d(normal).unitOrthogonal();
     const Vector<3> e_2 = Eigen::Vector3d(normal).cross(Eigen::Vector3d(e_1));
@@ -49,7 +51,9 @@ inline Patch<3> shared_patch(const std::vector<Vector<3>>& face_1, const std::ve
         return p;
     };
     const std::vector<Point> p_1 = project(face_1), p_2 = project(face_2);
-    const auto side = [&](std::size_t edge, const Point& x) { return cross(p_1[(edge + 1) % p_1.size()] - p_1[edge], x - p_1[edge]); };
+    const auto side = [&](std::size_t edge, const Point& x) {
+        return cross(p_1[(edge + 1) % p_1.size()] - p_1[edge], x - p_1[edge]);
+    };
 
     std::vector<Point> clipped = p_2;
     for (std::size_t e = 0; e < p_1.size() && !clipped.empty(); ++e) {
@@ -70,9 +74,12 @@ inline Patch<3> shared_patch(const std::vector<Vector<3>>& face_1, const std::ve
         double begin = 0.0, end = 1.0;
         for (std::size_t e = 0; e < p_1.size(); ++e) {
             const double s_a = side(e, a), s_b = side(e, b);
-            if (s_a < 0.0 && s_b < 0.0) end = begin;
-            else if (s_a < 0.0) begin = std::max(begin, s_a / (s_a - s_b));
-            else if (s_b < 0.0) end = std::min(end, s_a / (s_a - s_b));
+            if (s_a < 0.0 && s_b < 0.0)
+                end = begin;
+            else if (s_a < 0.0)
+                begin = std::max(begin, s_a / (s_a - s_b));
+            else if (s_b < 0.0)
+                end = std::min(end, s_a / (s_a - s_b));
         }
         if (end <= begin) continue;
         const Point outward((b - a).y(), -(b - a).x());  // times the length of the edge
@@ -92,7 +99,8 @@ struct ReferencePair {
 template <int Dim>
 class Reference {
 public:
-    Reference(const contact::SurfaceView<Dim>& surface, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs, contact::Weights weights)
+    Reference(const contact::SurfaceView<Dim>& surface, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
+              contact::Weights weights)
         : surface_(surface) {
         for (const auto& [f_1, f_2] : pairs) {
             ReferencePair<Dim> pair{f_1, f_2, (surface.normal[f_1] - surface.normal[f_2]).normalized(), 0.5, 0.5};
@@ -105,7 +113,8 @@ public:
     }
 
     [[nodiscard]] double gap(const ReferencePair<Dim>& pair, const std::vector<Vector<Dim>>& u) const {
-        return (surface_.centroid[pair.face_2] + u[pair.face_2] - surface_.centroid[pair.face_1] - u[pair.face_1]).dot(pair.normal);
+        return (surface_.centroid[pair.face_2] + u[pair.face_2] - surface_.centroid[pair.face_1] - u[pair.face_1])
+            .dot(pair.normal);
     }
     [[nodiscard]] Patch<Dim> patch(const ReferencePair<Dim>& pair, const std::vector<Vector<Dim>>& u) const {
         return shared_patch(moved(pair.face_1, u), moved(pair.face_2, u), pair.normal);
@@ -125,7 +134,8 @@ public:
     }
 
     /// The pairs' part of dV/dû for the face forces y.
-    [[nodiscard]] std::vector<Vector<Dim>> pair_forces(const std::vector<Vector<Dim>>& u, const std::vector<Vector<Dim>>& y) const {
+    [[nodiscard]] std::vector<Vector<Dim>> pair_forces(const std::vector<Vector<Dim>>& u,
+                                                       const std::vector<Vector<Dim>>& y) const {
         std::vector<Vector<Dim>> force(u.size(), Vector<Dim>::Zero());
         for (const auto& pair : pairs_) {
             const double g = gap(pair, u);
@@ -163,7 +173,8 @@ public:
     [[nodiscard]] Eigen::VectorXd over_unit_interval() const {
         static constexpr int parts = 64;
         Eigen::VectorXd sum = Eigen::VectorXd::Zero(f_(0.0).size());
-        for (int i = 0; i < parts; ++i) sum += refined(double(i) / parts, double(i + 1) / parts, lobatto(double(i) / parts, double(i + 1) / parts));
+        for (int i = 0; i < parts; ++i)
+            sum += refined(double(i) / parts, double(i + 1) / parts, lobatto(double(i) / parts, double(i + 1) / parts));
         return sum;
     }
 
@@ -171,7 +182,8 @@ private:
     // The ends belong to the rule: a jump beside one of them does not go unseen.
     [[nodiscard]] Eigen::VectorXd lobatto(double a, double b) const {
         const double middle = 0.5 * (a + b), half = 0.5 * (b - a), inner = std::sqrt(3.0 / 7.0) * half;
-        return half * (32.0 / 45.0 * f_(middle) + 49.0 / 90.0 * (f_(middle - inner) + f_(middle + inner)) + 0.1 * (f_(a) + f_(b)));
+        return half *
+               (32.0 / 45.0 * f_(middle) + 49.0 / 90.0 * (f_(middle - inner) + f_(middle + inner)) + 0.1 * (f_(a) + f_(b)));
     }
     [[nodiscard]] Eigen::VectorXd refined(double a, double b, const Eigen::VectorXd& whole) const {
         const double middle = 0.5 * (a + b);

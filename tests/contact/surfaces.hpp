@@ -26,9 +26,13 @@ Vector<Dim> random_vector(std::mt19937& random, double size) {
 }
 
 template <int Dim>
-Vector<Dim> axis(int i) { return Vector<Dim>::Unit(i); }
+Vector<Dim> axis(int i) {
+    return Vector<Dim>::Unit(i);
+}
 template <int Dim>
-Vector<Dim> up() { return axis<Dim>(Dim - 1); }
+Vector<Dim> up() {
+    return axis<Dim>(Dim - 1);
+}
 
 /// A square (3D) or segment (2D) about `centre` that looks along `normal`, `half` wide on either side of its centre.
 template <int Dim>
@@ -45,7 +49,8 @@ std::vector<Vector<Dim>> tile(const Vector<Dim>& centre, const Vector<Dim>& norm
 
 /// A flat polygon of 3 to 6 corners (3D) or a segment (2D), about `centre`, looking along `normal`.
 template <int Dim>
-std::vector<Vector<Dim>> random_face(std::mt19937& random, const Vector<Dim>& centre, const Vector<Dim>& normal, double radius) {
+std::vector<Vector<Dim>> random_face(std::mt19937& random, const Vector<Dim>& centre, const Vector<Dim>& normal,
+                                     double radius) {
     const geometry::PlaneFrame<Dim> frame(normal.normalized());
     if constexpr (Dim == 2) {
         const Vector<2> along = frame.tangents();
@@ -55,7 +60,8 @@ std::vector<Vector<Dim>> random_face(std::mt19937& random, const Vector<Dim>& ce
         std::vector<Vector<3>> face;
         for (int i = 0; i < corners; ++i) {
             const double angle = (i + uniform(random, 0.0, 0.6)) * 2.0 * std::numbers::pi / corners;
-            face.push_back(centre + radius * (std::cos(angle) * frame.tangents().col(0) + std::sin(angle) * frame.tangents().col(1)));
+            face.push_back(centre +
+                           radius * (std::cos(angle) * frame.tangents().col(0) + std::sin(angle) * frame.tangents().col(1)));
         }
         return face;
     }
@@ -80,7 +86,8 @@ contact::Surface<Dim> random_surface(std::mt19937& random, int faces_a_body, dou
 
 /// Displacements of all faces of a random surface: body 1 comes down by about `approach`, every face in its own way.
 template <int Dim>
-std::vector<Vector<Dim>> random_displacement(std::mt19937& random, const contact::Surface<Dim>& surface, double size, double approach = 0.0) {
+std::vector<Vector<Dim>> random_displacement(std::mt19937& random, const contact::Surface<Dim>& surface, double size,
+                                             double approach = 0.0) {
     std::vector<Vector<Dim>> u;
     for (std::int32_t f = 0; f < surface.size(); ++f) {
         u.push_back(random_vector<Dim>(random, size));

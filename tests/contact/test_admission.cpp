@@ -20,7 +20,9 @@ contact::Surface<Dim> two_tiles() {
 
 /// Body 1 at a gap and a sideways shift, body 0 at rest.
 template <int Dim>
-std::vector<Vector<Dim>> at(double gap, double shift) { return {Vector<Dim>::Zero(), gap * up<Dim>() + shift * axis<Dim>(0)}; }
+std::vector<Vector<Dim>> at(double gap, double shift) {
+    return {Vector<Dim>::Zero(), gap * up<Dim>() + shift * axis<Dim>(0)};
+}
 
 contact::ContactOptions wide_skin() {
     contact::ContactOptions options;
@@ -38,7 +40,8 @@ bool pushes(const Mover<Dim>& mover) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a pair within the depth of its cells at the start is a contact", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a pair within the depth of its cells at the start is a contact", "[contact][admission]",
+                       ((int Dim), Dim), 2, 3) {
     Mover<Dim> mover(two_tiles<Dim>(), wide_skin());
     mover.search(at<Dim>(-0.1, 0.0));
     CHECK(mover.move_to(at<Dim>(-0.1, 0.1)));
@@ -47,7 +50,8 @@ TEMPLATE_TEST_CASE_SIG("a pair within the depth of its cells at the start is a c
     CHECK(mover.contact.report().lost_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("a pair deeper than its cells at the start is no contact", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a pair deeper than its cells at the start is no contact", "[contact][admission]", ((int Dim), Dim),
+                       2, 3) {
     Mover<Dim> mover(two_tiles<Dim>(), wide_skin());
     mover.search(at<Dim>(-0.7, 0.0));
     CHECK_FALSE(mover.move_to(at<Dim>(-0.65, 0.1)));
@@ -59,7 +63,8 @@ TEMPLATE_TEST_CASE_SIG("a pair deeper than its cells at the start is no contact"
     CHECK(mover.contact.report().lost_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("the far side of a body is no contact of its near side", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the far side of a body is no contact of its near side", "[contact][admission]", ((int Dim), Dim), 2,
+                       3) {
     // A slab of thickness 1: its top and its bottom "face" each other with g = -1, deeper than D = 0.6.
     contact::Surface<Dim> slab;
     slab.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), depth, 1.0, 0);
@@ -74,7 +79,8 @@ TEMPLATE_TEST_CASE_SIG("the far side of a body is no contact of its near side", 
     CHECK(mover.contact.report().not_admitted == 1);
 }
 
-TEMPLATE_TEST_CASE_SIG("a body does not touch itself unless self-contact is asked for", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body does not touch itself unless self-contact is asked for", "[contact][admission]",
+                       ((int Dim), Dim), 2, 3) {
     auto surface = two_tiles<Dim>();
     surface.body[1] = 0;
     contact::ContactOptions options = wide_skin();
@@ -85,19 +91,21 @@ TEMPLATE_TEST_CASE_SIG("a body does not touch itself unless self-contact is aske
     CHECK(mover.move_to(at<Dim>(-0.1, 0.0)) == options.self_contact);
 }
 
-TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge and comes back is the same contact", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge and comes back is the same contact", "[contact][admission]",
+                       ((int Dim), Dim), 2, 3) {
     Mover<Dim> mover(two_tiles<Dim>(), wide_skin());
     mover.search(at<Dim>(0.1, 0.0));
     CHECK(mover.move_to(at<Dim>(-0.1, 0.0)));
     CHECK(mover.move_to(at<Dim>(-0.1, 0.9)));
-    CHECK(mover.move_to(at<Dim>(-0.1, 1.2)));         // leaves during the step
-    CHECK_FALSE(mover.move_to(at<Dim>(-0.1, 1.3)));   // A = 0, g < 0
+    CHECK(mover.move_to(at<Dim>(-0.1, 1.2)));        // leaves during the step
+    CHECK_FALSE(mover.move_to(at<Dim>(-0.1, 1.3)));  // A = 0, g < 0
     CHECK(mover.move_to(at<Dim>(-0.1, 0.8)));
     CHECK(pushes(mover));
     CHECK(mover.contact.report().lost_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge, sinks below its depth and comes back is no contact", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge, sinks below its depth and comes back is no contact",
+                       "[contact][admission]", ((int Dim), Dim), 2, 3) {
     Mover<Dim> mover(two_tiles<Dim>(), wide_skin());
     mover.search(at<Dim>(-0.1, 0.0));
     CHECK(mover.move_to(at<Dim>(-0.1, 1.2)));
@@ -111,8 +119,8 @@ TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge, sinks below its depth an
     CHECK(mover.contact.report().lost_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pressed, through rebuilds of the list", "[contact][admission]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pressed, through rebuilds of the list",
+                       "[contact][admission]", ((int Dim), Dim), 2, 3) {
     Mover<Dim> mover(two_tiles<Dim>(), wide_skin());
     mover.search(at<Dim>(0.1, 0.0));
     CHECK(mover.move_to(at<Dim>(-0.5, 0.0)));
@@ -127,7 +135,8 @@ TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pres
     CHECK(mover.contact.report().compression_max == Approx(1.5 / (2.0 * depth)).epsilon(1e-14));
 }
 
-TEMPLATE_TEST_CASE_SIG("an admitted pair stays in the list where its boxes no longer meet", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("an admitted pair stays in the list where its boxes no longer meet", "[contact][admission]",
+                       ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();
     options.skin = 0.01;
     Mover<Dim> mover(two_tiles<Dim>(), options);
@@ -137,7 +146,8 @@ TEMPLATE_TEST_CASE_SIG("an admitted pair stays in the list where its boxes no lo
     CHECK(mover.move_to(at<Dim>(-3.0, 0.1)));
 }
 
-TEMPLATE_TEST_CASE_SIG("a refused pair stays refused through rebuilds of the list", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a refused pair stays refused through rebuilds of the list", "[contact][admission]", ((int Dim), Dim),
+                       2, 3) {
     Mover<Dim> mover(two_tiles<Dim>(), wide_skin());
     mover.search(at<Dim>(-0.7, 0.0));
     mover.move_to(at<Dim>(-0.2, 0.0));
@@ -146,7 +156,8 @@ TEMPLATE_TEST_CASE_SIG("a refused pair stays refused through rebuilds of the lis
     CHECK(mover.contact.report().lost_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted as lost and not admitted", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted as lost and not admitted",
+                       "[contact][admission]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();
     options.skin = 0.01;
     Mover<Dim> mover(two_tiles<Dim>(), options);
@@ -160,7 +171,8 @@ TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted 
     CHECK_FALSE(pushes(mover));
 }
 
-TEMPLATE_TEST_CASE_SIG("a pair that is first seen beside its partner, below the plane, may become a contact", "[contact][admission]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a pair that is first seen beside its partner, below the plane, may become a contact",
+                       "[contact][admission]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();
     options.skin = 0.5;
     Mover<Dim> mover(two_tiles<Dim>(), options);

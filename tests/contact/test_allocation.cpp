@@ -27,7 +27,8 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 using namespace abut;
 using namespace abut::test;
 
-TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work arrays have grown", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work arrays have grown", "[contact][path]",
+                       ((int Dim), Dim), 2, 3) {
     std::mt19937 random(21);
     const auto surface = random_surface<Dim>(random, 30);
     contact::ContactOptions options;

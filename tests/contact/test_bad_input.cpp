@@ -32,15 +32,29 @@ TEMPLATE_TEST_CASE_SIG("a good surface passes the check", "[contact][errors]", (
     CHECK_NOTHROW(contact::check(contact::Surface<Dim>{}.view()));
 }
 
-TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong with it", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong with it", "[contact][errors]",
+                       ((int Dim), Dim), 2, 3) {
     auto surface = two_tiles<Dim>();
     std::string says = "face 1";
-    SECTION("arrays of different sizes") { surface.depth.pop_back(); says = "`depth` has 1"; }
-    SECTION("an empty row table") { surface.face_offsets.clear(); says = "`face_offsets` has 0"; }
+    SECTION("arrays of different sizes") {
+        surface.depth.pop_back();
+        says = "`depth` has 1";
+    }
+    SECTION("an empty row table") {
+        surface.face_offsets.clear();
+        says = "`face_offsets` has 0";
+    }
     SECTION("a vertex that does not exist") { surface.face_vertices.back() = 99; }
     SECTION("a negative vertex") { surface.face_vertices.back() = -1; }
     SECTION("a corner that is not a number") { surface.vertices.back()[0] = not_a_number; }
-    SECTION("too few corners") { surface.face_vertices.pop_back(); surface.face_offsets.back() -= 1; if (Dim == 3) { surface.face_vertices.pop_back(); surface.face_offsets.back() -= 1; } }
+    SECTION("too few corners") {
+        surface.face_vertices.pop_back();
+        surface.face_offsets.back() -= 1;
+        if (Dim == 3) {
+            surface.face_vertices.pop_back();
+            surface.face_offsets.back() -= 1;
+        }
+    }
     SECTION("no area") { surface.area[1] = 0.0; }
     SECTION("an area that is not a number") { surface.area[1] = not_a_number; }
     SECTION("a centroid that is not a number") { surface.centroid[1][0] = not_a_number; }
@@ -49,12 +63,30 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
     SECTION("a negative depth") { surface.depth[1] = -1e-9; }
     SECTION("a depth that is not a number") { surface.depth[1] = not_a_number; }
     SECTION("no depth") { surface.depth[1] = 0.0; }
-    SECTION("an area that is not that of the corners") { surface.area[1] *= 1.001; says = "face 1 has the area"; }
-    SECTION("a centroid that is not that of the corners") { surface.centroid[1][0] += 1e-6; says = "centroid 1e-06 m away"; }
-    SECTION("a normal that is not that of the corners") { surface.normal[1] = tilted<Dim>(); says = "face 1 has a normal whose cosine"; }
-    SECTION("offsets that do not begin at 0") { surface.face_offsets.front() = 1; says = "begins with 1"; }
-    SECTION("offsets that fall") { surface.face_offsets[1] = surface.face_offsets[2] + 1; says = "falls after face 1"; }
-    SECTION("offsets that end too early") { surface.face_vertices.push_back(0); says = "ends with"; }
+    SECTION("an area that is not that of the corners") {
+        surface.area[1] *= 1.001;
+        says = "face 1 has the area";
+    }
+    SECTION("a centroid that is not that of the corners") {
+        surface.centroid[1][0] += 1e-6;
+        says = "centroid 1e-06 m away";
+    }
+    SECTION("a normal that is not that of the corners") {
+        surface.normal[1] = tilted<Dim>();
+        says = "face 1 has a normal whose cosine";
+    }
+    SECTION("offsets that do not begin at 0") {
+        surface.face_offsets.front() = 1;
+        says = "begins with 1";
+    }
+    SECTION("offsets that fall") {
+        surface.face_offsets[1] = surface.face_offsets[2] + 1;
+        says = "falls after face 1";
+    }
+    SECTION("offsets that end too early") {
+        surface.face_vertices.push_back(0);
+        says = "ends with";
+    }
     SECTION("a negative stiffness") { surface.stiffness[1] = -1.0; }
     SECTION("no stiffness") { surface.stiffness[1] = 0.0; }
     SECTION("a stiffness that is not a number") { surface.stiffness[1] = not_a_number; }
@@ -79,7 +111,8 @@ TEST_CASE("a face that is not convex is refused", "[contact][errors]") {
 TEST_CASE("a face of too many corners is refused", "[contact][errors]") {
     contact::Surface<3> surface;
     std::vector<Vector<3>> corners;
-    for (int i = 0; i <= geometry::max_polygon_vertices; ++i) corners.emplace_back(std::cos(0.3 * i), std::sin(0.3 * i), 0.0);
+    for (int i = 0; i <= geometry::max_polygon_vertices; ++i)
+        corners.emplace_back(std::cos(0.3 * i), std::sin(0.3 * i), 0.0);
     surface.append(corners, 0.1, 1.0, 0);
     CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 0") && Contains("17 corners"));
 }
@@ -88,22 +121,53 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
     const auto surface = two_tiles<Dim>();
     contact::ContactOptions options;
     std::string says;
-    SECTION("four points") { options.quadrature = 4; says = "quadrature"; }
-    SECTION("minus one points") { options.quadrature = -1; says = "quadrature"; }
-    SECTION("facing away") { options.facing_cosine = 0.0; says = "facing_cosine"; }
-    SECTION("no angle") { options.facing_cosine = -1.1; says = "facing_cosine"; }
-    SECTION("angle not a number") { options.facing_cosine = not_a_number; says = "facing_cosine"; }
-    SECTION("negative skin") { options.skin = -0.1; says = "skin"; }
-    SECTION("skin not a number") { options.skin = not_a_number; says = "skin"; }
-    SECTION("endless skin") { options.skin = std::numeric_limits<double>::infinity(); says = "skin"; }
-    SECTION("warning not a number") { options.compression_warning = not_a_number; says = "compression_warning"; }
-    SECTION("no compression") { options.compression_limit = 0.0; says = "compression_limit"; }
+    SECTION("four points") {
+        options.quadrature = 4;
+        says = "quadrature";
+    }
+    SECTION("minus one points") {
+        options.quadrature = -1;
+        says = "quadrature";
+    }
+    SECTION("facing away") {
+        options.facing_cosine = 0.0;
+        says = "facing_cosine";
+    }
+    SECTION("no angle") {
+        options.facing_cosine = -1.1;
+        says = "facing_cosine";
+    }
+    SECTION("angle not a number") {
+        options.facing_cosine = not_a_number;
+        says = "facing_cosine";
+    }
+    SECTION("negative skin") {
+        options.skin = -0.1;
+        says = "skin";
+    }
+    SECTION("skin not a number") {
+        options.skin = not_a_number;
+        says = "skin";
+    }
+    SECTION("endless skin") {
+        options.skin = std::numeric_limits<double>::infinity();
+        says = "skin";
+    }
+    SECTION("warning not a number") {
+        options.compression_warning = not_a_number;
+        says = "compression_warning";
+    }
+    SECTION("no compression") {
+        options.compression_limit = 0.0;
+        says = "compression_limit";
+    }
     using contact::Contact;
     CHECK_THROWS_AS(Contact<Dim>(surface.view(), options), std::invalid_argument);
     CHECK_THROWS_WITH(Contact<Dim>(surface.view(), options), Contains(says));
 }
 
-TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused with both faces and both numbers", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused with both faces and both numbers",
+                       "[contact][errors]", ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>();
     contact::ContactOptions options;
     options.skin = 10.0;
@@ -116,10 +180,12 @@ TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused wi
     u[1] = -(0.1 + 2.0 * 0.6 + 1e-6) * up<Dim>();
     CHECK_THROWS(mover.move_to(u));
     u[1] = -(0.1 + 2.5 * 0.6) * up<Dim>();
-    CHECK_THROWS_WITH(mover.move_to(u), Contains("faces 0 and 1") && Contains("2.5 times") && Contains("2 is allowed") && Contains("compression_limit"));
+    CHECK_THROWS_WITH(mover.move_to(u), Contains("faces 0 and 1") && Contains("2.5 times") && Contains("2 is allowed") &&
+                                            Contains("compression_limit"));
 }
 
-TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its face", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its face", "[contact][errors]", ((int Dim), Dim),
+                       2, 3) {
     const auto surface = two_tiles<Dim>();
     Mover<Dim> mover(surface, {});
     auto u = at_rest(surface);
@@ -128,7 +194,8 @@ TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its fa
     CHECK_THROWS_WITH(mover.search(u), Contains("face 1") && Contains("not finite"));
 }
 
-TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both sizes", "[contact][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both sizes", "[contact][errors]",
+                       ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {});
     auto u = at_rest(surface);

@@ -24,7 +24,8 @@ std::vector<std::pair<std::int32_t, std::int32_t>> facing_pairs(const contact::S
     for (std::int32_t i = 0; i < surface.size(); ++i)
         for (std::int32_t j = i + 1; j < surface.size(); ++j) {
             const bool both_rigid = std::isinf(surface.stiffness[i]) && std::isinf(surface.stiffness[j]);
-            if (surface.body[i] != surface.body[j] && !both_rigid && surface.normal[i].dot(surface.normal[j]) < -0.5) pairs.emplace_back(i, j);
+            if (surface.body[i] != surface.body[j] && !both_rigid && surface.normal[i].dot(surface.normal[j]) < -0.5)
+                pairs.emplace_back(i, j);
         }
     return pairs;
 }
@@ -51,8 +52,8 @@ contact::Surface<Dim> pressed_grids(double depth) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("flat faces pressed into each other, whose own boxes are disjoint, are found by every broad phase", "[contact][candidates]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("flat faces pressed into each other, whose own boxes are disjoint, are found by every broad phase",
+                       "[contact][candidates]", ((int Dim), Dim), 2, 3) {
     const BroadPhase method = GENERATE(from_range(back_ends));
     const double face_size = 1.0 / 7.0;
     const double depth = face_size * GENERATE(0.001, 0.002, 0.005, 0.01, 0.02, 0.04);
@@ -71,8 +72,9 @@ TEMPLATE_TEST_CASE_SIG("flat faces pressed into each other, whose own boxes are 
     CHECK(active > 10);
 }
 
-TEMPLATE_TEST_CASE_SIG("candidates hold every pair that is active anywhere along a straight motion, obstacles and tilted faces included",
-                       "[contact][candidates]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "candidates hold every pair that is active anywhere along a straight motion, obstacles and tilted faces included",
+    "[contact][candidates]", ((int Dim), Dim), 2, 3) {
     static constexpr int trials = 30, samples = 200;
     std::mt19937 random(11);
     int active = 0;
@@ -82,7 +84,9 @@ TEMPLATE_TEST_CASE_SIG("candidates hold every pair that is active anywhere along
         for (const double sign : {1.0, -1.0}) {
             Vector<Dim> normal = sign * up<Dim>();
             normal[0] = uniform(random, -0.6, 0.6);
-            contact::append(surface, contact::plane_obstacle<Dim>(random_vector<Dim>(random, 0.3), normal, uniform(random, 0.5, 20.0)), sign > 0 ? 2 : 3);
+            contact::append(
+                surface, contact::plane_obstacle<Dim>(random_vector<Dim>(random, 0.3), normal, uniform(random, 0.5, 20.0)),
+                sign > 0 ? 2 : 3);
         }
         const auto u_0 = random_displacement(random, surface, 1.0), u_1 = random_displacement(random, surface, 1.0);
         const auto found = contact::find_candidates<Dim>(surface.view(), u_0, u_1, {}, 0.0);
@@ -96,14 +100,16 @@ TEMPLATE_TEST_CASE_SIG("candidates hold every pair that is active anywhere along
                 if (g >= 0.0 || g <= -surface.depth[pair.face_1] - surface.depth[pair.face_2]) continue;
                 if (reference.patch(pair, u).area <= 0.0) continue;
                 ++active;
-                if (!holds(found, pair.face_1, pair.face_2)) FAIL("pair " << pair.face_1 << ", " << pair.face_2 << " is missed at " << tau);
+                if (!holds(found, pair.face_1, pair.face_2))
+                    FAIL("pair " << pair.face_1 << ", " << pair.face_2 << " is missed at " << tau);
             }
         }
     }
     CHECK(active > 1000);
 }
 
-TEMPLATE_TEST_CASE_SIG("the list stays a superset while no face moves by more than half the skin", "[contact][candidates]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the list stays a superset while no face moves by more than half the skin", "[contact][candidates]",
+                       ((int Dim), Dim), 2, 3) {
     std::mt19937 random(12);
     const double skin = 0.4;
     int active = 0, beyond_the_bare_list = 0;
@@ -122,7 +128,8 @@ TEMPLATE_TEST_CASE_SIG("the list stays a superset while no face moves by more th
                 if (reference.patch(pair, u).area <= 0.0) continue;
                 ++active;
                 if (!holds(bare, pair.face_1, pair.face_2)) ++beyond_the_bare_list;
-                if (!holds(found, pair.face_1, pair.face_2)) FAIL("pair " << pair.face_1 << ", " << pair.face_2 << " is missed");
+                if (!holds(found, pair.face_1, pair.face_2))
+                    FAIL("pair " << pair.face_1 << ", " << pair.face_2 << " is missed");
             }
         }
     }
@@ -151,7 +158,8 @@ TEMPLATE_TEST_CASE_SIG("every broad phase gives the same list", "[contact][candi
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a list covers motions up to half its skin, and nothing before the first search", "[contact][candidates]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a list covers motions up to half its skin, and nothing before the first search",
+                       "[contact][candidates]", ((int Dim), Dim), 2, 3) {
     contact::Surface<Dim> surface;
     surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.1, 1.0, 0);
     surface.append(tile<Dim>(up<Dim>(), -up<Dim>(), 1.5), 0.1, 1.0, 1);

@@ -5,7 +5,8 @@
 using namespace abut;
 using namespace abut::test;
 
-TEMPLATE_TEST_CASE_SIG("a plane obstacle is a flat face of the wanted size that looks along its normal", "[contact][obstacle]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a plane obstacle is a flat face of the wanted size that looks along its normal",
+                       "[contact][obstacle]", ((int Dim), Dim), 2, 3) {
     std::mt19937 random(3);
     for (int trial = 0; trial < 20; ++trial) {
         const Vector<Dim> point = random_vector<Dim>(random, 5.0);
@@ -24,7 +25,8 @@ TEMPLATE_TEST_CASE_SIG("a plane obstacle is a flat face of the wanted size that 
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a plane obstacle without a direction or a size is refused", "[contact][obstacle]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a plane obstacle without a direction or a size is refused", "[contact][obstacle]", ((int Dim), Dim),
+                       2, 3) {
     const Vector<Dim> origin = Vector<Dim>::Zero();
     CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, origin, 1.0), std::invalid_argument);
     CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), 0.0), std::invalid_argument);
@@ -32,7 +34,8 @@ TEMPLATE_TEST_CASE_SIG("a plane obstacle without a direction or a size is refuse
     CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), std::nan("")), std::invalid_argument);
 }
 
-TEMPLATE_TEST_CASE_SIG("an obstacle pushes a face out to its own plane: the correction of a covered face is -g n", "[contact][obstacle]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("an obstacle pushes a face out to its own plane: the correction of a covered face is -g n",
+                       "[contact][obstacle]", ((int Dim), Dim), 2, 3) {
     const double pressed = 0.03;
     contact::Surface<Dim> surface;
     surface.append(tile<Dim>(Vector<Dim>::Zero(), -up<Dim>(), 0.5), 0.2, 2.0, 0);

@@ -18,7 +18,8 @@ contact::Surface<Dim> two_tiles(double stiffness_1, double stiffness_2) {
 }
 
 template <int Dim>
-contact::ContactPair<Dim> pair_of(const contact::Surface<Dim>& surface, std::int32_t face_1, std::int32_t face_2, Weights weights) {
+contact::ContactPair<Dim> pair_of(const contact::Surface<Dim>& surface, std::int32_t face_1, std::int32_t face_2,
+                                  Weights weights) {
     contact::PairList<Dim> list;
     list.append(surface.view(), face_1, face_2, weights);
     return list.pairs()[0];
@@ -26,7 +27,8 @@ contact::ContactPair<Dim> pair_of(const contact::Surface<Dim>& surface, std::int
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the softer side of a pair takes the larger share: theta_1 = k_2 / (k_1 + k_2)", "[contact][weights]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the softer side of a pair takes the larger share: theta_1 = k_2 / (k_1 + k_2)", "[contact][weights]",
+                       ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>(1.0, 3.0);
     const auto pair = pair_of(surface, 0, 1, Weights::stiffness);
     CHECK(pair.theta_1 == Approx(0.75).epsilon(1e-15));
@@ -34,15 +36,17 @@ TEMPLATE_TEST_CASE_SIG("the softer side of a pair takes the larger share: theta_
     CHECK(pair_of(surface, 0, 1, Weights::half).theta_1 == 0.5);
 }
 
-TEMPLATE_TEST_CASE_SIG("equal stiffness shares a pair equally, whatever the weights", "[contact][weights]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("equal stiffness shares a pair equally, whatever the weights", "[contact][weights]", ((int Dim), Dim),
+                       2, 3) {
     const Weights weights = GENERATE(Weights::half, Weights::stiffness);
     const auto pair = pair_of(two_tiles<Dim>(7.0, 7.0), 0, 1, weights);
     CHECK(pair.theta_1 == 0.5);
     CHECK(pair.theta_2 == 0.5);
 }
 
-TEMPLATE_TEST_CASE_SIG("against a rigid face the deformable one takes the whole correction, on either side and with either weights",
-                       "[contact][weights]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "against a rigid face the deformable one takes the whole correction, on either side and with either weights",
+    "[contact][weights]", ((int Dim), Dim), 2, 3) {
     const Weights weights = GENERATE(Weights::half, Weights::stiffness);
     const auto rigid_second = pair_of(two_tiles<Dim>(1.0, rigid), 0, 1, weights);
     CHECK(rigid_second.theta_1 == 1.0);
@@ -54,7 +58,8 @@ TEMPLATE_TEST_CASE_SIG("against a rigid face the deformable one takes the whole 
     CHECK(nearly.theta_1 == Approx(1.0).epsilon(1e-14));
 }
 
-TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and changes nothing else", "[contact][pairs]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and changes nothing else", "[contact][pairs]",
+                       ((int Dim), Dim), 2, 3) {
     std::mt19937 random(5);
     for (int trial = 0; trial < 50; ++trial) {
         const auto surface = random_surface<Dim>(random, 1);
@@ -75,11 +80,13 @@ TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and chan
         const auto shared_back = list.shared_area(backward, swapped.shift, geometry::AreaMethod::fast);
         CHECK(shared.area == Approx(shared_back.area).margin(1e-14));
         // Moving face 2 one way is moving face 1 the other way.
-        CHECK((forward.frame.lift(shared.shift_derivative) + backward.frame.lift(shared_back.shift_derivative)).norm() < 1e-12);
+        CHECK((forward.frame.lift(shared.shift_derivative) + backward.frame.lift(shared_back.shift_derivative)).norm() <
+              1e-12);
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("the pair normal halves the angle between the faces; an obstacle's face gives its own", "[contact][pairs]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the pair normal halves the angle between the faces; an obstacle's face gives its own",
+                       "[contact][pairs]", ((int Dim), Dim), 2, 3) {
     const double angle = 0.4;
     const Vector<Dim> tilted = -(std::cos(angle) * up<Dim>() + std::sin(angle) * axis<Dim>(0));
     const Vector<Dim> halfway = std::cos(0.5 * angle) * up<Dim>() + std::sin(0.5 * angle) * axis<Dim>(0);
@@ -92,7 +99,8 @@ TEMPLATE_TEST_CASE_SIG("the pair normal halves the angle between the faces; an o
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("faces look at each other from 120 degrees between their normals on", "[contact][pairs]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("faces look at each other from 120 degrees between their normals on", "[contact][pairs]",
+                       ((int Dim), Dim), 2, 3) {
     const double degrees = GENERATE(0.0, 90.0, 119.9, 120.1, 180.0);
     const double angle = degrees * std::numbers::pi / 180.0;
     contact::Surface<Dim> surface;
@@ -102,14 +110,16 @@ TEMPLATE_TEST_CASE_SIG("faces look at each other from 120 degrees between their 
     CHECK(contact::are_facing<Dim>(surface.view(), 1, 0, contact::ContactOptions{}.facing_cosine) == (degrees > 120.0));
 }
 
-TEMPLATE_TEST_CASE_SIG("a gap is what lies between the centroids along the normal, at rest and displaced", "[contact][pairs]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a gap is what lies between the centroids along the normal, at rest and displaced",
+                       "[contact][pairs]", ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>(1.0, 1.0);
     contact::PairList<Dim> list;
     list.append(surface.view(), 0, 1, Weights::half);
     const Vector<Dim> zero = Vector<Dim>::Zero();
     const Vector<Dim> sideways = 0.25 * axis<Dim>(0);
     CHECK(list.position(surface.view(), list.pairs()[0], zero, zero).gap == Approx(0.01).epsilon(1e-14));
-    CHECK(list.position(surface.view(), list.pairs()[0], zero, sideways - 0.03 * up<Dim>()).gap == Approx(-0.02).epsilon(1e-14));
+    CHECK(list.position(surface.view(), list.pairs()[0], zero, sideways - 0.03 * up<Dim>()).gap ==
+          Approx(-0.02).epsilon(1e-14));
     const auto at = list.position(surface.view(), list.pairs()[0], zero, sideways);
     CHECK(at.shift.norm() == Approx(0.25).epsilon(1e-15));
     CHECK(list.shared_area(list.pairs()[0], at.shift, geometry::AreaMethod::fast).area == Approx(0.75).epsilon(1e-15));

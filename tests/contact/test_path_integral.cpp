@@ -37,7 +37,9 @@ struct Host {
 
     Host(std::mt19937& random, int n_faces) {
         const Eigen::Index n = n_faces * Dim;
-        const auto noise = [&](double size) { return MatrixXd(MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -size, size); })); };
+        const auto noise = [&](double size) {
+            return MatrixXd(MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -size, size); }));
+        };
         r = MatrixXd::Identity(n, n) + noise(0.2 / n);
         q_cf = noise(1.0 / n);
         q_cc = 10.0 * MatrixXd::Identity(n, n);
@@ -58,14 +60,17 @@ struct Host {
         }
     }
 
-    [[nodiscard]] VectorXd cells_for(const VectorXd& face_displacement) const { return r.partialPivLu().solve(face_displacement); }
+    [[nodiscard]] VectorXd cells_for(const VectorXd& face_displacement) const {
+        return r.partialPivLu().solve(face_displacement);
+    }
     [[nodiscard]] VectorXd free_force(const VectorXd& u) const { return q_cf.transpose() * u + q_ff * (r * u); }
     [[nodiscard]] double potential(const VectorXd& u, const VectorXd& delta) const {
         const VectorXd w = r * u + delta;
         return 0.5 * u.dot(q_cc * u) + u.dot(q_cf * w) + 0.5 * w.dot(q_ff * w);
     }
     /// Mean of F over a straight way; METHOD.md, section 4.
-    [[nodiscard]] VectorXd mean_force(const VectorXd& u_0, const VectorXd& u_1, const VectorXd& mean_delta, const VectorXd& mean_pair_force) const {
+    [[nodiscard]] VectorXd mean_force(const VectorXd& u_0, const VectorXd& u_1, const VectorXd& mean_delta,
+                                      const VectorXd& mean_pair_force) const {
         const VectorXd u = 0.5 * (u_0 + u_1);
         const VectorXd free = q_cc * u + q_cf * (r * u) + r.transpose() * free_force(u);
         return -(free + (q_cf + r.transpose() * q_ff) * mean_delta + r.transpose() * mean_pair_force);
@@ -89,7 +94,9 @@ struct Scene {
         u_1 = host.cells_for(as_column<Dim>(random_displacement(random, surface, 0.4, 0.15)));
         list_pairs();
     }
-    Scene(contact::Surface<Dim> made, std::mt19937 random) : surface(std::move(made)), host(random, surface.size()) { list_pairs(); }
+    Scene(contact::Surface<Dim> made, std::mt19937 random) : surface(std::move(made)), host(random, surface.size()) {
+        list_pairs();
+    }
 
     static contact::Surface<Dim> make_surface(std::mt19937& random, bool with_obstacle, int faces_a_body) {
         auto surface = random_surface<Dim>(random, faces_a_body, 0.4, 0.8);
@@ -101,7 +108,8 @@ struct Scene {
         for (std::int32_t i = 0; i < surface.size(); ++i) {
             local_face.push_back(i);
             for (std::int32_t j = i + 1; j < surface.size(); ++j)
-                if (surface.body[i] != surface.body[j] && surface.normal[i].dot(surface.normal[j]) < -0.5) pairs.emplace_back(i, j);
+                if (surface.body[i] != surface.body[j] && surface.normal[i].dot(surface.normal[j]) < -0.5)
+                    pairs.emplace_back(i, j);
         }
     }
 
@@ -125,11 +133,14 @@ struct Scene {
         const auto result = integral(options);
         const Reference<Dim> reference(surface.view(), pairs, options.weights);
         const auto v = [&](const VectorXd& u) {
-            return host.potential(u, as_column<Dim>(std::span<const Vector<Dim>>(reference.corrections(as_vectors<Dim>(host.r * u)))));
+            return host.potential(
+                u, as_column<Dim>(std::span<const Vector<Dim>>(reference.corrections(as_vectors<Dim>(host.r * u)))));
         };
-        const VectorXd force = host.mean_force(u_0, u_1, as_column<Dim>(result.mean_correction()), as_column<Dim>(result.mean_force()));
+        const VectorXd force =
+            host.mean_force(u_0, u_1, as_column<Dim>(result.mean_correction()), as_column<Dim>(result.mean_force()));
         const double v_0 = v(u_0), v_1 = v(u_1);
-        return std::abs(force.dot(u_1 - u_0) + v_1 - v_0) / (std::abs(v_0) + std::abs(v_1) + force.cwiseAbs().dot((u_1 - u_0).cwiseAbs()));
+        return std::abs(force.dot(u_1 - u_0) + v_1 - v_0) /
+               (std::abs(v_0) + std::abs(v_1) + force.cwiseAbs().dot((u_1 - u_0).cwiseAbs()));
     }
 };
 
@@ -137,8 +148,8 @@ double largest(const VectorXd& x) { return x.lpNorm<Eigen::Infinity>(); }
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("mean corrections and pair forces are those of an adaptive quadrature of the formulas of the method", "[contact][path]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("mean corrections and pair forces are those of an adaptive quadrature of the formulas of the method",
+                       "[contact][path]", ((int Dim), Dim), 2, 3) {
     const int seed = GENERATE(1, 2, 3);
     ContactOptions options;
     options.weights = GENERATE(Weights::stiffness, Weights::half);
@@ -163,8 +174,9 @@ TEMPLATE_TEST_CASE_SIG("mean corrections and pair forces are those of an adaptiv
     CHECK(largest(as_column<Dim>(result.mean_force()) - expected.tail(n)) < 1e-11 * largest(expected.tail(n)));
 }
 
-TEMPLATE_TEST_CASE_SIG("the work of the mean force is the change of the potential to round-off, for any way through any contact", "[contact][path]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "the work of the mean force is the change of the potential to round-off, for any way through any contact",
+    "[contact][path]", ((int Dim), Dim), 2, 3) {
     ContactOptions options;
     options.weights = GENERATE(Weights::stiffness, Weights::half);
     options.area = GENERATE(geometry::AreaMethod::fast, geometry::AreaMethod::exact);
@@ -174,8 +186,10 @@ TEMPLATE_TEST_CASE_SIG("the work of the mean force is the change of the potentia
     CHECK(worst < 1e-14);
 }
 
-TEMPLATE_TEST_CASE_SIG("the work is exact with hundreds of pairs at once, enough to be integrated concurrently, and the same bits come out every time",
-                       "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "the work is exact with hundreds of pairs at once, enough to be integrated concurrently, and the same bits come out "
+    "every time",
+    "[contact][path]", ((int Dim), Dim), 2, 3) {
     for (int seed = 0; seed < 5; ++seed) {
         const Scene<Dim> scene(seed, true, 25);
         const auto once = scene.integral({}), again = scene.integral({});
@@ -188,11 +202,15 @@ TEMPLATE_TEST_CASE_SIG("the work is exact with hundreds of pairs at once, enough
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("without events, or with too few points, the work misses the change of the potential by orders of magnitude", "[contact][path]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "without events, or with too few points, the work misses the change of the potential by orders of magnitude",
+    "[contact][path]", ((int Dim), Dim), 2, 3) {
     ContactOptions worse;
     SECTION("events off") { worse.events = false; }
-    SECTION("events off, three points") { worse.events = false; worse.quadrature = 3; }
+    SECTION("events off, three points") {
+        worse.events = false;
+        worse.quadrature = 3;
+    }
     SECTION("one point too few") { worse.quadrature = Dim - 1; }
     double exact = 0.0, defect = 0.0;
     for (int seed = 0; seed < 20; ++seed) {
@@ -204,7 +222,8 @@ TEMPLATE_TEST_CASE_SIG("without events, or with too few points, the work misses 
     CHECK(defect > 1e6 * exact);
 }
 
-TEMPLATE_TEST_CASE_SIG("cutting at the events of coupled pairs gives what cutting at all events of the scene gives", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("cutting at the events of coupled pairs gives what cutting at all events of the scene gives",
+                       "[contact][path]", ((int Dim), Dim), 2, 3) {
     double worst = 0.0;
     for (int seed = 0; seed < 100; ++seed) {
         const Scene<Dim> scene(seed);
@@ -216,7 +235,8 @@ TEMPLATE_TEST_CASE_SIG("cutting at the events of coupled pairs gives what cuttin
     CHECK(worst < 1e-14);
 }
 
-TEMPLATE_TEST_CASE_SIG("the forces of a pair are opposite, those of all pairs sum to zero", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the forces of a pair are opposite, those of all pairs sum to zero", "[contact][path]",
+                       ((int Dim), Dim), 2, 3) {
     for (int seed = 0; seed < 50; ++seed) {
         Scene<Dim> scene(seed);
         const auto all = scene.integral({});
@@ -230,12 +250,14 @@ TEMPLATE_TEST_CASE_SIG("the forces of a pair are opposite, those of all pairs su
         for (const auto& pair : std::vector(scene.pairs)) {
             scene.pairs = {pair};
             const auto alone = scene.integral({});
-            CHECK(alone.mean_force()[static_cast<std::size_t>(pair.first)] == -alone.mean_force()[static_cast<std::size_t>(pair.second)]);
+            CHECK(alone.mean_force()[static_cast<std::size_t>(pair.first)] ==
+                  -alone.mean_force()[static_cast<std::size_t>(pair.second)]);
         }
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("swapping the numbers of the two bodies leaves the forces on them as they are", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("swapping the numbers of the two bodies leaves the forces on them as they are", "[contact][path]",
+                       ((int Dim), Dim), 2, 3) {
     for (int seed = 0; seed < 20; ++seed) {
         const Scene<Dim> scene(seed);
         auto swapped = scene;
@@ -245,16 +267,19 @@ TEMPLATE_TEST_CASE_SIG("swapping the numbers of the two bodies leaves the forces
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a frozen overlap conserves energy exactly where the overlap does not change", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a frozen overlap conserves energy exactly where the overlap does not change", "[contact][path]",
+                       ((int Dim), Dim), 2, 3) {
     // Small faces of body 1 slide inside large faces of body 0: A is their own area all along.
     std::mt19937 random(7);
     ContactOptions frozen;
     frozen.overlap = OverlapMode::frozen;
     for (int trial = 0; trial < 20; ++trial) {
         contact::Surface<Dim> surface;
-        for (int i = 0; i < 3; ++i) surface.append(tile<Dim>(8.0 * i * axis<Dim>(0), up<Dim>(), 3.0), 0.5, uniform(random, 1.0, 5.0), 0);
+        for (int i = 0; i < 3; ++i)
+            surface.append(tile<Dim>(8.0 * i * axis<Dim>(0), up<Dim>(), 3.0), 0.5, uniform(random, 1.0, 5.0), 0);
         for (int i = 0; i < 6; ++i)
-            surface.append(random_face<Dim>(random, 8.0 * (i % 3) * axis<Dim>(0), -up<Dim>(), 0.5), 0.5, uniform(random, 1.0, 5.0), 1);
+            surface.append(random_face<Dim>(random, 8.0 * (i % 3) * axis<Dim>(0), -up<Dim>(), 0.5), 0.5,
+                           uniform(random, 1.0, 5.0), 1);
         Scene<Dim> scene(surface, random);
         scene.u_0 = scene.host.cells_for(as_column<Dim>(random_displacement(random, surface, 0.5, 0.05)));
         scene.u_1 = scene.host.cells_for(as_column<Dim>(random_displacement(random, surface, 0.5, 0.05)));
@@ -266,7 +291,8 @@ TEMPLATE_TEST_CASE_SIG("a frozen overlap conserves energy exactly where the over
     CHECK(defect > 1e-6);
 }
 
-TEMPLATE_TEST_CASE_SIG("pairs apart or not admitted give no correction, no force and no event", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("pairs apart or not admitted give no correction, no force and no event", "[contact][path]",
+                       ((int Dim), Dim), 2, 3) {
     Scene<Dim> scene(4, false);
     auto list = scene.pair_list(Weights::stiffness);
     contact::PathIntegral<Dim> result({});
@@ -287,13 +313,16 @@ TEMPLATE_TEST_CASE_SIG("pairs apart or not admitted give no correction, no force
     CHECK(largest(as_column<Dim>(result.mean_force())) == 0.0);
 }
 
-TEMPLATE_TEST_CASE_SIG("what an instance has integrated before leaves no trace in its next result", "[contact][path]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("what an instance has integrated before leaves no trace in its next result", "[contact][path]",
+                       ((int Dim), Dim), 2, 3) {
     const Scene<Dim> first(1), second(2);
     contact::PathIntegral<Dim> used({});
     for (const Scene<Dim>* scene : {&first, &second}) {
         const auto w_0 = as_vectors<Dim>(scene->host.r * scene->u_0), w_1 = as_vectors<Dim>(scene->host.r * scene->u_1);
-        const auto y_0 = as_vectors<Dim>(scene->host.free_force(scene->u_0)), y_1 = as_vectors<Dim>(scene->host.free_force(scene->u_1));
-        used.integrate(scene->surface.view(), scene->pair_list(Weights::stiffness), scene->local_face, scene->host.coupling, {w_0, w_1, y_0, y_1});
+        const auto y_0 = as_vectors<Dim>(scene->host.free_force(scene->u_0)),
+                   y_1 = as_vectors<Dim>(scene->host.free_force(scene->u_1));
+        used.integrate(scene->surface.view(), scene->pair_list(Weights::stiffness), scene->local_face, scene->host.coupling,
+                       {w_0, w_1, y_0, y_1});
     }
     const auto fresh = second.integral({});
     CHECK(as_column<Dim>(used.mean_force()) == as_column<Dim>(fresh.mean_force()));

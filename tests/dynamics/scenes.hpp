@@ -36,7 +36,8 @@ std::vector<NamedMesh<Dim>> boxes(int cells = 3) {
                                                                        {CellShape::tetrahedron, "tetrahedra"},
                                                                        {CellShape::prism, "prisms"},
                                                                        {CellShape::pyramid, "pyramids"}}};
-        for (const auto& [shape, name] : shapes) meshes.push_back({name, mesh::structured_box<3>(lower, upper, {cells + 1, cells, cells}, shape)});
+        for (const auto& [shape, name] : shapes)
+            meshes.push_back({name, mesh::structured_box<3>(lower, upper, {cells + 1, cells, cells}, shape)});
     }
     meshes.push_back({"gmsh box", mesh::box<Dim>({.lower = lower, .upper = upper, .size = 1.2 / cells})});
     return meshes;
@@ -51,8 +52,10 @@ inline mesh::Mesh<3> unit_cylinder(double size, int variant = 0, const Vector<3>
 }
 template <int Dim>
 mesh::Mesh<Dim> round_body(double size) {
-    if constexpr (Dim == 2) return unit_disc(size);
-    else return unit_cylinder(size);
+    if constexpr (Dim == 2)
+        return unit_disc(size);
+    else
+        return unit_cylinder(size);
 }
 
 template <int Dim>
@@ -92,9 +95,13 @@ inline double largest(std::span<const double> values) {
 }
 
 template <int Dim>
-std::span<const Vector<Dim>> vectors(const std::vector<double>& values) { return dynamics::as_vectors<Dim>(std::span<const double>(values)); }
+std::span<const Vector<Dim>> vectors(const std::vector<double>& values) {
+    return dynamics::as_vectors<Dim>(std::span<const double>(values));
+}
 template <int Dim>
-std::span<Vector<Dim>> vectors(std::vector<double>& values) { return dynamics::as_vectors<Dim>(std::span<double>(values)); }
+std::span<Vector<Dim>> vectors(std::vector<double>& values) {
+    return dynamics::as_vectors<Dim>(std::span<double>(values));
+}
 
 /// K, column by column.
 template <int Dim>
@@ -120,8 +127,10 @@ struct Scene {
     dynamics::Ledger<Dim> ledger;
 
     /// dt < 0: that part of the stable step.
-    Scene(mesh::Mesh<Dim> made, dynamics::SolidOptions<Dim> options, const std::vector<Vector<Dim>>& velocity, double dt = -0.9)
-        : mesh(std::move(made)), solid(mesh, std::move(options)),
+    Scene(mesh::Mesh<Dim> made, dynamics::SolidOptions<Dim> options, const std::vector<Vector<Dim>>& velocity,
+          double dt = -0.9)
+        : mesh(std::move(made)),
+          solid(mesh, std::move(options)),
           memm(solid, std::vector<double>(solid.size(), 0.0), dynamics::uniform_momentum<Dim>(solid, velocity),
                dt > 0.0 ? dt : -dt * dynamics::stable_step(solid).dt) {
         record();
@@ -150,20 +159,23 @@ dynamics::SolidOptions<Dim> bodies(int n, const contact::ContactOptions& contact
 /// The two discs of CASES.md: R = 1, v = +-0.05, gap 0.02, meshes that do not match.
 inline mesh::Mesh<2> two_discs(double offset, double size = 0.25, double gap = 0.02) {
     const double x = std::sqrt(4.0 - offset * offset);  // centres at the distance 2
-    return together(unit_disc(size, 0, {-0.5 * (x + gap), -0.5 * offset}), unit_disc(size, 1, {0.5 * (x + gap), 0.5 * offset}));
+    return together(unit_disc(size, 0, {-0.5 * (x + gap), -0.5 * offset}),
+                    unit_disc(size, 1, {0.5 * (x + gap), 0.5 * offset}));
 }
 inline const std::vector<Vector<2>> disc_velocities{{0.05, 0.0}, {-0.05, 0.0}};
 
 /// Two small cylinders or boxes of tetrahedra, one above the other, that do not match.
 inline mesh::Mesh<3> two_boxes(int n, double gap = 0.01) {
-    return together(mesh::structured_box<3>({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, {n + 1, n, n - 1}, CellShape::tetrahedron, "lower"),
-                    mesh::structured_box<3>({-0.5, -0.6, gap}, {0.7, 0.65, 1.0}, {n, n - 1, n - 2}, CellShape::tetrahedron, "upper"));
+    return together(
+        mesh::structured_box<3>({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, {n + 1, n, n - 1}, CellShape::tetrahedron, "lower"),
+        mesh::structured_box<3>({-0.5, -0.6, gap}, {0.7, 0.65, 1.0}, {n, n - 1, n - 2}, CellShape::tetrahedron, "upper"));
 }
 inline const std::vector<Vector<3>> box_velocities{{0.02, 0.01, 0.05}, {-0.02, 0.0, -0.05}};
 
 inline mesh::Mesh<3> two_cylinders(double offset, double size = 0.4) {
     const double x = std::sqrt(4.0 - offset * offset);
-    return together(unit_cylinder(size, 0, {-0.5 * (x + 0.02), -0.5 * offset, 0.0}), unit_cylinder(size, 1, {0.5 * (x + 0.02), 0.5 * offset, 0.05}));
+    return together(unit_cylinder(size, 0, {-0.5 * (x + 0.02), -0.5 * offset, 0.0}),
+                    unit_cylinder(size, 1, {0.5 * (x + 0.02), 0.5 * offset, 0.05}));
 }
 inline const std::vector<Vector<3>> cylinder_velocities{{0.05, 0.0, 0.0}, {-0.05, 0.0, 0.0}};
 

@@ -45,7 +45,8 @@ TEST_CASE("materials at the edge of what is allowed are taken", "[dynamics][erro
     CHECK_NOTHROW(dynamics::Solid<2>(mesh, options));
 }
 
-TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothing feels, are refused", "[dynamics][errors]") {
+TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothing feels, are refused",
+          "[dynamics][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
     auto options = bodies<2>(2);
     SECTION("materials") {
@@ -64,7 +65,8 @@ TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothi
     CHECK_THROWS_AS(dynamics::Solid<2>(mesh, options), std::invalid_argument);
 }
 
-TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their group", "[dynamics][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their group", "[dynamics][errors]",
+                       ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
     auto options = bodies<Dim>(1);
     dynamics::DirichletCondition<Dim> condition;
@@ -84,7 +86,9 @@ TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their
         options.boundary.dirichlet.push_back(condition);
     }
     SECTION("no component at all") { options.boundary.dirichlet[0].constraint = dynamics::Constraint::components; }
-    SECTION("a traction where all is prescribed") { options.boundary.traction.push_back({.group = "xmin", .value = Vector<Dim>::Ones(), .history = {}}); }
+    SECTION("a traction where all is prescribed") {
+        options.boundary.traction.push_back({.group = "xmin", .value = Vector<Dim>::Ones(), .history = {}});
+    }
     CHECK_THROWS_AS(dynamics::Solid<Dim>(mesh, options), std::invalid_argument);
     CHECK_THROWS_WITH(dynamics::Solid<Dim>(mesh, options), Contains(says));
 }
@@ -98,7 +102,8 @@ TEST_CASE("an unknown group is answered with the names that exist", "[dynamics][
     CHECK_THROWS_WITH(dynamics::Solid<2>(mesh, options), Contains("xmin") && Contains("ymax"));
 }
 
-TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made", "[dynamics][errors]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made", "[dynamics][errors]", ((int Dim), Dim), 2,
+                       3) {
     std::array<int, Dim> counts;
     counts.fill(4);
     counts[0] = 1;

@@ -36,8 +36,8 @@ double relative_drift(Scene<Dim>& scene, int steps) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equilibrium in the exact affine field", "[dynamics][boundary]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equilibrium in the exact affine field",
+                       "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     const bool by_components = GENERATE(false, true);
     const Neumann neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate);
     const double traction = 0.01;
@@ -69,11 +69,13 @@ TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equili
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a prescribed displacement, whole or by component, is what the face gets", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a prescribed displacement, whole or by component, is what the face gets", "[dynamics][boundary]",
+                       ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.4});
     auto options = one_body<Dim>();
     const Vector<Dim> value = 0.1 * Vector<Dim>::Ones();
-    options.boundary.dirichlet.push_back({.group = "xmin", .constraint = Constraint::full, .components = {}, .value = value, .history = {}});
+    options.boundary.dirichlet.push_back(
+        {.group = "xmin", .constraint = Constraint::full, .components = {}, .value = value, .history = {}});
     auto slide = roller<Dim>("ymax", GENERATE(false, true));
     slide.value = value;
     options.boundary.dirichlet.push_back(slide);
@@ -89,8 +91,8 @@ TEMPLATE_TEST_CASE_SIG("a prescribed displacement, whole or by component, is wha
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the volume times the load at the centroid", "[dynamics][boundary]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the volume times the load at the centroid",
+                       "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.4});
     auto options = one_body<Dim>();
     dynamics::Solid<Dim> bare(mesh, options);
@@ -105,7 +107,8 @@ TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the 
     bare.force(q, bare_force);
     double worst = 0.0, work = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        const Vector<Dim> expected = material.density * mesh.cell_measure[c] * acceleration + mesh.cell_measure[c] * load(mesh.cell_centroid[c]);
+        const Vector<Dim> expected =
+            material.density * mesh.cell_measure[c] * acceleration + mesh.cell_measure[c] * load(mesh.cell_centroid[c]);
         worst = std::max(worst, (vectors<Dim>(force)[c] - vectors<Dim>(bare_force)[c] - expected).norm());
         work += expected.dot(vectors<Dim>(q)[c]);
     }
@@ -113,14 +116,16 @@ TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the 
     CHECK(solid.potential(q) == Approx(bare.potential(q) - work).epsilon(1e-13));
 }
 
-TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, without stress", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, without stress", "[dynamics][boundary]",
+                       ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
     options.acceleration = {-2.0 * Vector<Dim>::Unit(Dim - 1)};
     const double dt = 0.01;
     Scene<Dim> scene(mesh::box<Dim>({.size = 0.4}), options, {Vector<Dim>::Zero()}, dt);
     scene.run(50);
     double worst = 0.0;
-    for (const Vector<Dim>& u : dynamics::as_vectors<Dim>(scene.memm.q())) worst = std::max(worst, std::abs(u[Dim - 1] + 0.5 * 2.0 * 0.25));
+    for (const Vector<Dim>& u : dynamics::as_vectors<Dim>(scene.memm.q()))
+        worst = std::max(worst, std::abs(u[Dim - 1] + 0.5 * 2.0 * 0.25));
     CHECK(worst < 1e-13);  // parabolas are exact
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-13);
 }
@@ -136,7 +141,9 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynam
         driven.constraint = Constraint::components;
         driven.components[1] = true;
     }
-    driven.history = [](double t, const Vector<Dim>& x) { return Vector<Dim>(0.02 * std::sin(4.0 * t + x[1]) * Vector<Dim>::Ones()); };
+    driven.history = [](double t, const Vector<Dim>& x) {
+        return Vector<Dim>(0.02 * std::sin(4.0 * t + x[1]) * Vector<Dim>::Ones());
+    };
     options.boundary.dirichlet = {driven, roller<Dim>("ymin", false)};
     if (driven.constraint == Constraint::components) options.boundary.dirichlet.pop_back();
     options.boundary.traction.push_back({.group = "xmax", .value = 0.003 * Vector<Dim>::Ones(), .history = {}});
@@ -145,12 +152,15 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynam
     CHECK(std::abs(scene.solid.work()) > 1e-2 * scene.ledger.largest_energy());
 }
 
-TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[dynamics][boundary]",
+                       ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
     options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
     dynamics::TractionCondition<Dim> pulse;
     pulse.group = "xmax";
-    pulse.history = [](double t, const Vector<Dim>& x) { return Vector<Dim>(0.01 * std::sin(5.0 * t) * (1.0 + x[1]) * Vector<Dim>::Ones()); };
+    pulse.history = [](double t, const Vector<Dim>& x) {
+        return Vector<Dim>(0.01 * std::sin(5.0 * t) * (1.0 + x[1]) * Vector<Dim>::Ones());
+    };
     options.boundary.traction = {pulse};
     options.boundary.dirichlet.push_back(roller<Dim>("xmin", false));
     Scene<Dim> scene(mesh::box<Dim>({.size = Dim == 2 ? 0.2 : 0.4}), options, {Vector<Dim>::Zero()});
@@ -158,7 +168,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step t
     CHECK(std::abs(scene.solid.work()) > 1e-2 * scene.ledger.largest_energy());
 }
 
-TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exactly while bodies are in contact", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exactly while bodies are in contact",
+                       "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     const Vector<Dim> lower = Vector<Dim>::Zero();
     Vector<Dim> upper = Vector<Dim>::Ones();
     upper[Dim - 1] = 0.5;
@@ -166,8 +177,9 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
     other_lower[Dim - 1] = 0.505;
     other_upper[Dim - 1] = 1.0;
     const std::string axis = Dim == 2 ? "y" : "z";
-    const auto mesh = together(mesh::box<Dim>({.lower = lower, .upper = upper, .size = Dim == 2 ? 0.2 : 0.35, .name = "lower"}),
-                               mesh::box<Dim>({.lower = other_lower, .upper = other_upper, .size = Dim == 2 ? 0.15 : 0.3, .name = "upper"}));
+    const auto mesh = together(
+        mesh::box<Dim>({.lower = lower, .upper = upper, .size = Dim == 2 ? 0.2 : 0.35, .name = "lower"}),
+        mesh::box<Dim>({.lower = other_lower, .upper = other_upper, .size = Dim == 2 ? 0.15 : 0.3, .name = "upper"}));
     auto options = bodies<Dim>(2);
     options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
     dynamics::DirichletCondition<Dim> fixed, driven;
@@ -182,7 +194,9 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
     options.boundary.dirichlet = {fixed, driven};
     dynamics::TractionCondition<Dim> side;
     side.group = "upper.xmax";
-    side.history = [](double t, const Vector<Dim>&) { return Vector<Dim>(0.002 * std::cos(7.0 * t) * Vector<Dim>::Unit(0)); };
+    side.history = [](double t, const Vector<Dim>&) {
+        return Vector<Dim>(0.002 * std::cos(7.0 * t) * Vector<Dim>::Unit(0));
+    };
     options.boundary.traction = {side};
     Scene<Dim> scene(mesh, options, std::vector<Vector<Dim>>(2, Vector<Dim>::Zero()));
     CHECK(relative_drift(scene, 300) < 1e-12);

@@ -30,7 +30,8 @@ std::vector<double> eigenvalues(const mesh::Mesh<Dim>& mesh, Neumann neumann) {
     options.boundary = free_boundary<Dim>(neumann);
     dynamics::Solid<Dim> solid(mesh, options);
     const MatrixXd k = dense_stiffness(solid);
-    const VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(0.5 * (k + k.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
+    const VectorXd values =
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(0.5 * (k + k.transpose()), Eigen::EigenvaluesOnly).eigenvalues();
     return {values.begin(), values.end()};
 }
 
@@ -48,7 +49,8 @@ struct Operators {
     std::vector<double> q;
 
     explicit Operators(Neumann neumann, double size = 0.5)
-        : mesh(round_body<Dim>(size)), ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann)),
+        : mesh(round_body<Dim>(size)),
+          ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann)),
           q(random_state(static_cast<std::size_t>(mesh.n_cells()) * Dim, 3)) {}
 
     std::vector<std::int32_t> some_faces(int step) const {
@@ -67,7 +69,8 @@ std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 zero eigenvalues", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 zero eigenvalues", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
     const Neumann neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate);
     const auto values = eigenvalues(small_unstructured<Dim>(GENERATE(false, true)), neumann);
     const double highest = values.back();
@@ -76,14 +79,16 @@ TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 
     CHECK(values[rigid_motions] > 1e-3 * highest);
 }
 
-TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only translations cost no energy", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only translations cost no energy", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
     const auto values = eigenvalues(small_unstructured<Dim>(false), Neumann::adjacent);
     const double highest = values.back();
     for (std::size_t i = 0; i < Dim; ++i) CHECK(std::abs(values[i]) < 1e-13 * highest);
     CHECK(values[Dim] > 1e-6 * highest);
 }
 
-TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and for every Neumann choice", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and for every Neumann choice", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
     const Neumann neumann = GENERATE(from_range(neumann_choices));
     for (const auto& [name, mesh] : boxes<Dim>(2)) {
         INFO(name);
@@ -96,8 +101,9 @@ TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and fo
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("patch test: under an affine displacement of the whole boundary every cell is in equilibrium and has the exact stress",
-                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "patch test: under an affine displacement of the whole boundary every cell is in equilibrium and has the exact stress",
+    "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
     const Neumann neumann = GENERATE(from_range(neumann_choices));
     const auto values = random_state(Dim * Dim + Dim, 8, 0.1);
     const Matrix<Dim> a = Eigen::Map<const Matrix<Dim>>(values.data());
@@ -137,8 +143,8 @@ TEMPLATE_TEST_CASE_SIG("the potential is 1/2 u.Ku and its gradient K u", "[dynam
     CHECK(operators.ccg.potential(u, {}, {}) == Approx(0.5 * product).epsilon(1e-13));
 }
 
-TEMPLATE_TEST_CASE_SIG("the gradient is the central difference of the potential, with corrections of boundary faces too", "[dynamics][ccg]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the gradient is the central difference of the potential, with corrections of boundary faces too",
+                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     const auto faces = operators.some_faces(3);
     const auto delta = random_vectors<Dim>(faces.size(), 4);
@@ -159,7 +165,8 @@ TEMPLATE_TEST_CASE_SIG("the gradient is the central difference of the potential,
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("the forces of a free body sum to zero, also under corrections and opposite pair forces", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the forces of a free body sum to zero, also under corrections and opposite pair forces",
+                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     const auto faces = operators.some_faces(3);
     const auto delta = random_vectors<Dim>(faces.size(), 4);
@@ -175,7 +182,8 @@ TEMPLATE_TEST_CASE_SIG("the forces of a free body sum to zero, also under correc
     CHECK(total.norm() < 1e-14 * size);
 }
 
-TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no more than its own rounding", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no more than its own rounding", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(Neumann::local_equilibrium);
     auto moved = operators.q;
     for (double& q : moved) q += 600.0;
@@ -187,7 +195,8 @@ TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no mor
     CHECK(worst < 600.0 * 1e-15 * largest(force));
 }
 
-TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of the whole sweep", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of the whole sweep", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)), Dim == 2 ? 0.25 : 0.4);
     const auto u = vectors<Dim>(operators.q);
     auto& ccg = operators.ccg;
@@ -211,11 +220,13 @@ TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of 
     ccg.gradient(u, {}, corrections, vectors<Dim>(whole_force));
     std::vector<Vector<Dim>> cell_force(cells.size());
     ccg.evaluate_cells(ccg.region_of_cells(cells), u, {}, corrections, cell_force);
-    for (std::size_t i = 0; i < cells.size(); ++i) CHECK(cell_force[i] == vectors<Dim>(whole_force)[static_cast<std::size_t>(cells[i])]);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        CHECK(cell_force[i] == vectors<Dim>(whole_force)[static_cast<std::size_t>(cells[i])]);
 }
 
-TEMPLATE_TEST_CASE_SIG("coupling blocks are what unit corrections change in the face forces, and faces left out do not answer", "[dynamics][ccg]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "coupling blocks are what unit corrections change in the face forces, and faces left out do not answer",
+    "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
     const bool fan = Dim == 2 && GENERATE(false, true);
     const Neumann neumann = GENERATE(from_range(neumann_choices));
     mesh::Mesh<Dim> mesh = round_body<Dim>(Dim == 2 ? 0.5 : 0.6);
@@ -244,10 +255,12 @@ TEMPLATE_TEST_CASE_SIG("coupling blocks are what unit corrections change in the 
     CHECK(worst < 1e-14 * size);
     if (fan || Dim == 3) CHECK(coupling.columns.size() > faces.size());
     for (std::int32_t f = 0; f < ccg.n_boundary(); ++f)
-        CHECK(std::is_sorted(coupling.columns.begin() + coupling.offsets[f], coupling.columns.begin() + coupling.offsets[f + 1]));
+        CHECK(std::is_sorted(coupling.columns.begin() + coupling.offsets[f],
+                             coupling.columns.begin() + coupling.offsets[f + 1]));
 }
 
-TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below the motion", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below the motion", "[dynamics][ccg]",
+                       ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     auto& ccg = operators.ccg;
     const auto n = static_cast<std::size_t>(ccg.n_boundary());
@@ -264,7 +277,8 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below
     }
 }
 
-TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = E sin^2 th + 4 eta sin^6(th/2)", "[dynamics][ccg]") {
+TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = E sin^2 th + 4 eta sin^6(th/2)",
+          "[dynamics][ccg]") {
     const int n = 60;
     const double h = 0.1, young = 3.0, density = 2.0;
     const double eta = young * GENERATE(0.3, 1.0, 3.0);
@@ -276,7 +290,8 @@ TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = 
     const auto q = sampled<2>(mesh, [&](const Vector<2>& x) { return Vector<2>(std::cos(theta * x[0] / h + 0.3), 0.0); });
     std::vector<double> force(q.size());
     solid.stiffness_product(q, force);
-    const double omega_squared = (young * std::pow(std::sin(theta), 2) + 4.0 * eta * std::pow(std::sin(0.5 * theta), 6)) / (density * h * h);
+    const double omega_squared =
+        (young * std::pow(std::sin(theta), 2) + 4.0 * eta * std::pow(std::sin(0.5 * theta), 6)) / (density * h * h);
     double worst = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         if (mesh.cell_centroid[c][0] < 5 * h || mesh.cell_centroid[c][0] > (n - 5) * h) continue;  // away from the ends
@@ -286,8 +301,8 @@ TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = 
     CHECK(worst < 1e-12 * young);
 }
 
-TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 2 mu) |f|/|c| and the depth (x_f - x_c) . n", "[dynamics][ccg]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 2 mu) |f|/|c| and the depth (x_f - x_c) . n",
+                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
     const dynamics::Material material{.young = 2.0, .poisson = 0.25, .density = 1.0};  // lambda = mu = 0.8
     const auto mesh = round_body<Dim>(0.5);
     auto options = bodies<Dim>(1);
@@ -299,7 +314,8 @@ TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 
         const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];
         CHECK(solid.ccg().normal_stiffness(static_cast<std::int32_t>(b)) == Approx(stiffness).epsilon(1e-13));
         CHECK(surface.stiffness[b] == Approx(stiffness).epsilon(1e-13));
-        CHECK(surface.depth[b] == Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));
+        CHECK(surface.depth[b] ==
+              Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));
     }
 }
 

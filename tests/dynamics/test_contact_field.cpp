@@ -14,7 +14,8 @@ std::unique_ptr<Scene<Dim>> impact() {
     if constexpr (Dim == 2) {
         const auto lower = mesh::structured_box<2>({-1.0, -1.0}, {1.0, 0.0}, {9, 5}, CellShape::triangle, "lower");
         const auto upper = mesh::structured_box<2>({-0.5, 0.01}, {0.7, 1.0}, {5, 4}, CellShape::triangle, "upper");
-        return std::make_unique<Scene<2>>(together(lower, upper), bodies<2>(2), std::vector<Vector<2>>{{0.02, 0.05}, {-0.02, -0.05}});
+        return std::make_unique<Scene<2>>(together(lower, upper), bodies<2>(2),
+                                          std::vector<Vector<2>>{{0.02, 0.05}, {-0.02, -0.05}});
     } else {
         return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities);
     }
@@ -22,7 +23,8 @@ std::unique_ptr<Scene<Dim>> impact() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to the force between them", "[dynamics][contact]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to the force between them",
+                       "[dynamics][contact]", ((int Dim), Dim), 2, 3) {
     const auto scene = impact<Dim>();
     const mesh::Mesh<Dim>& mesh = scene->mesh;
     double largest_force = 0.0;
@@ -33,7 +35,8 @@ TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to
         std::array<double, 2> pressed{};
         for (std::size_t b = 0; b < field.pressure.size(); ++b) {
             const std::int32_t f = mesh.boundary_faces[b];
-            pressed[static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[f][0]])] += field.pressure[b] * mesh.face_measure[f];
+            pressed[static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[f][0]])] +=
+                field.pressure[b] * mesh.face_measure[f];
             if (field.pressure[b] != 0.0) CHECK(field.gap[b] < 0.0);
         }
         std::vector<double> force(q.size());
@@ -50,7 +53,8 @@ TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to
     CHECK(largest_force > 1e-3);
 }
 
-TEST_CASE("H~ is exact for steps that change slowly through an impact, with lists made anew on the way", "[dynamics][contact]") {
+TEST_CASE("H~ is exact for steps that change slowly through an impact, with lists made anew on the way",
+          "[dynamics][contact]") {
     Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
     const double dt = scene.memm.dt();
     for (int i = 0; i < 600; ++i) {
@@ -81,5 +85,6 @@ TEST_CASE("a state that is not finite is refused, never taken for one that has n
     std::vector<double> broken = q, force(q.size());
     const std::int32_t cell = scene.mesh.face_cells[scene.mesh.boundary_faces[3]][0];
     broken[static_cast<std::size_t>(2 * cell)] = std::nan("");
-    CHECK_THROWS_WITH(scene.solid.mean_force(q, broken, scene.memm.time(), scene.memm.dt(), force), Catch::Matchers::Contains("not finite"));
+    CHECK_THROWS_WITH(scene.solid.mean_force(q, broken, scene.memm.time(), scene.memm.dt(), force),
+                      Catch::Matchers::Contains("not finite"));
 }

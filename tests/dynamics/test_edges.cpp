@@ -10,13 +10,15 @@ namespace {
 /// A box held at its bottom, and a smaller one that its weight presses on it while it slides over the edge or the corner.
 mesh::Mesh<3> two_boxes_at_the_edge(bool corner) {
     const double y = corner ? 0.35 : -0.05;
-    return together(mesh::structured_box<3>({-1.0, -1.0, -0.8}, {1.0, 1.0, 0.0}, {6, 6, 3}, CellShape::tetrahedron, "table"),
-                    mesh::structured_box<3>({0.2, y, 0.002}, {0.8, y + 0.53, 0.6}, {4, 3, 3}, CellShape::tetrahedron, "slider"));
+    return together(
+        mesh::structured_box<3>({-1.0, -1.0, -0.8}, {1.0, 1.0, 0.0}, {6, 6, 3}, CellShape::tetrahedron, "table"),
+        mesh::structured_box<3>({0.2, y, 0.002}, {0.8, y + 0.53, 0.6}, {4, 3, 3}, CellShape::tetrahedron, "slider"));
 }
 
 }  // namespace
 
-TEST_CASE("a box that slides off the edge or the corner of another loses no energy and no contact, and nothing explodes", "[dynamics][edges]") {
+TEST_CASE("a box that slides off the edge or the corner of another loses no energy and no contact, and nothing explodes",
+          "[dynamics][edges]") {
     const bool corner = GENERATE(false, true);
     const double part = GENERATE(0.9, 0.3);  // of the stable step
     const double gravity = 0.03, speed = 0.25, time = 6.0;

@@ -23,7 +23,8 @@ template <int Dim>
 Impact<Dim> impact(const std::string& name) {
     if constexpr (Dim == 2) {
         if (name == "fans, off-centre")
-            return {together(mesh::fan_disc({-0.96, -0.3}, 1.0, 13, 0.1), mesh::fan_disc({0.97, 0.3}, 1.0, 11, 0.5)), disc_velocities, 10.0};
+            return {together(mesh::fan_disc({-0.96, -0.3}, 1.0, 13, 0.1), mesh::fan_disc({0.97, 0.3}, 1.0, 11, 0.5)),
+                    disc_velocities, 10.0};
         return {two_discs(name == "head-on" ? 0.0 : 0.8), disc_velocities, 12.0};
     } else {
         if (name == "boxes, flat on flat") return {two_boxes(4), box_velocities, 8.0};
@@ -37,7 +38,9 @@ std::vector<std::string> impact_names() {
 }
 
 template <int Dim>
-double mass_of_first(const Scene<Dim>& scene) { return dynamics::body_motions<Dim>(scene.memm, scene.solid)[0].mass; }
+double mass_of_first(const Scene<Dim>& scene) {
+    return dynamics::body_motions<Dim>(scene.memm, scene.solid)[0].mass;
+}
 
 /// All pairs that touch in state q without being refused for their depth, by looking at every face against every other.
 template <int Dim>
@@ -48,7 +51,8 @@ std::set<std::pair<std::int32_t, std::int32_t>> touching_pairs(Scene<Dim>& scene
     std::vector<std::pair<std::int32_t, std::int32_t>> facing;
     for (std::int32_t i = 0; i < surface.size(); ++i)
         for (std::int32_t j = i + 1; j < surface.size(); ++j)
-            if (surface.body[i] != surface.body[j] && surface.normal[i].dot(surface.normal[j]) < -0.5) facing.emplace_back(i, j);
+            if (surface.body[i] != surface.body[j] && surface.normal[i].dot(surface.normal[j]) < -0.5)
+                facing.emplace_back(i, j);
     const Reference<Dim> reference(surface, facing, contact::Weights::stiffness);
     std::set<std::pair<std::int32_t, std::int32_t>> touching;
     for (const auto& pair : reference.pairs()) {
@@ -61,8 +65,8 @@ std::set<std::pair<std::int32_t, std::int32_t>> touching_pairs(Scene<Dim>& scene
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-11 K0 and momentum by less than 1e-12 m v0", "[dynamics][impact]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-11 K0 and momentum by less than 1e-12 m v0",
+                       "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     const double part = GENERATE(0.9, 0.2);  // of the stable step
     INFO(name << " at " << part << " of the stable step");
@@ -80,12 +84,15 @@ TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-
     // They have met, and left each other again.
     CHECK(report.events > 0);
     CHECK(report.active_pairs == 0);
-    CHECK((motion[1].velocity - motion[0].velocity).dot(velocity[1] - velocity[0]) < 0.9 * (velocity[1] - velocity[0]).squaredNorm());
-    CHECK((motion[1].mass * motion[1].velocity + motion[0].mass * motion[0].velocity - motion[0].mass * velocity[0] - motion[1].mass * velocity[1]).norm() <
-          1e-12 * motion[0].mass);
+    CHECK((motion[1].velocity - motion[0].velocity).dot(velocity[1] - velocity[0]) <
+          0.9 * (velocity[1] - velocity[0]).squaredNorm());
+    CHECK((motion[1].mass * motion[1].velocity + motion[0].mass * motion[0].velocity - motion[0].mass * velocity[0] -
+           motion[1].mass * velocity[1])
+              .norm() < 1e-12 * motion[0].mass);
 }
 
-TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand times larger", "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand times larger", "[dynamics][impact]",
+                       ((int Dim), Dim), 2, 3) {
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     INFO(name);
     const auto [mesh, velocity, time] = impact<Dim>(name);
@@ -99,7 +106,8 @@ TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand t
     CHECK(rough.ledger.pseudo_energy_drift() > 1e-7 * exact.kinetic_start());
 }
 
-TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a thousand times larger", "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a thousand times larger", "[dynamics][impact]",
+                       ((int Dim), Dim), 2, 3) {
     const auto [mesh, velocity, time] = impact<Dim>("off-centre");
     contact::ContactOptions few_points;
     few_points.quadrature = Dim - 1;
@@ -109,7 +117,8 @@ TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a th
     CHECK(rough.ledger.pseudo_energy_drift() > 1e3 * exact.ledger.pseudo_energy_drift());
 }
 
-TEST_CASE("two discs leave each other with the speeds of the reference runs, head-on mirrored and off-centre deflected", "[dynamics][impact]") {
+TEST_CASE("two discs leave each other with the speeds of the reference runs, head-on mirrored and off-centre deflected",
+          "[dynamics][impact]") {
     // Reference: an independent prototype of the scheme on other meshes of the same size; discretisation moves the third digit.
     const double offset = GENERATE(0.0, 0.8);
     const Vector<2> expected = offset == 0.0 ? Vector<2>(-0.0477, 0.0) : Vector<2>(-0.0278, -0.0394);
@@ -121,8 +130,9 @@ TEST_CASE("two discs leave each other with the speeds of the reference runs, hea
     CHECK(scene.ledger.angular_momentum_drift() < 0.05 * mass_of_first(scene) * 0.05);
 }
 
-TEMPLATE_TEST_CASE_SIG("no pair is missed: all that a look at every face against every other finds is in the list and admitted", "[dynamics][impact]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "no pair is missed: all that a look at every face against every other finds is in the list and admitted",
+    "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     INFO(name);
     const auto [mesh, velocity, time] = impact<Dim>(name);
@@ -155,6 +165,7 @@ TEST_CASE("a scene turned by a right angle gives the result turned by a right an
     other.run_until(6.0, 1000);
     double worst = 0.0;
     for (std::int32_t c = 0; c < original.n_cells(); ++c)
-        worst = std::max(worst, (turn(dynamics::as_vectors<2>(scene.memm.q())[c]) - dynamics::as_vectors<2>(other.memm.q())[c]).norm());
+        worst = std::max(
+            worst, (turn(dynamics::as_vectors<2>(scene.memm.q())[c]) - dynamics::as_vectors<2>(other.memm.q())[c]).norm());
     CHECK(worst < 1e-9);
 }

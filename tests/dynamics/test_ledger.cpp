@@ -13,13 +13,16 @@ TEMPLATE_TEST_CASE_SIG("a ledger entry has a name for each of its numbers", "[dy
     const auto names = dynamics::ledger_columns<Dim>();
     const auto values = dynamics::ledger_values(entry);
     REQUIRE(names.size() == values.size());
-    const auto at = [&](const std::string& name) { return values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]; };
+    const auto at = [&](const std::string& name) {
+        return values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+    };
     CHECK(at("step") == 7.0);
     CHECK(at("events") == 9.0);
     CHECK(at("linear_momentum_y") == 3.0);
 }
 
-TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a uniform motion exactly", "[dynamics][ledger]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a uniform motion exactly", "[dynamics][ledger]",
+                       ((int Dim), Dim), 2, 3) {
     const Vector<Dim> velocity = 0.5 * Vector<Dim>::Ones();
     Vector<Dim> lower = Vector<Dim>::Zero();
     lower[0] = 2.0;

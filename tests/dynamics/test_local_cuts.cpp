@@ -11,14 +11,18 @@ namespace {
 /// Bodies whose boundary cells are next to each other, so that their faces are coupled, sliding fast over one another.
 template <int Dim>
 mesh::Mesh<Dim> coupled_bodies() {
-    if constexpr (Dim == 2) return together(mesh::fan_disc({-0.96, -0.4}, 1.0, 17, 0.1), mesh::fan_disc({0.96, 0.4}, 1.0, 14, 0.45));
-    else return two_boxes(4);
+    if constexpr (Dim == 2)
+        return together(mesh::fan_disc({-0.96, -0.4}, 1.0, 17, 0.1), mesh::fan_disc({0.96, 0.4}, 1.0, 14, 0.45));
+    else
+        return two_boxes(4);
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> fast_velocities() {
-    if constexpr (Dim == 2) return {{0.1, 0.3}, {-0.1, -0.3}};
-    else return {{0.3, 0.1, 0.05}, {-0.3, 0.0, -0.05}};
+    if constexpr (Dim == 2)
+        return {{0.1, 0.3}, {-0.1, -0.3}};
+    else
+        return {{0.3, 0.1, 0.05}, {-0.3, 0.0, -0.05}};
 }
 
 template <int Dim>
@@ -37,8 +41,9 @@ double distance(std::span<const Vector<Dim>> a, std::span<const Vector<Dim>> b) 
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the local path integral is the one over the union of all events of the scene, on meshes with coupled faces", "[dynamics][contact]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "the local path integral is the one over the union of all events of the scene, on meshes with coupled faces",
+    "[dynamics][contact]", ((int Dim), Dim), 2, 3) {
     Scene<Dim> scene(coupled_bodies<Dim>(), bodies<Dim>(2), fast_velocities<Dim>());
     const auto& contact = *scene.solid.contact();
     auto& ccg = scene.solid.ccg();
@@ -57,11 +62,14 @@ TEMPLATE_TEST_CASE_SIG("the local path integral is the one over the union of all
         ccg.evaluate_faces(region, dynamics::as_vectors<Dim>(scene.memm.q()), {}, u_1, y_1);
         std::vector<std::int32_t> local_face(static_cast<std::size_t>(contact.surface().size()));
         for (std::int32_t f = 0; f < contact.surface().size(); ++f) local_face[f] = contact.local(f);
-        local.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1}, Cuts::coupled);
-        global.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1}, Cuts::global);
+        local.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
+                        Cuts::coupled);
+        global.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
+                         Cuts::global);
         const double size = size_of<Dim>(global.mean_force());
         worst = std::max(worst, distance<Dim>(local.mean_force(), global.mean_force()) / size);
-        worst_against_solid = std::max(worst_against_solid, distance<Dim>(local.mean_force(), contact.result().mean_force()) / size);
+        worst_against_solid =
+            std::max(worst_against_solid, distance<Dim>(local.mean_force(), contact.result().mean_force()) / size);
         events += global.events();
         ++steps_with_contact;
         steps_with_coupled_faces += contact.coupling().columns.size() > faces.size();

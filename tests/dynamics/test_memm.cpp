@@ -99,7 +99,9 @@ TEST_CASE("the parasitic momentum of a linear system stays at round-off", "[dyna
     }
 }
 
-TEST_CASE("the trap of alternating steps: kept, a, b, a, b solves with the acceleration times 4ab/(a+b)^2; restarted, it is right", "[dynamics][memm]") {
+TEST_CASE(
+    "the trap of alternating steps: kept, a, b, a, b solves with the acceleration times 4ab/(a+b)^2; restarted, it is right",
+    "[dynamics][memm]") {
     const double a = 0.0005, b = 0.0015, time = 6.0;
     const auto position = [&](StepChange change) {
         Well well;
@@ -142,7 +144,8 @@ TEST_CASE("a step that does not change needs no restart", "[dynamics][memm]") {
     CHECK(asked.restart_jumps() == 0.0);
 }
 
-TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega and not at 0.98, and H~ does not notice", "[dynamics][memm]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega and not at 0.98, and H~ does not notice",
+                       "[dynamics][memm]", ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = Dim == 2 ? 0.3 : 0.6});
     dynamics::SolidOptions<Dim> options;
     options.materials = {{.young = 2.0, .poisson = 0.3, .density = 1.5}};
@@ -150,7 +153,8 @@ TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega an
     const auto n = static_cast<Eigen::Index>(solid.size());
     const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(solid.inverse_mass().data(), n).cwiseSqrt();
     const Eigen::MatrixXd k = root.asDiagonal() * dense_stiffness(solid) * root.asDiagonal();
-    const double omega = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
+    const double omega =
+        std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
     const auto size_after = [&](double part) {
         const std::vector<double> start = random_state(solid.size(), 6, 1e-3);
         const std::vector<double> rest(solid.size(), 0.0);
@@ -166,7 +170,8 @@ TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega an
     CHECK(size_after(1.01) > 1e6);
 }
 
-TEST_CASE("a time step that is not positive and finite, or a state of another size, is refused", "[dynamics][memm][errors]") {
+TEST_CASE("a time step that is not positive and finite, or a state of another size, is refused",
+          "[dynamics][memm][errors]") {
     Well well;
     const double dt = GENERATE(0.0, -0.1, std::nan(""), std::numeric_limits<double>::infinity());
     const std::vector<double> zero{0.0}, two{0.0, 0.0};
@@ -180,7 +185,8 @@ TEST_CASE("a time step that is not positive and finite, or a state of another si
     CHECK_THROWS_WITH(Memm<Well>(well, zero, two, 0.1), Catch::Matchers::Contains("1 positions and 2 momenta"));
 }
 
-TEST_CASE("a kick to one half-step momentum is the parasitic momentum, and alternates in a linear system for ever", "[dynamics][memm]") {
+TEST_CASE("a kick to one half-step momentum is the parasitic momentum, and alternates in a linear system for ever",
+          "[dynamics][memm]") {
     Well well;
     const double dt = 0.3, kick = 1e-3;
     auto memm = from_rest(well, dt);

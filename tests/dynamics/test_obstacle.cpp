@@ -14,7 +14,9 @@ inline constexpr double length = 10.0, young = 900.0, wave_speed = 30.0, speed =
 inline constexpr int n = 100;
 inline constexpr double dt = 0.5 * (length / n) / wave_speed;
 
-mesh::Mesh<2> bar() { return mesh::structured_box<2>({gap, 0.0}, {gap + length, height}, {n, 2}, CellShape::quadrangle, "bar"); }
+mesh::Mesh<2> bar() {
+    return mesh::structured_box<2>({gap, 0.0}, {gap + length, height}, {n, 2}, CellShape::quadrangle, "bar");
+}
 
 dynamics::SolidOptions<2> bar_and_wall(std::function<Vector<2>(double)> path = {}) {
     dynamics::SolidOptions<2> options;
@@ -75,7 +77,8 @@ TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and 
     CHECK(gap_at_end > -0.5 * length / n);  // less than the depth of a cell
 }
 
-TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thrown off as a flying one rebounds", "[dynamics][obstacle]") {
+TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thrown off as a flying one rebounds",
+          "[dynamics][obstacle]") {
     Scene<2> flying(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
     Scene<2> pushed(bar(), bar_and_wall([](double t) { return Vector<2>(speed * t, 0.0); }), {Vector<2>::Zero()}, dt);
     flying.run_until(1.4);
@@ -83,20 +86,23 @@ TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thro
     CHECK(pushed.ledger.pseudo_energy_drift() < 1e-12 * pushed.ledger.largest_energy());
     CHECK(pushed.solid.work() == Approx(pushed.ledger.largest_energy()).epsilon(0.05));
     // The same impact seen from a wall that moves.
-    const auto motion_1 = dynamics::body_motions<2>(flying.memm, flying.solid)[0], motion_2 = dynamics::body_motions<2>(pushed.memm, pushed.solid)[0];
+    const auto motion_1 = dynamics::body_motions<2>(flying.memm, flying.solid)[0],
+               motion_2 = dynamics::body_motions<2>(pushed.memm, pushed.solid)[0];
     CHECK(motion_2.velocity[0] == Approx(motion_1.velocity[0] + speed).epsilon(1e-6));
 }
 
-TEMPLATE_TEST_CASE_SIG("H~ gains the work of a tilted wall that turns back and of one behind, in contact with an unstructured body", "[dynamics][obstacle]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "H~ gains the work of a tilted wall that turns back and of one behind, in contact with an unstructured body",
+    "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
     auto options = bodies<Dim>(1);
     Vector<Dim> tilted = Vector<Dim>::Unit(0), origin = Vector<Dim>::Zero();
     tilted[1] = 0.2;
     origin[0] = -1.05;
     const Vector<Dim> behind = -origin;
-    options.obstacles = {contact::plane_obstacle<Dim>(origin, tilted, 4.0,
-                                                      [](double t) { return Vector<Dim>(0.3 * std::sin(1.5 * t) * Vector<Dim>::Unit(0)); }),
-                         contact::plane_obstacle<Dim>(behind, -Vector<Dim>::Unit(0), 4.0)};
+    options.obstacles = {
+        contact::plane_obstacle<Dim>(origin, tilted, 4.0,
+                                     [](double t) { return Vector<Dim>(0.3 * std::sin(1.5 * t) * Vector<Dim>::Unit(0)); }),
+        contact::plane_obstacle<Dim>(behind, -Vector<Dim>::Unit(0), 4.0)};
     Scene<Dim> scene(round_body<Dim>(Dim == 2 ? 0.25 : 0.5), options, {Vector<Dim>::Zero()});
     scene.run_until(5.0);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
@@ -105,7 +111,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a tilted wall that turns back and o
     CHECK(scene.solid.contact_report().events > 20);
 }
 
-TEST_CASE("the momentum that a body loses is the mean force on the obstacle times twice the step, step by step", "[dynamics][obstacle]") {
+TEST_CASE("the momentum that a body loses is the mean force on the obstacle times twice the step, step by step",
+          "[dynamics][obstacle]") {
     auto options = bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
     Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
@@ -125,7 +132,8 @@ TEST_CASE("the momentum that a body loses is the mean force on the obstacle time
     CHECK(touched);
 }
 
-TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body with its face, edge or corner", "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body with its face, edge or corner",
+                       "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions narrow;
     narrow.facing_cosine = -0.9;  // the sides of the box are no partners of the round face in front of it
     auto options = bodies<Dim>(1, narrow);
@@ -137,7 +145,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body wit
     std::array<int, Dim> cells;
     cells.fill(2);
     const auto box = mesh::structured_box<Dim>(lower, upper, cells, shape, "box");
-    options.obstacles = {dynamics::rigid_obstacle<Dim>(box, [](double t) { return Vector<Dim>(0.02 * t * Vector<Dim>::Unit(0)); })};
+    options.obstacles = {
+        dynamics::rigid_obstacle<Dim>(box, [](double t) { return Vector<Dim>(0.02 * t * Vector<Dim>::Unit(0)); })};
     Scene<Dim> scene(round_body<Dim>(Dim == 2 ? 0.25 : 0.5), options, {Vector<Dim>::Zero()});
     scene.run_until(20.0, 5);
     CHECK(scene.solid.contact_report().events > 1);
@@ -146,7 +155,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body wit
     CHECK(scene.solid.contact_report().lost_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[dynamics][obstacle]",
+                       ((int Dim), Dim), 2, 3) {
     const auto mesh = round_body<Dim>(0.5);
     contact::Surface<Dim> surface;
     contact::append(surface, dynamics::rigid_obstacle<Dim>(mesh), 0);

@@ -12,8 +12,10 @@ namespace {
 
 template <int Dim>
 std::unique_ptr<Scene<Dim>> impact(double cfl) {
-    if constexpr (Dim == 2) return std::make_unique<Scene<2>>(two_discs(0.8), bodies<2>(2), disc_velocities, -cfl);
-    else return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities, -cfl);
+    if constexpr (Dim == 2)
+        return std::make_unique<Scene<2>>(two_discs(0.8), bodies<2>(2), disc_velocities, -cfl);
+    else
+        return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities, -cfl);
 }
 
 /// What the filter must not change: the kinetic part of H~ (it does not touch q), momentum, and angular momentum.
@@ -23,13 +25,15 @@ struct Invariants {
     Vector<Dim> momentum = Vector<Dim>::Zero();
     Vector<3> angular = Vector<3>::Zero();
 
-    Invariants(const Scene<Dim>& scene, std::span<const double> q, std::span<const double> p_before, std::span<const double> p_after) {
+    Invariants(const Scene<Dim>& scene, std::span<const double> q, std::span<const double> p_before,
+               std::span<const double> p_after) {
         const auto in_space = [](const Vector<Dim>& v) {
             Vector<3> lifted = Vector<3>::Zero();
             lifted.template head<Dim>() = v;
             return lifted;
         };
-        const auto u = dynamics::as_vectors<Dim>(q), before = dynamics::as_vectors<Dim>(p_before), after = dynamics::as_vectors<Dim>(p_after);
+        const auto u = dynamics::as_vectors<Dim>(q), before = dynamics::as_vectors<Dim>(p_before),
+                   after = dynamics::as_vectors<Dim>(p_after);
         for (std::int32_t c = 0; c < scene.mesh.n_cells(); ++c) {
             kinetic += 0.5 * before[c].dot(after[c]) / scene.solid.cell_mass()[c];
             momentum += after[c];
@@ -40,7 +44,8 @@ struct Invariants {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor angular momentum", "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor angular momentum", "[dynamics][filter]",
+                       ((int Dim), Dim), 2, 3) {
     const auto scene = impact<Dim>(0.9);
     dynamics::NeutralFilter<Dim> filter(scene->solid);
     double kinetic = 0.0, momentum = 0.0, angular = 0.0, changed = 0.0;
@@ -52,7 +57,8 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor a
         kinetic = std::max(kinetic, std::abs(after.kinetic - before.kinetic));
         momentum = std::max(momentum, (after.momentum - before.momentum).norm());
         angular = std::max(angular, (after.angular - before.angular).norm());
-        for (std::size_t i = 0; i < unfiltered.size(); ++i) changed = std::max(changed, std::abs(unfiltered[i] - p_after[i]) * scene->solid.inverse_mass()[i]);
+        for (std::size_t i = 0; i < unfiltered.size(); ++i)
+            changed = std::max(changed, std::abs(unfiltered[i] - p_after[i]) * scene->solid.inverse_mass()[i]);
     });
     scene->run_until(8.0, 10);
     const double m_v = dynamics::body_motions<Dim>(scene->memm, scene->solid)[0].mass * 0.05;
@@ -64,7 +70,8 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor a
     CHECK(scene->ledger.momentum_drift() < 1e-12 * m_v);
 }
 
-TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact smaller", "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact smaller", "[dynamics][filter]",
+                       ((int Dim), Dim), 2, 3) {
     const auto plain = impact<Dim>(0.9), filtered = impact<Dim>(0.9);
     dynamics::NeutralFilter<Dim> filter(filtered->solid);
     filtered->memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) { filter(q, dt, p_before, p_after); });
@@ -99,13 +106,17 @@ TEST_CASE("a strength of zero filters nothing", "[dynamics][filter]") {
     CHECK(std::equal(plain->memm.q().begin(), plain->memm.q().end(), filtered->memm.q().begin()));
 }
 
-TEMPLATE_TEST_CASE_SIG("the neutral filter keeps H~ and momentum whatever the boundary reconstruction, down to patches of one or two cells",
-                       "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "the neutral filter keeps H~ and momentum whatever the boundary reconstruction, down to patches of one or two cells",
+    "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
     auto options = bodies<Dim>(2);
-    options.boundary.neumann = GENERATE(dynamics::Neumann::local_equilibrium, dynamics::Neumann::extrapolate, dynamics::Neumann::adjacent);
+    options.boundary.neumann =
+        GENERATE(dynamics::Neumann::local_equilibrium, dynamics::Neumann::extrapolate, dynamics::Neumann::adjacent);
     const auto scene = [&] {
-        if constexpr (Dim == 2) return std::make_unique<Scene<2>>(two_discs(0.8), options, disc_velocities);
-        else return std::make_unique<Scene<3>>(two_boxes(4), options, box_velocities);
+        if constexpr (Dim == 2)
+            return std::make_unique<Scene<2>>(two_discs(0.8), options, disc_velocities);
+        else
+            return std::make_unique<Scene<3>>(two_boxes(4), options, box_velocities);
     }();
     dynamics::NeutralFilter<Dim> filter(scene->solid);
     std::size_t smallest = 1000;

@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
+#include <catch2/catch.hpp>
 
 #include <cstring>
 
@@ -30,12 +30,15 @@ struct State {
 /// Enough cells for the sweeps to run in four parts (8 chunks of 512 cells each), already close to each other.
 template <int Dim>
 mesh::Mesh<Dim> large_bodies() {
-    if constexpr (Dim == 2) return two_discs(0.3, 0.027, 0.002);
-    else return two_boxes(13, 0.002);
+    if constexpr (Dim == 2)
+        return two_discs(0.3, 0.027, 0.002);
+    else
+        return two_boxes(13, 0.002);
 }
 
 template <int Dim>
-State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, BroadPhase broad_phase, int steps) {
+State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, BroadPhase broad_phase,
+                   int steps) {
     contact::ContactOptions options;
     options.broad_phase = broad_phase;
     Scene<Dim> scene(mesh, bodies<Dim>(2, options), velocity);
@@ -43,30 +46,35 @@ State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& 
     scene.memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) { filter(q, dt, p_before, p_after); });
     scene.run(steps, steps);
     const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
-    return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()), scene.ledger.entries().back().pseudo_energy,
-            scene.solid.contact_report().events};
+    return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()),
+            scene.ledger.entries().back().pseudo_energy, scene.solid.contact_report().events};
 }
 
 /// The same on a given number of threads, more than the machine has if need be.
 template <class Run>
 State on_threads(int threads, const Run& run) {
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(threads));
     oneapi::tbb::task_arena arena(threads);
     return arena.execute(run);
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> velocities() {
-    if constexpr (Dim == 2) return disc_velocities;
-    else return box_velocities;
+    if constexpr (Dim == 2)
+        return disc_velocities;
+    else
+        return box_velocities;
 }
 
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[dynamics][reproducible]", ((int Dim), Dim), 2, 3) {
     mesh::Mesh<Dim> mesh;
-    if constexpr (Dim == 2) mesh = two_discs(0.8);
-    else mesh = two_boxes(4);
+    if constexpr (Dim == 2)
+        mesh = two_discs(0.8);
+    else
+        mesh = two_boxes(4);
     const int steps = Dim == 2 ? 400 : 150;
     const State brute = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::brute_force, steps);
     CHECK(brute.events > 10);

@@ -5,8 +5,8 @@
 using namespace abut;
 using namespace abut::test;
 
-TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eigenvalue problem, by no more than 5 %", "[dynamics][stable_step]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eigenvalue problem, by no more than 5 %",
+                       "[dynamics][stable_step]", ((int Dim), Dim), 2, 3) {
     std::vector<NamedMesh<Dim>> meshes = boxes<Dim>(2);
     meshes.push_back({"round", round_body<Dim>(Dim == 2 ? 0.4 : 0.8)});
     for (const auto& [name, mesh] : meshes) {
@@ -17,7 +17,8 @@ TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eige
         const auto n = static_cast<Eigen::Index>(solid.size());
         const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(solid.inverse_mass().data(), n).cwiseSqrt();
         const Eigen::MatrixXd k = root.asDiagonal() * dense_stiffness(solid) * root.asDiagonal();
-        const double omega = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
+        const double omega =
+            std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
         const auto step = dynamics::stable_step(solid);
         CHECK(step.iterations >= 50);
         CHECK(step.change <= 1e-4);
@@ -35,7 +36,8 @@ TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[dyn
     CHECK(dynamics::stable_step(touching).dt == Approx(0.85 * dynamics::stable_step(free).dt).epsilon(1e-14));
 }
 
-TEST_CASE("the stable step is the same however often it is asked for, and scales with h sqrt(rho/E)", "[dynamics][stable_step]") {
+TEST_CASE("the stable step is the same however often it is asked for, and scales with h sqrt(rho/E)",
+          "[dynamics][stable_step]") {
     const auto mesh = unit_disc(0.4);
     auto options = bodies<2>(1);
     dynamics::Solid<2> solid(mesh, options);

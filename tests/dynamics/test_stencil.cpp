@@ -26,7 +26,8 @@ std::vector<NamedMesh<Dim>> all_meshes() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("affine fields are reproduced on every face of every kind of mesh", "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("affine fields are reproduced on every face of every kind of mesh", "[dynamics][stencil]",
+                       ((int Dim), Dim), 2, 3) {
     for (const auto& [name, mesh] : all_meshes<Dim>()) {
         INFO(name);
         dynamics::StencilReport report;
@@ -50,15 +51,18 @@ TEMPLATE_TEST_CASE_SIG("a stencil stays within the body of its face", "[dynamics
     Vector<Dim> shift = Vector<Dim>::Zero();
     shift[0] = 1.0;
     const Vector<Dim> lower = Vector<Dim>::Zero(), upper = Vector<Dim>::Ones();
-    const auto mesh = together(mesh::box<Dim>({.lower = lower, .upper = upper, .size = 0.4}),
-                               mesh::box<Dim>({.lower = Vector<Dim>(lower + shift), .upper = Vector<Dim>(upper + shift), .size = 0.3}));
+    const auto mesh =
+        together(mesh::box<Dim>({.lower = lower, .upper = upper, .size = 0.4}),
+                 mesh::box<Dim>({.lower = Vector<Dim>(lower + shift), .upper = Vector<Dim>(upper + shift), .size = 0.3}));
     dynamics::StencilReport report;
     const auto stencils = dynamics::select_stencils<Dim>(mesh, all_faces(mesh), report);
     for (std::size_t f = 0; f < stencils.size(); ++f)
-        for (const std::int32_t cell : stencils[f].cells) CHECK(mesh.cell_body[cell] == mesh.cell_body[mesh.face_cells[f][0]]);
+        for (const std::int32_t cell : stencils[f].cells)
+            CHECK(mesh.cell_body[cell] == mesh.cell_body[mesh.face_cells[f][0]]);
 }
 
-TEMPLATE_TEST_CASE_SIG("the report counts the faces that extrapolate and names the worst", "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the report counts the faces that extrapolate and names the worst", "[dynamics][stencil]",
+                       ((int Dim), Dim), 2, 3) {
     const auto mesh = round_body<Dim>(0.3);
     dynamics::StencilReport report;
     const auto faces = all_faces(mesh);  // boundary faces too: these lie outside every simplex of centroids
@@ -95,7 +99,8 @@ TEST_CASE("no interior face of a uniform grid extrapolates", "[dynamics][stencil
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the remedy", "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the remedy", "[dynamics][stencil]",
+                       ((int Dim), Dim), 2, 3) {
     std::array<int, Dim> counts;
     counts.fill(5);
     counts[Dim - 1] = 1;
@@ -104,5 +109,6 @@ TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the r
     dynamics::StencilReport report;
     const auto faces = all_faces(mesh);
     CHECK_THROWS_AS(dynamics::select_stencils<Dim>(mesh, faces, report), std::runtime_error);
-    CHECK_THROWS_WITH(dynamics::select_stencils<Dim>(mesh, faces, report), Contains("plate: face ") && Contains("at least two cells"));
+    CHECK_THROWS_WITH(dynamics::select_stencils<Dim>(mesh, faces, report),
+                      Contains("plate: face ") && Contains("at least two cells"));
 }

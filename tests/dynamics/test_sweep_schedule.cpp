@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
+#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -30,10 +30,12 @@ Needs random_needs(std::mt19937& random, std::int32_t n_chunks) {
 
 }  // namespace
 
-TEST_CASE("a sweep schedule runs every task once, each after what it needs, on any number of threads", "[dynamics][schedule]") {
+TEST_CASE("a sweep schedule runs every task once, each after what it needs, on any number of threads",
+          "[dynamics][schedule]") {
     std::mt19937 random(3);
     const int threads = GENERATE(1, 2, 4);
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(threads));
     oneapi::tbb::task_arena arena(threads);
     for (const std::int32_t n_chunks : {1, 2, 7, 16, 33, 100}) {
         const Needs needs = random_needs(random, n_chunks);
@@ -41,11 +43,14 @@ TEST_CASE("a sweep schedule runs every task once, each after what it needs, on a
         for (int repetition = 0; repetition < 20; ++repetition) {
             std::vector<std::atomic<int>> runs(static_cast<std::size_t>(stages * n_chunks));
             std::atomic<int> too_early = 0;
-            const auto at = [&](int stage, std::int32_t chunk) -> std::atomic<int>& { return runs[static_cast<std::size_t>(stage * n_chunks + chunk)]; };
+            const auto at = [&](int stage, std::int32_t chunk) -> std::atomic<int>& {
+                return runs[static_cast<std::size_t>(stage * n_chunks + chunk)];
+            };
             arena.execute([&] {
                 schedule.run([&](int stage, std::int32_t chunk) {
                     if (stage > 0)
-                        for (const std::int32_t needed : needs[static_cast<std::size_t>(stage - 1)][static_cast<std::size_t>(chunk)])
+                        for (const std::int32_t needed :
+                             needs[static_cast<std::size_t>(stage - 1)][static_cast<std::size_t>(chunk)])
                             if (at(stage - 1, needed) != 1) ++too_early;
                     ++at(stage, chunk);
                 });

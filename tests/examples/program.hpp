@@ -23,10 +23,10 @@ private:
 
 /// What a run of an example left behind.
 struct Outcome {
-    int exit_code;                          ///< -1 if a signal ended it
-    std::string out;                        ///< standard output
-    std::string error;                      ///< standard error
-    std::filesystem::path directory;        ///< of the results; gone with the last copy of the outcome
+    int exit_code;                    ///< -1 if a signal ended it
+    std::string out;                  ///< standard output
+    std::string error;                ///< standard error
+    std::filesystem::path directory;  ///< of the results; gone with the last copy of the outcome
     std::shared_ptr<const Folder> folder;
 };
 

@@ -167,9 +167,11 @@ TEST_CASE("bad options of the bouncing bar end in the same way", "[examples]") {
 }
 
 TEST_CASE("a run that breaks off says at which step, and leaves no result", "[examples]") {
-    const BadInput bad = GENERATE(BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
-                                           {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "energy.csv.partial"}},
-                                  BadInput{"--speed 5 --frames 0", {"step 1", "faces", "2 is allowed", "compression_limit", "lower the speed", "energy.csv.partial"}});
+    const BadInput bad = GENERATE(
+        BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
+                 {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "energy.csv.partial"}},
+        BadInput{"--speed 5 --frames 0",
+                 {"step 1", "faces", "2 is allowed", "compression_limit", "lower the speed", "energy.csv.partial"}});
     const auto outcome = run_program("slipping_cylinders", bad.arguments, "broken_off");
     check_refused(bad, outcome);
     CHECK(fs::exists(outcome.directory / "energy.csv.partial"));

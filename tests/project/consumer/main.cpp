@@ -19,6 +19,7 @@ int main() {
     });
     contact.integrate({rest, rest, rest, rest});
     const auto dV = contact.result().mean_force();
-    std::printf("%zu pair, dV/du = %g and %g N, k depth / 2 = %g N\n", contact.result().active_pairs().size(), dV[0].y(), dV[1].y(), 5e5);
+    std::printf("%zu pair, dV/du = %g and %g N, k depth / 2 = %g N\n", contact.result().active_pairs().size(), dV[0].y(),
+                dV[1].y(), 5e5);
     return std::abs(dV[0].y() - 5e5) < 1e-6 && std::abs(dV[1].y() + 5e5) < 1e-6 ? 0 : 1;
 }
