@@ -18,6 +18,7 @@ double largest_tilt_sine(double facing_cosine, bool against_rigid) {
 struct BodyFaces {
     std::int32_t body;
     std::vector<std::int32_t> faces;
+    bool is_rigid = true;  ///< all of them are
 };
 
 template <int Dim>
@@ -27,8 +28,9 @@ std::vector<BodyFaces> faces_by_body(const SurfaceView<Dim>& surface) {
         const std::int32_t body = surface.body[face];
         auto place = std::lower_bound(bodies.begin(), bodies.end(), body,
                                       [](const BodyFaces& b, std::int32_t id) { return b.body < id; });
-        if (place == bodies.end() || place->body != body) place = bodies.insert(place, {body, {}});
+        if (place == bodies.end() || place->body != body) place = bodies.insert(place, {.body = body, .faces = {}});
         place->faces.push_back(face);
+        place->is_rigid = place->is_rigid && surface.is_rigid(face);
     }
     return bodies;
 }
@@ -49,13 +51,19 @@ public:
     }
 
     std::vector<geometry::IndexPair> find() {
-        std::vector<std::vector<geometry::Box<Dim>>> body_boxes;
-        for (const BodyFaces& body : bodies_) body_boxes.push_back(select(body.faces));
+        std::vector<std::vector<geometry::Box<Dim>>> face_boxes;
+        std::vector<geometry::Box<Dim>> body_boxes;
+        for (const BodyFaces& body : bodies_) {
+            face_boxes.push_back(select(body.faces));
+            body_boxes.push_back(geometry::bounding_box<Dim>(face_boxes.back()));
+        }
         for (std::size_t a = 0; a < bodies_.size(); ++a) {
             if (options_.self_contact)
-                keep_reachable(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a]), a, a);
-            for (std::size_t b = a + 1; b < bodies_.size(); ++b)
-                keep_reachable(geometry::overlapping_pairs<Dim>(options_.broad_phase, body_boxes[a], body_boxes[b]), a, b);
+                keep_reachable(geometry::overlapping_pairs<Dim>(options_.broad_phase, face_boxes[a]), a, a);
+            for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
+                if ((bodies_[a].is_rigid && bodies_[b].is_rigid) || !body_boxes[a].overlaps(body_boxes[b])) continue;
+                keep_reachable(geometry::overlapping_pairs<Dim>(options_.broad_phase, face_boxes[a], face_boxes[b]), a, b);
+            }
         }
         std::sort(found_.begin(), found_.end());
         return std::move(found_);

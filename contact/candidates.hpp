@@ -10,7 +10,7 @@
 namespace abut::contact {
 
 /// A box around every face: its corners at the displacements u_0 and u_1, grown by all that an active
-/// pair can reach past its faces (2 d_f, the tilt against the pair normal) and by half the skin. METHOD.md, section 4.
+/// pair can reach past its faces (2 d_f, the tilt against the pair normal) and by half the skin. docs/method.md, Contact.
 template <int Dim>
 [[nodiscard]] std::vector<geometry::Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
                                                           std::span<const Vector<Dim>> u_1, double facing_cosine,

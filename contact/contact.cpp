@@ -5,7 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/contact/messages.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::contact {
 namespace {
@@ -16,8 +17,8 @@ const ContactOptions& checked(const ContactOptions& options) {
     if (options.quadrature < 0 || options.quadrature > 3)
         refuse("quadrature is " + std::to_string(options.quadrature) +
                "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
-    if (!(options.facing_cosine >= -1.0 && options.facing_cosine < 0.0))
-        refuse("facing_cosine is " + number(options.facing_cosine) + "; it must lie in [-1, 0). -0.5 is the default.");
+    if (!(options.facing_cosine > -1.0 && options.facing_cosine < 0.0))
+        refuse("facing_cosine is " + number(options.facing_cosine) + "; it must lie between -1 and 0. -0.5 is the default.");
     if (!(options.skin >= 0.0) || !std::isfinite(options.skin))
         refuse("skin is " + number(options.skin) + " m; it must be finite and >= 0. Give 0 to let the library choose.");
     if (!(options.compression_warning > 0.0))
@@ -41,13 +42,13 @@ double default_skin(const SurfaceView<Dim>& surface) {
 }
 
 template <int Dim>
-void require_finite(std::span<const Vector<Dim>> displacement, std::int32_t n_faces) {
-    if (displacement.size() != static_cast<std::size_t>(n_faces))
+void require_finite(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement) {
+    if (displacement.size() != static_cast<std::size_t>(surface.size()))
         throw std::invalid_argument("contact: " + std::to_string(displacement.size()) + " displacements are given for " +
-                                    std::to_string(n_faces) + " faces of the surface; give one each.");
-    for (std::size_t face = 0; face < displacement.size(); ++face)
+                                    std::to_string(surface.size()) + " faces of the surface; give one each.");
+    for (std::int32_t face = 0; face < surface.size(); ++face)
         if (!displacement[face].allFinite())
-            throw std::runtime_error("contact: the displacement of face " + std::to_string(face) +
+            throw std::runtime_error("contact: the displacement of " + face_name(surface, face) +
                                      " is not finite: the run has diverged. Take a smaller time step.");
 }
 
@@ -72,13 +73,19 @@ void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
 }
 
 template <int Dim>
-void check_path(const FacePath<Dim>& path, std::size_t n_faces) {
+void check_path(const SurfaceView<Dim>& surface, std::span<const std::int32_t> faces, const FacePath<Dim>& path) {
+    const std::size_t n_faces = faces.size();
     for (const std::size_t size :
          {path.displacement_0.size(), path.displacement_1.size(), path.force_0.size(), path.force_1.size()})
         if (size != n_faces)
             throw std::invalid_argument("contact: the path of the listed faces has an array of " + std::to_string(size) +
                                         " entries for " + std::to_string(n_faces) +
                                         " faces; give one for each of Contact::faces.");
+    for (std::size_t i = 0; i < n_faces; ++i)
+        if (!path.displacement_0[i].allFinite() || !path.displacement_1[i].allFinite() || !path.force_0[i].allFinite() ||
+            !path.force_1[i].allFinite())
+            throw std::runtime_error("contact: displacement or force of " + face_name(surface, faces[i]) +
+                                     " is not finite: the run has diverged. Take a smaller time step.");
 }
 
 template <int Dim>
@@ -101,8 +108,9 @@ Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
 template <int Dim>
 void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
                           const CouplingOf& coupling_of) {
-    require_finite(u_0, surface_.size());
-    require_finite(u_1, surface_.size());
+    require_finite(surface_, u_0);
+    require_finite(surface_, u_1);
+    list_holds_ = false;
     const std::vector<ContactPair<Dim>> known(pairs_.pairs().begin(), pairs_.pairs().end());
     std::vector<geometry::IndexPair> found = find_candidates(surface_, u_0, u_1, options_, skin_);
     // A pair in contact stays in the list however deep it is.
@@ -112,8 +120,7 @@ void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vect
         if (at.gap < 0.0 && pairs_.shared_area(pair, at.shift, options_.area).area > 0.0)
             found.push_back({pair.face_1, pair.face_2});
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sort_unique(found);
 
     pairs_.clear();
     for (const auto& [face_1, face_2] : found) pairs_.append(surface_, face_1, face_2, options_.weights);
@@ -121,7 +128,7 @@ void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vect
     list_faces();
     coupling_ = coupling_of(faces_);
     check_coupling(coupling_, faces_.size());
-    searched_ = true;
+    list_holds_ = searched_ = true;
     ++report_.rebuilds;
     report_.candidates = pairs_.size();
     report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
@@ -170,14 +177,19 @@ void Contact<Dim>::list_faces() {
         faces_.push_back(pair.face_1);
         faces_.push_back(pair.face_2);
     }
-    std::sort(faces_.begin(), faces_.end());
-    faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
+    sort_unique(faces_);
     for (std::size_t i = 0; i < faces_.size(); ++i) local_face_[faces_[i]] = static_cast<std::int32_t>(i);
 }
 
 template <int Dim>
+void Contact<Dim>::require_list() const {
+    if (!list_holds_) throw std::logic_error("contact: there is no candidate list. Call `search` first.");
+}
+
+template <int Dim>
 void Contact<Dim>::integrate(const FacePath<Dim>& path) {
-    check_path(path, faces_.size());
+    require_list();
+    check_path<Dim>(surface_, faces_, path);
     update_admission(path.displacement_0);
     integral_.integrate(surface_, pairs_, local_face_, coupling_, path);
     report_.active_pairs = static_cast<std::int64_t>(integral_.active_pairs().size());
@@ -188,7 +200,7 @@ void Contact<Dim>::integrate(const FacePath<Dim>& path) {
     if (integral_.compression() > options_.compression_limit) {
         const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];
         throw std::runtime_error(
-            "contact: faces " + std::to_string(pair.face_1) + " and " + std::to_string(pair.face_2) + " are pressed " +
+            "contact: " + face_name(surface_, pair.face_1) + " and " + face_name(surface_, pair.face_2) + " are pressed " +
             number(integral_.compression()) + " times the depth of their cells into each other, " +
             number(options_.compression_limit) +
             " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
@@ -198,7 +210,8 @@ void Contact<Dim>::integrate(const FacePath<Dim>& path) {
 template <int Dim>
 void Contact<Dim>::evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> force) {
     const FacePath<Dim> at_rest{displacement, displacement, force, force};
-    check_path(at_rest, faces_.size());
+    require_list();
+    check_path<Dim>(surface_, faces_, at_rest);
     integral_.integrate(surface_, pairs_, local_face_, coupling_, at_rest);
 }
 

@@ -28,7 +28,7 @@ struct ContactReport {
 /// Each step the host (1) asks `covers`, and if not, calls `search` with the displacements of all faces; (2) gives the path
 /// of the listed `faces()` to `integrate`; (3) adds `mean_correction` to their displacement in its own force evaluation at
 /// the middle of the step, adds `mean_force` to dV/dû of these faces, and takes both to its unknowns by the transpose of
-/// its reconstruction. METHOD.md, sections 3 and 4; docs/embedding.md walks through it.
+/// its reconstruction. docs/method.md, Contact and Time; docs/embedding.md walks through it.
 template <int Dim>
 class Contact {
 public:
@@ -40,17 +40,18 @@ public:
 
     /// Whether the candidate list is still a superset of all that can touch, when no face has moved by more than `motion`
     /// [m] since `search`.
-    [[nodiscard]] bool covers(double motion) const { return searched_ && motion <= 0.5 * skin_; }
+    [[nodiscard]] bool covers(double motion) const { return list_holds_ && motion <= 0.5 * skin_; }
 
     /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws std::runtime_error naming the face
-    /// if a displacement is not finite, std::invalid_argument for arrays of the wrong size or a coupling out of range.
+    /// if a displacement is not finite, std::invalid_argument for arrays of the wrong size or a coupling out of range; no
+    /// list holds then until a search ends well.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.
     [[nodiscard]] std::span<const std::int32_t> faces() const { return faces_; }
 
     /// Decides admission at the start of the step, then integrates along it. Throws std::runtime_error naming the faces when
-    /// a pair is pressed in deeper than `compression_limit`.
+    /// a pair is pressed in deeper than `compression_limit` or the path is not finite, std::logic_error without a list.
     void integrate(const FacePath<Dim>& path);
 
     /// Corrections and pair forces of one state (a path without motion), with the admission as it stands; counts nothing.
@@ -69,11 +70,13 @@ private:
     void keep_admission(std::span<const ContactPair<Dim>> known, std::span<const Vector<Dim>> u_0);
     void update_admission(std::span<const Vector<Dim>> displacement);
     void list_faces();
+    void require_list() const;
 
     SurfaceView<Dim> surface_;
     ContactOptions options_;
     double skin_;
-    bool searched_ = false;
+    bool searched_ = false;    // once at least: the run has begun
+    bool list_holds_ = false;  // the last search came to its end
     PairList<Dim> pairs_;
     std::vector<std::int32_t> faces_;
     std::vector<std::int32_t> local_face_;

@@ -9,7 +9,7 @@
 
 namespace abut::contact {
 
-/// Two facing faces and all of them that does not change while they move without rotation. METHOD.md, section 3.
+/// Two facing faces and all of them that does not change while they move without rotation. docs/method.md, Contact.
 template <int Dim>
 struct ContactPair {
     std::int32_t face_1;

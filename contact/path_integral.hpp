@@ -45,7 +45,7 @@ enum class Cuts {
 };
 
 /// Integrates the modified reconstruction and the pair forces along one straight step, exactly: each pair is cut where its
-/// own formula changes, each pair force where the formula of any pair coupled to it does. METHOD.md, section 4.
+/// own formula changes, each pair force where the formula of any pair coupled to it does. docs/method.md, Time.
 ///
 /// An instance keeps its work arrays from step to step; after a few steps it allocates nothing.
 template <int Dim>

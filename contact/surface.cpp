@@ -6,17 +6,37 @@
 #include <stdexcept>
 #include <string>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/contact/messages.hpp"
 #include "abut/geometry/overlap.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::contact {
 namespace {
 
-inline constexpr double tolerance = 1e-10;  // of the size of a face
+[[noreturn]] void refuse_named(const std::string& face, const std::string& what) {
+    throw std::invalid_argument("contact surface: " + face + " " + what);
+}
 
-[[noreturn]] void refuse(std::int32_t face, const std::string& what) {
-    throw std::invalid_argument("contact surface: face " + std::to_string(face) + " " + what);
+template <int Dim>
+[[noreturn]] void refuse(const SurfaceView<Dim>& surface, std::int32_t face, const std::string& what) {
+    refuse_named(face_name(surface, face), what);
+}
+
+/// What measures may be off by, over those of the face: 1e-10, and the rounding of coordinates far from the origin.
+template <int Dim>
+double tolerance(const SurfaceView<Dim>& surface, std::int32_t face) {
+    const double size = Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
+    return 1e-10 + 16.0 * std::numeric_limits<double>::epsilon() * surface.centroid[face].norm() / size;
+}
+
+/// A segment in 2D; a polygon with a limited number of corners in 3D.
+template <int Dim>
+void check_n_corners(std::size_t n_corners, const std::string& face) {
+    constexpr int most = Dim == 2 ? 2 : geometry::max_polygon_vertices;
+    if (n_corners >= Dim && n_corners <= static_cast<std::size_t>(most)) return;
+    refuse_named(face, "has " + std::to_string(n_corners) + " corners; " +
+                           (Dim == 2 ? "2 are needed. Give every segment as a face."
+                                     : "3 to " + std::to_string(most) + " are allowed. Cut it into triangles."));
 }
 
 template <int Dim>
@@ -50,16 +70,14 @@ void check_sizes(const SurfaceView<Dim>& surface) {
 template <int Dim>
 void check_corners(const SurfaceView<Dim>& surface, std::int32_t face) {
     const auto corners = surface.vertices_of(face);
-    if (corners.size() < static_cast<std::size_t>(Dim) ||
-        corners.size() > static_cast<std::size_t>(geometry::max_polygon_vertices))
-        refuse(face, "has " + std::to_string(corners.size()) + " corners; " + std::to_string(Dim) + " to " +
-                         std::to_string(geometry::max_polygon_vertices) + " are allowed. Cut it into triangles.");
+    check_n_corners<Dim>(corners.size(), face_name(surface, face));
     for (const std::int32_t v : corners) {
         if (v < 0 || static_cast<std::size_t>(v) >= surface.vertices.size())
-            refuse(face, "names vertex " + std::to_string(v) + ", but there are " + std::to_string(surface.vertices.size()) +
-                             ". Correct `face_vertices`.");
+            refuse(surface, face,
+                   "names vertex " + std::to_string(v) + ", but there are " + std::to_string(surface.vertices.size()) +
+                       ". Correct `face_vertices`.");
         if (!surface.vertices[v].allFinite())
-            refuse(face,
+            refuse(surface, face,
                    "has a corner (vertex " + std::to_string(v) + ") that is not finite. Correct it, or leave the face out.");
     }
 }
@@ -68,17 +86,18 @@ template <int Dim>
 void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
     const double area = surface.area[face];
     if (!(area > 0.0) || !std::isfinite(area))
-        refuse(face, "has the area " + number(area) + "; it must be finite and > 0. Leave it out.");
+        refuse(surface, face, "has the area " + number(area) + "; it must be finite and > 0. Leave it out.");
     if (!surface.centroid[face].allFinite())
-        refuse(face, "has a centroid that is not finite. Correct it, or leave the face out.");
+        refuse(surface, face, "has a centroid that is not finite. Correct it, or leave the face out.");
     const double length = surface.normal[face].norm();
-    if (!(std::abs(length - 1.0) < tolerance))
-        refuse(face, "has a normal of length " + number(length) + "; it must be 1 within 1e-10. Normalise it.");
+    if (!(std::abs(length - 1.0) < 1e-10))
+        refuse(surface, face, "has a normal of length " + number(length) + "; it must be 1 within 1e-10. Normalise it.");
     if (!(surface.stiffness[face] > 0.0))
-        refuse(face, "has the stiffness " + number(surface.stiffness[face]) +
-                         " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
+        refuse(surface, face,
+               "has the stiffness " + number(surface.stiffness[face]) +
+                   " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
     if (!(surface.depth[face] >= 0.0) || (surface.depth[face] == 0.0 && !surface.is_rigid(face)))
-        refuse(face,
+        refuse(surface, face,
                "has the depth " + number(surface.depth[face]) +
                    " m; it must be > 0 (>= 0 if rigid). Give the distance from the centroid of its cell to its plane.");
 }
@@ -95,28 +114,37 @@ template <int Dim>
 void check_measures(const SurfaceView<Dim>& surface, std::int32_t face) {
     const auto corners = corners_of(surface, face);
     const double area = geometry::face_measure<Dim>(corners);
-    if (!(std::abs(surface.area[face] - area) <= tolerance * area))
-        refuse(face, "has the area " + number(surface.area[face]) + ", its corners give " + number(area) +
-                         ". Compute it from the corners.");
+    const double allowed = tolerance(surface, face);
+    if (!(std::abs(surface.area[face] - area) <= allowed * area))
+        refuse(surface, face,
+               "has the area " + number(surface.area[face]) + ", its corners give " + number(area) +
+                   ". Compute it from the corners.");
     const double off = (surface.centroid[face] - geometry::face_centroid<Dim>(corners)).norm();
     const double size = Dim == 2 ? area : std::sqrt(area);
-    if (!(off <= tolerance * std::max(size, surface.centroid[face].norm())))
-        refuse(face, "has its centroid " + number(off) + " m away from that of its corners. Compute it from the corners.");
-    const double cosine = surface.normal[face].dot(geometry::face_normal<Dim>(corners));
-    if (!((Dim == 2 ? std::abs(cosine) : cosine) > 1.0 - tolerance))
-        refuse(face, "has a normal whose cosine to that of its corners is " + number(cosine) +
-                         "; it must be 1: corners run counter-clockwise seen from outside. Turn them round, or compute the "
-                         "normal from them.");
+    if (!(off <= allowed * size))
+        refuse(surface, face,
+               "has its centroid " + number(off) + " m away from that of its corners. Compute it from the corners.");
+    const Vector<Dim> normal = geometry::face_normal<Dim>(corners);
+    double turned = (surface.normal[face] - normal).norm();
+    if (Dim == 2) turned = std::min(turned, (surface.normal[face] + normal).norm());  // corners come in any order
+    if (!(turned <= allowed))
+        refuse(surface, face,
+               "has a normal that is " + number(turned) + " away from that of its corners; " + number(allowed) +
+                   " is allowed, and corners run counter-clockwise seen from outside. Turn them round, or compute the "
+                   "normal from them.");
 }
 
 void check_shape(const SurfaceView<3>& surface, std::int32_t face) {
     const auto corners = corners_of(surface, face);
+    if (corners.size() == 3) return;
     const double size = std::sqrt(surface.area[face]);
+    const double allowed = tolerance(surface, face);
     const double deviation = geometry::planarity_deviation<3>(corners);
-    if (deviation > tolerance * size)
-        refuse(face, "is not flat: a corner lies " + number(deviation / size) +
-                         " face sizes off its plane, 1e-10 is allowed. Cut it into triangles.");
-    if (!geometry::is_convex<3>(corners, tolerance * size)) refuse(face, "is not convex. Cut it into triangles.");
+    if (!(deviation <= allowed * size))
+        refuse(surface, face,
+               "is not flat: a corner lies " + number(deviation / size) + " face sizes off its plane, " + number(allowed) +
+                   " is allowed. Cut it into triangles.");
+    if (!geometry::is_convex<3>(corners, allowed * size)) refuse(surface, face, "is not convex. Cut it into triangles.");
 }
 
 void check_shape(const SurfaceView<2>&, std::int32_t) {}
@@ -136,6 +164,7 @@ SurfaceView<Dim> Surface<Dim>::view() const {
 template <int Dim>
 void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness,
                           std::int32_t face_body) {
+    check_n_corners<Dim>(corners.size(), "face " + std::to_string(size()));
     for (const Vector<Dim>& corner : corners) {
         face_vertices.push_back(static_cast<std::int32_t>(vertices.size()));
         vertices.push_back(corner);

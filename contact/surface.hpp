@@ -13,14 +13,14 @@ template <int Dim>
 struct SurfaceView {
     std::span<const Vector<Dim>> vertices;        ///< [m]
     std::span<const std::int32_t> face_offsets;   ///< (n + 1), into face_vertices
-    std::span<const std::int32_t> face_vertices;  ///< counter-clockwise seen from outside (3D); any order (2D)
+    std::span<const std::int32_t> face_vertices;  ///< counter-clockwise seen from outside (3D); two, in any order (2D)
     std::span<const Vector<Dim>> centroid;        ///< x_f (n) [m]
     std::span<const Vector<Dim>> normal;          ///< n_f (n), unit, out of the body
     std::span<const double> area;                 ///< |f| (n) [m^(Dim-1)]
-    std::span<const double>
-        depth;  ///< d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
-    std::span<const double>
-        stiffness;  ///< k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
+    /// d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
+    std::span<const double> depth;
+    /// k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
+    std::span<const double> stiffness;
     std::span<const std::int32_t> body;  ///< (n) faces of one body do not touch each other unless self-contact is asked for
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
@@ -47,14 +47,16 @@ struct Surface {
     [[nodiscard]] SurfaceView<Dim> view() const;
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
     /// Appends one face from its corners: counter-clockwise seen from outside (3D), or with the outside on the right of
-    /// the way from the first to the second (2D). Measures follow from the corners.
+    /// the way from the first to the second (2D). Measures follow from the corners. Throws std::invalid_argument for
+    /// other than 2 corners in 2D, 3 to geometry::max_polygon_vertices in 3D.
     void append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness, std::int32_t face_body);
 };
 
 /// Throws std::invalid_argument naming the face, the value, the limit and the remedy: array sizes that disagree, an index
-/// out of range, NaN, zero area, a normal that is not unit, a face that is not flat (1e-10 of its size) or not convex,
-/// area, centroid or normal that are not those of the corners (1e-10), more than geometry::max_polygon_vertices corners,
-/// a depth that is not > 0 (rigid: >= 0), a stiffness that is not > 0.
+/// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a normal
+/// that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the corners (all
+/// within 1e-10 of the face, and what rounding adds far from the origin), a depth that is not > 0 (rigid: >= 0), a stiffness
+/// that is not > 0.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 

@@ -10,7 +10,7 @@
 
 namespace abut::dynamics {
 
-/// What the displacement of a boundary face without a prescribed value is. METHOD.md, section 2.
+/// What the displacement of a boundary face without a prescribed value is. docs/method.md, Space.
 enum class Neumann {
     local_equilibrium,  ///< sigma_c n = t in the cell: the face minimises the energy of its cell
     extrapolate,        ///< affine extrapolation from nearby cells: large parasitic energy in contact, for comparison

@@ -10,7 +10,7 @@
 
 namespace abut::dynamics {
 
-/// û = R u + B u_D + L t on the boundary faces, in the order of Mesh::boundary_faces. METHOD.md, section 2.
+/// û = R u + B u_D + L t on the boundary faces, in the order of Mesh::boundary_faces. docs/method.md, Space.
 template <int Dim>
 struct BoundaryReconstruction {
     std::vector<std::int32_t> offsets{0};  ///< (n_boundary + 1)
@@ -34,7 +34,7 @@ template <int Dim>
                                                                const FaceConditions<Dim>& conditions, Neumann neumann);
 
 /// A_fg of a cell: the answer of the energy's face force on f to a displacement of g, stabilisation left out; the area
-/// vectors |f| n_f and |g| n_g point out of the cell. METHOD.md, section 2.
+/// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f,
                                          const Vector<Dim>& area_g);

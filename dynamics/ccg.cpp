@@ -10,6 +10,7 @@
 #include "abut/dynamics/ccg_region.hpp"
 #include "abut/dynamics/ccg_sweeps.hpp"
 #include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -149,7 +150,11 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
     std::vector<Vector<Dim>> prescribed(n, Vector<Dim>::Zero());
     std::vector<Vector<Dim>> traction(n, Vector<Dim>::Zero());
     const auto value_at = [&](const auto& condition, double time, std::int32_t b) {
-        return condition.history ? condition.history(time, m.boundary_centroid[b]) : condition.value;
+        const Vector<Dim> value = condition.history ? condition.history(time, m.boundary_centroid[b]) : condition.value;
+        if (!value.allFinite())
+            throw std::runtime_error("boundary condition on '" + condition.group + "': its value at t = " + number(time) +
+                                     " s is not finite. Correct its value or history.");
+        return value;
     };
     for (std::size_t i = 0; i < m.conditions.dirichlet.size(); ++i)
         for (const auto& [b, projector] : m.face_conditions.dirichlet[i])

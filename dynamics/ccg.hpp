@@ -38,7 +38,7 @@ struct Region {
     std::vector<std::int32_t> force_faces;
 };
 
-/// Cell-centred Galerkin operators of a mesh, without a matrix. METHOD.md, section 2.
+/// Cell-centred Galerkin operators of a mesh, without a matrix. docs/method.md, Space.
 ///
 ///     u_f by the stencils -> G_c and its traces I_c(x_f) -> S_c with the jumps k [u]_f -> face forces y_f -> dV/du_c
 ///
@@ -74,7 +74,8 @@ public:
     /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the forces of `corrections` are taken along.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
-    /// y_f - |f| t_f + pair force of a boundary face [N], as of the last call of `gradient`.
+    /// y_f - |f| t_f + pair force of a boundary face [N], as of the last call of `gradient`; `evaluate_cells` since then has
+    /// set those of its region.
     [[nodiscard]] Vector<Dim> boundary_force(std::int32_t boundary_face) const;
 
     /// V(u, û + delta) less the work of tractions [J].
@@ -92,7 +93,7 @@ public:
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
-    /// Q_ff' among these boundary faces (places in Mesh::boundary_faces). METHOD.md, section 4.
+    /// Q_ff' among these boundary faces (places in Mesh::boundary_faces). docs/method.md, Time.
     [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const std::int32_t> faces) const;
 
     /// A cheap bound on how far any boundary face has moved from one state to another [m].

@@ -7,7 +7,7 @@
 
 #include "abut/dynamics/boundary_reconstruction.hpp"
 #include "abut/dynamics/lanes.hpp"
-#include "abut/dynamics/sort_unique.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::dynamics {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "abut/dynamics/parallel.hpp"
 
@@ -127,6 +128,10 @@ std::vector<BodyMotion<Dim>> body_motions(const Memm<Solid<Dim>>& integrator, co
 
 template <int Dim>
 std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity) {
+    const auto n_bodies = static_cast<std::size_t>(solid.mesh().n_bodies());
+    if (body_velocity.size() != n_bodies)
+        throw std::invalid_argument(std::to_string(body_velocity.size()) + " velocities are given for " +
+                                    std::to_string(n_bodies) + " bodies. Give one a body.");
     std::vector<double> momentum(solid.size());
     const auto p = as_vectors<Dim>(std::span<double>(momentum));
     for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)

@@ -13,8 +13,8 @@ namespace abut::dynamics {
 template <int Dim>
 inline constexpr int n_rotations = Dim == 2 ? 1 : 3;
 
-/// The state of a run at one step. Energies come together, since H~ alone does not prove a good solution (METHOD.md,
-/// section 4): H~ with H, the parasitic mode and the number of events.
+/// The state of a run at one step. Energies come together, since H~ alone does not prove a good solution (docs/method.md,
+/// Time): H~ with H, the parasitic mode and the number of events.
 template <int Dim>
 struct LedgerEntry {
     std::int64_t step;
@@ -24,12 +24,12 @@ struct LedgerEntry {
     double kinetic;               ///< 1/2 p . M^-1 p [J]
     double potential;             ///< V, less the work of constant loads [J]
     double work;                  ///< done from outside so far [J]
-    double restart_jumps;         ///< what restarts with another step have added to H~ so far [J]
     Vector<Dim> linear_momentum;  ///< [kg m/s]
     Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign> angular_momentum;  ///< about the origin [kg m^2/s]
     double parasitic;                                                               ///< largest |e_c| / m_c [m/s]
     std::int64_t active_pairs;                                                      ///< in the last step
     std::int64_t events;                                                            ///< so far
+    double restart_jumps;  ///< what restarts with another step have added to H~ so far [J]
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).

@@ -12,9 +12,12 @@
 
 namespace abut::dynamics {
 
-/// What a new time step does to the half-step momenta. METHOD.md, section 4.
+/// What a new time step does to the half-step momenta. docs/method.md, Time.
 enum class StepChange {
-    keep,     ///< H~ stays exact, but p^{n+3/2} and p^{n-1/2} are then not 2 dt apart: only for slow changes
+    /// H~ stays exact, but p^{n+3/2} and p^{n-1/2} are then not 2 dt apart. Only for slow and smooth changes:
+    /// alternating or irregular steps feed the parasitic mode, which then grows exponentially at any size of step, and H~ does
+    /// not notice.
+    keep,
     restart,  ///< the half-step momenta are made anew from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
 };
 
@@ -29,7 +32,7 @@ void add_scaled(std::span<const double> a, double s, std::span<const double> f, 
 [[noreturn]] void refuse_step(double dt);
 }  // namespace detail
 
-/// The explicit pseudo-energy conserving scheme MEMM. METHOD.md, section 4.
+/// The explicit pseudo-energy conserving scheme MEMM. docs/method.md, Time.
 ///
 ///     q^{n+1}   = q^n + dt M^-1 p^{n+1/2}
 ///     p^{n+3/2} = p^{n-1/2} + 2 dt mean of F over the straight way from q^n to q^{n+1}

@@ -86,7 +86,7 @@ void NeutralFilter<Dim>::operator()(std::span<const double> q, double dt, std::s
     for (const ContactPatch& patch : patches) cells_.insert(cells_.end(), patch.cells.begin(), patch.cells.end());
     std::sort(cells_.begin(), cells_.end());
     force_.resize(cells_.size());
-    solid_.force_on(cells_, q, force_);
+    solid_.end_force_on(cells_, q, force_);
     for (const ContactPatch& patch : patches)
         filter(patch, as_vectors<Dim>(q), dt, as_vectors<Dim>(p_before), as_vectors<Dim>(p_after), force_);
 }

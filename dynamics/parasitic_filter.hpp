@@ -5,7 +5,7 @@
 namespace abut::dynamics {
 
 /// Takes the alternating mode of MEMM out of the cells that were in contact, without touching H~, momentum or angular
-/// momentum. METHOD.md, section 4:
+/// momentum. docs/method.md, Time:
 ///
 ///     p^{n+3/2} <- p^{n+3/2} - kappa (e' - alpha M v'),   alpha = v . e' / (v . M v')
 ///

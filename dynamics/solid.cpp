@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "abut/dynamics/parallel.hpp"
-#include "abut/dynamics/sort_unique.hpp"
+#include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -33,30 +33,16 @@ const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions
         throw std::invalid_argument(mesh.name + ": " + std::to_string(options.acceleration.size()) +
                                     " accelerations are given for " + std::to_string(n_bodies) +
                                     " bodies. Give one a body, or none.");
+    for (std::size_t body = 0; body < options.acceleration.size(); ++body)
+        if (!options.acceleration[body].allFinite())
+            throw std::invalid_argument(mesh.name + ": the acceleration of body " + std::to_string(body) + " ('" +
+                                        mesh.body_names[body] + "') is not finite. Correct SolidOptions::acceleration.");
     if (!options.obstacles.empty() && !options.contact)
         throw std::invalid_argument(mesh.name + ": " + std::to_string(options.obstacles.size()) +
                                     " obstacles are given without contact, so nothing would feel them. Give "
                                     "SolidOptions::contact, or no obstacles.");
     return options;
 }
-
-/// Sets of numbers 0 .. n-1 that grow together.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-    std::int32_t find(std::int32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::int32_t a, std::int32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::int32_t> parent_;
-};
 
 template <int Dim>
 void average(const BoundaryLoad<Dim>& a, const BoundaryLoad<Dim>& b, BoundaryLoad<Dim>& mean) {
@@ -80,6 +66,9 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
             Vector<Dim> force = Vector<Dim>::Zero();
             if (!options_.acceleration.empty()) force += cell_mass_[c] * options_.acceleration[mesh.cell_body[c]];
             if (options_.body_load) force += mesh.cell_measure[c] * options_.body_load(mesh.cell_centroid[c]);
+            if (!force.allFinite())
+                throw std::invalid_argument(mesh.name + ": the force on cell " + std::to_string(mesh.cell_label[c]) +
+                                            " is not finite. Correct SolidOptions::body_load.");
             body_force_.push_back(force);
         }
     }
@@ -157,6 +146,10 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
 template <int Dim>
 void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                             std::span<double> force) {
+    if (time != time_ && (contact_ || ccg_.load_varies()))
+        throw std::logic_error("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
+                               exact_number(time_) +
+                               " s. Loads, work and contacts go on from step to step: make a Solid for every run.");
     const auto u_0 = as_vectors<Dim>(q_0);
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
@@ -174,9 +167,13 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     } else {
         ccg_.gradient(midpoint_, load_, corrections(), gradient);
     }
-    add_work();
+    add_boundary_work();
+    add_obstacle_work();
     to_force(gradient);
+    std::swap(u_0_, u_1_);  // the next step begins where this one ends
+    std::swap(y_0_, y_1_);
     time_ = time + dt;
+    has_stepped_ = true;
 }
 
 /// Tractions are constant within a step: where one changes, the jump of the potential is work from outside.
@@ -199,6 +196,7 @@ template <int Dim>
 void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
     follow_list(q_0, q_1, time, dt);
     const Stopwatch watch(times_.contact);
+    if (!has_stepped_) evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
     active_pairs_.clear();
     evaluate_faces(q_1, load_, time + dt, u_1_, y_1_);
     contact_->integrate({u_0_, u_1_, y_0_, y_1_});
@@ -206,18 +204,40 @@ void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<cons
     active_pairs_.assign(active.begin(), active.end());
 }
 
-/// Makes the candidate list anew when some face may have moved too far since the last search. A cheap bound is asked
-/// first, and the exact motion only when the bound cannot tell; the bound then starts again from there.
+/// Makes the candidate list anew when some face may have moved too far since the last search.
 template <int Dim>
 void Solid<Dim>::follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
     const Stopwatch watch(times_.search);
-    if (searched_.u.empty()) return search(q_0, q_1, time, dt);
-    const double obstacles = obstacle_motion(time + dt);
-    if (contact_->covers(obstacles + measured_motion_ + ccg_.motion_bound(measured_.u, measured_.load, q_1, load_))) return;
-    measured_motion_ = ccg_.largest_motion(searched_.u, searched_.load, q_1, load_);
-    measured_.u.assign(q_1.begin(), q_1.end());
+    if (!list_covers(q_1, time + dt)) search(q_0, q_1, time, dt);
+}
+
+/// A cheap bound is asked first, and the exact motion only when the bound cannot tell; the bound then starts again from
+/// there.
+template <int Dim>
+bool Solid<Dim>::list_covers(std::span<const Vector<Dim>> q, double time) {
+    if (searched_.u.empty()) return false;
+    const double obstacles = obstacle_motion(time);
+    if (contact_->covers(obstacles + measured_motion_ + ccg_.motion_bound(measured_.u, measured_.load, q, load_)))
+        return true;
+    measured_motion_ = ccg_.largest_motion(searched_.u, searched_.load, q, load_);
+    measured_.u.assign(q.begin(), q.end());
     measured_.load = load_;
-    if (!contact_->covers(obstacles + measured_motion_)) search(q_0, q_1, time, dt);
+    return contact_->covers(obstacles + measured_motion_);
+}
+
+/// The list for one state. Contacts have no history before the first step: then it may be made anew. Later a state out of its
+/// reach is refused, since a list made there would forget which pairs are in contact.
+template <int Dim>
+void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
+    if (std::ranges::equal(q, swept_end_) || list_covers(q, time_)) return;
+    if (has_stepped_ && std::isfinite(measured_motion_))
+        throw std::logic_error(
+            "solid: a face is " + number(measured_motion_) +
+            " m away from where contacts were last searched, half the skin of " + number(contact_->skin()) +
+            " m is allowed in a state that no step has reached. Step there, make a Solid for every run, or "
+            "raise ContactOptions::skin.");
+    if (!has_stepped_) contact_.emplace(surface_.view(), *options_.contact);
+    search(q, q, time_, 0.0);
 }
 
 template <int Dim>
@@ -244,6 +264,7 @@ void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector
     searched_.u.assign(q_0.begin(), q_0.end());
     searched_.load = load_start_;
     searched_time_ = time;
+    swept_end_.assign(q_1.begin(), q_1.end());
     measured_ = searched_;
     measured_motion_ = 0.0;
     evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
@@ -253,18 +274,29 @@ void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector
 template <int Dim>
 double Solid<Dim>::obstacle_motion(double time) const {
     double motion = 0.0;
-    for (const auto& obstacle : options_.obstacles)
-        if (obstacle.path) motion = larger(motion, (obstacle.path(time) - obstacle.path(searched_time_)).norm());
+    for (std::size_t i = 0; i < options_.obstacles.size(); ++i)
+        motion = larger(motion, (obstacle_displacement(i, time) - obstacle_displacement(i, searched_time_)).norm());
     return motion;
+}
+
+template <int Dim>
+Vector<Dim> Solid<Dim>::obstacle_displacement(std::size_t obstacle, double time) const {
+    const auto& path = options_.obstacles[obstacle].path;
+    if (!path) return Vector<Dim>::Zero();
+    const Vector<Dim> displacement = path(time);
+    if (!displacement.allFinite())
+        throw std::runtime_error("obstacle " + std::to_string(obstacle) + ": its displacement at t = " + number(time) +
+                                 " s is not finite. Correct RigidObstacle::path.");
+    return displacement;
 }
 
 /// Sets the displacement of the obstacles' faces, which come last.
 template <int Dim>
 void Solid<Dim>::fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const {
     std::size_t face = surface_boundary_.size();
-    for (const auto& obstacle : options_.obstacles) {
-        const Vector<Dim> moved = obstacle.path ? obstacle.path(time) : Vector<Dim>(Vector<Dim>::Zero());
-        for (std::size_t i = 0; i < obstacle.faces.size(); ++i) displacement[face++] = moved;
+    for (std::size_t i = 0; i < options_.obstacles.size(); ++i) {
+        const Vector<Dim> moved = obstacle_displacement(i, time);
+        for (std::size_t j = 0; j < options_.obstacles[i].faces.size(); ++j) displacement[face++] = moved;
     }
 }
 
@@ -276,8 +308,7 @@ void Solid<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLo
     force.resize(faces.size());
     ccg_.evaluate_faces(region_, q, load, displacement, force);
     for (std::size_t i = local_boundary_.size(); i < faces.size(); ++i) {
-        const auto& path = options_.obstacles[static_cast<std::size_t>(surface_.body[faces[i]] - mesh_.n_bodies())].path;
-        displacement[i] = path ? path(time) : Vector<Dim>(Vector<Dim>::Zero());
+        displacement[i] = obstacle_displacement(obstacle_of(faces[i]), time);
         force[i].setZero();
     }
 }
@@ -286,30 +317,29 @@ void Solid<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLo
 template <int Dim>
 void Solid<Dim>::evaluate_contact(std::span<const Vector<Dim>> q) {
     if (!contact_) return;
-    if (searched_.u.empty()) {
-        const Stopwatch watch(times_.search);
-        search(q, q, time_, 0.0);
-    }
+    require_list(q);
     if (contact_->faces().empty()) return;
     evaluate_faces(q, load_, time_, u_1_, y_1_);
     contact_->evaluate(u_1_, y_1_);
 }
 
 template <int Dim>
-void Solid<Dim>::add_work() {
-    if (ccg_.load_varies())
-        for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
-            work_ += ccg_.boundary_force(b).dot(load_.displacement[b] - load_start_.displacement[b]);
-    std::swap(u_0_, u_1_);
-    std::swap(y_0_, y_1_);
-    if (options_.obstacles.empty() || !contact_) return;
+void Solid<Dim>::add_boundary_work() {
+    if (!ccg_.load_varies()) return;
+    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
+        work_ += ccg_.boundary_force(b).dot(load_.displacement[b] - load_start_.displacement[b]);
+}
+
+template <int Dim>
+void Solid<Dim>::add_obstacle_work() {
+    if (options_.obstacles.empty()) return;
     std::fill(obstacle_force_.begin(), obstacle_force_.end(), Vector<Dim>::Zero());
     if (active_pairs_.empty()) return;
     const auto faces = contact_->faces();
     for (std::size_t i = local_boundary_.size(); i < faces.size(); ++i) {
         const Vector<Dim> gradient = contact_->result().mean_force()[i];
-        obstacle_force_[static_cast<std::size_t>(surface_.body[faces[i]] - mesh_.n_bodies())] -= gradient;
-        work_ += gradient.dot(u_0_[i] - u_1_[i]);  // swapped: u_0_ is now the end of the step
+        obstacle_force_[obstacle_of(faces[i])] -= gradient;
+        work_ += gradient.dot(u_1_[i] - u_0_[i]);
     }
 }
 
@@ -346,66 +376,22 @@ typename Solid<Dim>::ContactField Solid<Dim>::contact_field(std::span<const doub
 
 template <int Dim>
 std::vector<ContactPatch> Solid<Dim>::contact_patches() const {
-    if (active_pairs_.empty()) return {};
-    std::vector<std::int32_t> touching;  // deformable faces of active pairs, as places in the candidate list's faces
-    const auto is_deformable = [&](std::int32_t f) { return f < static_cast<std::int32_t>(local_boundary_.size()); };
-    const auto for_each_pair = [&](auto&& visit) {
-        for (const std::int32_t p : active_pairs_) {
-            const auto& pair = contact_->pairs().pairs()[p];
-            visit(contact_->local(pair.face_1), contact_->local(pair.face_2));
-        }
+    std::vector<TouchingFaces> touching;
+    const auto boundary_place = [&](std::int32_t surface_face) {
+        return surface_.view().is_rigid(surface_face) ? no_face : surface_boundary_[surface_face];
     };
-    for_each_pair([&](std::int32_t f_1, std::int32_t f_2) {
-        for (const std::int32_t f : {f_1, f_2})
-            if (is_deformable(f)) touching.push_back(f);
-    });
-    sort_unique(touching);
-    std::vector<std::int32_t> cells;
-    for (const std::int32_t f : touching) {
-        const auto of_face = ccg_.cells_of(local_boundary_[f]);
-        cells.insert(cells.end(), of_face.begin(), of_face.end());
+    for (const std::int32_t p : active_pairs_) {
+        const auto& pair = contact_->pairs().pairs()[p];
+        touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2)});
     }
-    sort_unique(cells);
-    const auto place = [](const std::vector<std::int32_t>& sorted, std::int32_t value) {
-        return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
-    };
-
-    // Join the cells of each face, and the two faces of each pair.
-    DisjointSets sets(cells.size());
-    const auto node_of = [&](std::int32_t f) { return place(cells, ccg_.cells_of(local_boundary_[f]).front()); };
-    for (const std::int32_t f : touching)
-        for (const std::int32_t c : ccg_.cells_of(local_boundary_[f])) sets.join(node_of(f), place(cells, c));
-    for_each_pair([&](std::int32_t f_1, std::int32_t f_2) {
-        if (is_deformable(f_1) && is_deformable(f_2)) sets.join(node_of(f_1), node_of(f_2));
-    });
-
-    std::vector<ContactPatch> patches;
-    std::vector<std::int32_t> patch_of_root(cells.size(), -1);
-    const auto patch_of = [&](std::int32_t node) -> ContactPatch& {
-        std::int32_t& patch = patch_of_root[sets.find(node)];
-        if (patch < 0) {
-            patch = static_cast<std::int32_t>(patches.size());
-            patches.emplace_back();
-        }
-        return patches[patch];
-    };
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        ContactPatch& patch = patch_of(static_cast<std::int32_t>(i));
-        patch.cells.push_back(cells[i]);
-        patch.held = patch.held || ccg_.has_prescribed_face(cells[i]);
-    }
-    for_each_pair([&](std::int32_t f_1, std::int32_t f_2) {
-        if (is_deformable(f_1) && !is_deformable(f_2)) patch_of(node_of(f_1)).held = true;
-        if (is_deformable(f_2) && !is_deformable(f_1)) patch_of(node_of(f_2)).held = true;
-    });
-    return patches;
+    return dynamics::contact_patches(ccg_, touching);
 }
 
 template <int Dim>
-void Solid<Dim>::force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force) {
+void Solid<Dim>::end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force) {
     if (!std::equal(cells.begin(), cells.end(), patch_region_.cells.begin(), patch_region_.cells.end()))
         patch_region_ = ccg_.region_of_cells(cells);
-    evaluate_contact(as_vectors<Dim>(q));
+    if (contact_ && !contact_->faces().empty()) contact_->evaluate(u_0_, y_0_);
     ccg_.evaluate_cells(patch_region_, as_vectors<Dim>(q), load_, corrections(), force);
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = body_force_.empty() ? Vector<Dim>(-force[i]) : Vector<Dim>(body_force_[cells[i]] - force[i]);

@@ -8,6 +8,7 @@
 #include "abut/contact/contact.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/ccg.hpp"
+#include "abut/dynamics/contact_patches.hpp"
 #include "abut/dynamics/system.hpp"
 
 namespace abut::dynamics {
@@ -24,22 +25,20 @@ struct SolidOptions {
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
 };
 
-/// Where the time of a run went [s].
+/// Where the time of all calls of `Solid::mean_force` went [s].
 struct SolidTimes {
     double bulk = 0.0;
     double contact = 0.0;
     double search = 0.0;
 };
 
-/// Cells that touched something in the last step and so may carry the parasitic mode of the scheme.
-struct ContactPatch {
-    std::vector<std::int32_t> cells;  ///< increasing
-    bool held = false;                ///< touches an obstacle or a prescribed boundary: its momentum is not its own
-};
-
-/// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System.
+/// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
+/// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
 ///
 /// Faces with a prescribed displacement (whole or in part) take no part in contact; `contact_faces_left_out` counts them.
+///
+/// `force`, `potential` and `contact_field` take any state before the first step, and later the last state or one that no
+/// face has left by more than half the skin since the last search; they throw std::logic_error for others.
 template <int Dim>
 class Solid {
 public:
@@ -54,7 +53,9 @@ public:
 
     /// Displacements q are cell by cell, shape (n_cells, Dim) [m].
     void force(std::span<const double> q, std::span<double> force);
-    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way. METHOD.md, section 4.
+    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way (docs/method.md, Time). Throws
+    /// std::logic_error where the step should begin when the last one ended but does not, std::runtime_error when the run has diverged or a
+    /// pair is pressed in deeper than `compression_limit`.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force);
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
@@ -66,8 +67,9 @@ public:
 
     /// Parts of the bodies that were in contact during the last step; bodies joined by a pair are in one patch.
     [[nodiscard]] std::vector<ContactPatch> contact_patches() const;
-    /// F(q) on some cells only (n, Dim) [N]; the cost is proportional to their number.
-    void force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
+    /// F(q) on some cells only (n, Dim) [N], q being where the last step ended. Costs as much as these cells, and the pairs of
+    /// the candidate list.
+    void end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
 
     /// Contact pressure [Pa] and smallest gap [m] of each boundary face in state q, in the order of Mesh::boundary_faces;
     /// a face without an admitted partner that shares area with it has pressure 0 and gap infinity.
@@ -93,13 +95,20 @@ private:
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     void follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    [[nodiscard]] bool list_covers(std::span<const Vector<Dim>> q, double time);
+    void require_list(std::span<const Vector<Dim>> q);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const;
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force);
     void evaluate_contact(std::span<const Vector<Dim>> q);
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
-    void add_work();
+    void add_boundary_work();
+    void add_obstacle_work();
+    [[nodiscard]] std::size_t obstacle_of(std::int32_t surface_face) const {
+        return static_cast<std::size_t>(surface_.body[surface_face] - mesh_.n_bodies());
+    }
+    [[nodiscard]] Vector<Dim> obstacle_displacement(std::size_t obstacle, double time) const;
     void to_force(std::span<Vector<Dim>> gradient) const;
     [[nodiscard]] double obstacle_motion(double time) const;
 
@@ -110,7 +119,8 @@ private:
     std::vector<double> inverse_mass_;
     std::vector<Vector<Dim>> body_force_;  // by cell; empty without loads
     double work_ = 0.0;
-    double time_ = 0.0;             // of the last state that `mean_force` ended in
+    double time_ = 0.0;  // of the last state that `mean_force` ended in
+    bool has_stepped_ = false;
     BoundaryLoad<Dim> load_;        // at that state
     BoundaryLoad<Dim> load_start_;  // at the start of the current step
 
@@ -124,11 +134,12 @@ private:
     };
     Reference searched_;  // state at the last search
     double searched_time_ = 0.0;
-    Reference measured_;  // state at which the motion since the search was last measured
+    std::vector<Vector<Dim>> swept_end_;  // the list holds there, too: end of the step that it was made for
+    Reference measured_;                  // state at which the motion since the search was last measured
     double measured_motion_ = 0.0;
     Region<Dim> region_;                              // of the faces in the candidate list
     std::vector<std::int32_t> local_boundary_;        // their places in boundary_faces (deformable faces come first)
-    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // path of the listed faces
+    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // path of the listed faces; between steps _0 is its end
     std::vector<Vector<Dim>> midpoint_;
     std::vector<std::int32_t> active_pairs_;  // of the last step
     std::vector<Vector<Dim>> obstacle_force_;

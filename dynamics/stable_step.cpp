@@ -49,7 +49,7 @@ StableStep stable_step(Solid<Dim>& solid) {
     if (!(change <= settled_change) || !(quotient > 0.0))
         throw std::runtime_error("stable step: the power iteration has not settled after " + std::to_string(iteration) +
                                  " iterations (relative change " + number(change) + ", allowed " + number(settled_change) +
-                                 "). Check the mesh for slivers, or give the time step yourself.");
+                                 "). Check the mesh for slivers and the material for extreme values.");
     const double omega = lower_bound_margin * std::sqrt(quotient);
     return {omega, (solid.contact() ? contact_margin : 1.0) * 2.0 / omega, iteration, change};
 }

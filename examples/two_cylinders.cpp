@@ -16,6 +16,9 @@ namespace {
 /// After the first touch, in units of (R / sqrt(E / rho)) of the slower body: long enough for impact, slip and release.
 constexpr double default_crossings = 10.0;
 
+const Choices<mesh::NonPlanarFaces> non_planar_faces = {{"fail", mesh::NonPlanarFaces::fail},
+                                                        {"split", mesh::NonPlanarFaces::split}};
+
 void add_body_options(CLI::App& app, CylinderOptions& options) {
     const Limits length{.unit = "m", .above = 0.0};
     const Limits pressure{.unit = "Pa", .above = 0.0};
@@ -47,6 +50,11 @@ void add_place_options(CLI::App& app, CylinderOptions& options, double offset_ov
     auto* meshes = app.add_option("--mesh", options.meshes, mesh_help)->group("Scene");
     meshes->delimiter(',')->expected(2)->type_name("FILE,FILE");
     meshes->excludes(offset, gap, app.get_option("--radius"), app.get_option("--length"), app.get_option("--size"));
+    add_choice(app, "--non-planar", options.non_planar,
+               "cells of the files with faces that are not planar: refuse them, or split them into tetrahedra",
+               non_planar_faces)
+        ->needs(meshes)
+        ->group("Scene");
 }
 
 void check(const CylinderOptions& options, const RunOptions& run) {
@@ -75,7 +83,7 @@ void check(const CylinderOptions& options, const RunOptions& run) {
 
 /// Centres so that the circles are `gap` apart, measured between their nearest points; the middle is the origin.
 std::array<Vector<2>, 2> centres(const CylinderOptions& options) {
-    const double distance = options.radius[0] + options.radius[1] + options.gap;
+    const double distance = std::max(0.0, options.radius[0] + options.radius[1] + options.gap);
     const double along_x = std::sqrt(std::max(0.0, distance * distance - options.offset * options.offset));
     const Vector<2> half(0.5 * along_x, 0.5 * options.offset);
     return {Vector<2>(-half), half};
@@ -102,8 +110,8 @@ mesh::Mesh<Dim> cylinder(const CylinderOptions& options, std::size_t body) {
 }
 
 template <int Dim>
-mesh::Mesh<Dim> one_body_of_file(const std::string& path) {
-    auto mesh = mesh::read_mesh<Dim>(path);
+mesh::Mesh<Dim> one_body_of_file(const std::string& path, mesh::NonPlanarFaces non_planar) {
+    auto mesh = mesh::read_mesh<Dim>(path, {.non_planar = non_planar});
     if (mesh.n_bodies() != 1)
         throw std::invalid_argument(
             fmt::format("--mesh {}: the file holds {} bodies, 1 is needed. Write each body to a file of its own.", path,
@@ -116,7 +124,7 @@ mesh::Mesh<Dim> both_bodies(const CylinderOptions& options) {
     std::vector<mesh::Mesh<Dim>> bodies;
     for (std::size_t body = 0; body < 2; ++body)
         bodies.push_back(options.meshes.empty() ? cylinder<Dim>(options, body)
-                                                : one_body_of_file<Dim>(options.meshes[body]));
+                                                : one_body_of_file<Dim>(options.meshes[body], options.non_planar));
     return mesh::combine<Dim>(bodies);
 }
 
@@ -135,6 +143,7 @@ nlohmann::ordered_json to_json(const CylinderOptions& options) {
                                    {"density", options.density}, {"speed", options.speed}, {"eta", options.eta}};
     if (!options.meshes.empty()) {
         json["mesh"] = options.meshes;
+        json["non_planar"] = name_of(non_planar_faces, options.non_planar);
         return json;
     }
     json.update({{"radius", options.radius}, {"size", options.size}, {"offset", options.offset}, {"gap", options.gap}});

@@ -24,6 +24,7 @@ struct CylinderOptions {
     double offset = not_given;              ///< of the centres along y [m]
     double gap = 0.02;                      ///< between the surfaces at the start [m]
     std::vector<std::string> meshes;        ///< files of the two bodies, instead of radius, length, size, offset and gap
+    mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;  ///< in those files
 };
 
 /// What was not given: size, eta, and the offset from that over the mean radius.

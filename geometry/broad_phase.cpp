@@ -6,6 +6,7 @@
 #include <string>
 
 #include "abut/geometry/broad_phase_backends.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::geometry {
 namespace {
@@ -99,11 +100,6 @@ std::vector<IndexPair> pairs_within(BroadPhase method, const Selection& selectio
             return backend::brute_force_pairs(selection.boxes);
     }
     throw std::invalid_argument("not a BroadPhase");
-}
-
-void sort_unique(std::vector<IndexPair>& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 }  // namespace

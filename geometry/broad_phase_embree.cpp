@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "abut/geometry/broad_phase_backends.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::geometry::backend {
 namespace {
@@ -78,8 +79,7 @@ std::vector<double> sorted_bounds(std::span<const Boxes> sets, int axis) {
     std::vector<double> bounds;
     for (const Boxes& boxes : sets)
         for (const Box<3>& box : boxes) bounds.insert(bounds.end(), {box.lower[axis], box.upper[axis]});
-    std::sort(bounds.begin(), bounds.end());
-    bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+    sort_unique(bounds);
     return bounds;
 }
 

@@ -31,7 +31,7 @@ struct SharedArea {
 /// The area is then rounded to double, to no less than the smallest normal one. dA/ds is the sum over the edges of face 2
 /// inside face 1 of (length) (outward in-plane normal); an edge of 2 that lies on an edge of 1 (within 1e-12 of the face
 /// size, matching meshes) counts half, and not at all if it runs the other way: such faces lie side by side. Zero area
-/// gives a zero derivative. METHOD.md, section 3. `exact` takes the half only where the edges are exactly collinear: on
+/// gives a zero derivative. docs/method.md, Contact. `exact` takes the half only where the edges are exactly collinear: on
 /// meshes that match up to rounding the derivatives of the two methods differ. Repeated vertices and straight corners are
 /// allowed; a face without area shares none.
 template <int Dim>

@@ -12,7 +12,9 @@ namespace abut::mesh {
 std::string file_contents(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw MeshError(path.string() + ": there is no such file. Check the path.");
+    if (status.type() == std::filesystem::file_type::not_found)
+        throw MeshError(path.string() + ": there is no such file. Check the path.");
+    if (error) throw MeshError(path.string() + ": cannot be read: " + error.message() + ". Check the path.");
     if (std::filesystem::is_directory(status))
         throw MeshError(path.string() + ": is a folder, a mesh file is needed. Check the path.");
     std::ifstream file(path, std::ios::binary);
@@ -23,11 +25,12 @@ std::string file_contents(const std::filesystem::path& path) {
 }
 
 void make_directory(const std::filesystem::path& directory) {
-    std::error_code error;
+    std::error_code error, unknown;
     std::filesystem::create_directories(directory, error);
-    if (!std::filesystem::is_directory(directory))
-        throw MeshError(directory.string() +
-                        ": the folder cannot be made: " + (error ? error.message() : "a file is in its place") +
+    const auto status = std::filesystem::status(directory, unknown);
+    if (!std::filesystem::is_directory(status))
+        throw MeshError(directory.string() + ": the folder cannot be made: " +
+                        (std::filesystem::exists(status) ? "a file is in its place" : (error ? error : unknown).message()) +
                         ". Choose another one or change its permissions.");
 }
 

@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "abut/geometry/convex_distance.hpp"
+#include "abut/geometry/messages.hpp"
 #include "abut/mesh/measures.hpp"
-#include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {

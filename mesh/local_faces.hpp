@@ -28,4 +28,19 @@ template <int Dim>
     return local_face(soup.cell_vertices[cell], soup.cell_shape[static_cast<std::size_t>(cell)], face);
 }
 
+/// Vertices of a face in increasing order, -1 behind the last: the same for both cells of the face.
+using FaceKey = std::array<std::int32_t, max_face_vertices>;
+
+[[nodiscard]] inline FaceKey face_key(std::span<const std::int32_t> vertices) {
+    FaceKey key;
+    key.fill(-1);
+    std::size_t count = 0;
+    for (const std::int32_t vertex : vertices) {
+        std::size_t place = count++;
+        for (; place > 0 && key[place - 1] > vertex; --place) key[place] = key[place - 1];
+        key[place] = vertex;
+    }
+    return key;
+}
+
 }  // namespace abut::mesh

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "abut/geometry/box.hpp"
+#include "abut/geometry/sort_unique.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"
@@ -47,8 +48,7 @@ std::vector<BoundaryGroup> boundary_groups(const CellSoup<Dim>& soup, const Face
         groups[static_cast<std::size_t>(named.group)].faces.push_back(face);
     }
     for (BoundaryGroup& group : groups) {
-        std::sort(group.faces.begin(), group.faces.end());
-        group.faces.erase(std::unique(group.faces.begin(), group.faces.end()), group.faces.end());
+        sort_unique(group.faces);
     }
     return groups;
 }
@@ -119,7 +119,7 @@ void append_cells_and_faces(Mesh<Dim>& to, const Mesh<Dim>& from) {
     append(to.vertex_label, from.vertex_label);
 }
 
-void append_report(BuildReport& to, const BuildReport& from, std::int32_t n_cells_before) {
+void append_report(BuildReport& to, const BuildReport& from) {
     to.n_unused_vertices += from.n_unused_vertices;
     to.n_ignored_elements += from.n_ignored_elements;
     to.n_non_planar_faces += from.n_non_planar_faces;
@@ -127,7 +127,7 @@ void append_report(BuildReport& to, const BuildReport& from, std::int32_t n_cell
     append(to.warnings, from.warnings);
     if (from.worst_planarity <= to.worst_planarity && to.worst_face_cell >= 0) return;
     to.worst_planarity = from.worst_planarity;
-    to.worst_face_cell = from.worst_face_cell < 0 ? -1 : from.worst_face_cell + n_cells_before;
+    to.worst_face_cell = from.worst_face_cell;
 }
 
 /// One prefix a mesh: its name, with "_1", "_2", ... behind it where several have the same name.
@@ -203,8 +203,7 @@ std::vector<Place<Dim>> places_of_boundary_vertices(const Mesh<Dim>& mesh, doubl
             place.second = mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])];
             places.push_back(place);
         }
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
+    sort_unique(places);
     return places;
 }
 
@@ -274,7 +273,7 @@ Mesh<Dim> combine(std::span<const Mesh<Dim>> meshes) {
     std::vector<std::string> names;
     std::swap(names, result.body_names);  // bodies are counted while the meshes come in
     for (const auto& mesh : meshes) {
-        append_report(result.report, mesh.report, result.n_cells());
+        append_report(result.report, mesh.report);
         append_cells_and_faces(result, mesh);
         append(result.body_names, mesh.body_names);
         result.name += (result.name.empty() ? "" : "+") + mesh.name;

@@ -52,7 +52,7 @@ struct BuildReport {
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
     double worst_planarity = 0.0;  ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
-    std::int32_t worst_face_cell = -1;  ///< index in the input of a cell with that face; -1 if every face has Dim vertices
+    std::int64_t worst_face_cell = -1;  ///< number in its input of a cell with that face; -1 if every face has Dim vertices
 };
 
 /// Conforming mesh of one or several bodies that share no vertex, cell or face: polygons in 2D, polyhedra in 3D, with both

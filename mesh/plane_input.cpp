@@ -1,6 +1,6 @@
 #include "abut/mesh/plane_input.hpp"
 
-#include "abut/mesh/messages.hpp"
+#include "abut/geometry/messages.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "abut/geometry/messages.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/measures.hpp"
-#include "abut/mesh/messages.hpp"
 
 namespace abut::mesh {
 namespace {

@@ -18,7 +18,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Numbers to judge a mesh by. Every `worst` or `smallest` comes with the cell (index in the mesh) it was found in.
+/// Numbers to judge a mesh by. The cells are indices in the mesh.
 struct MeshQuality {
     double smallest_measure;  ///< min |c| [m^Dim]
     double largest_measure;   ///< max |c| [m^Dim]

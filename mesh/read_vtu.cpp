@@ -20,9 +20,10 @@
 #include <Eigen/Geometry>
 
 #include "abut/geometry/box.hpp"
+#include "abut/geometry/messages.hpp"
+#include "abut/geometry/sort_unique.hpp"
 #include "abut/mesh/connected_bodies.hpp"
 #include "abut/mesh/file.hpp"
-#include "abut/mesh/messages.hpp"
 #include "abut/mesh/plane_input.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/vtk_messages.hpp"
@@ -171,8 +172,7 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
         if (!values.empty()) bodies.push_back(values[static_cast<std::size_t>(cell)]);
     }
     auto distinct = bodies;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    sort_unique(distinct);
     for (const std::int64_t value : distinct) soup.body_names.push_back(std::string("body_") + std::to_string(value));
     for (std::size_t cell = 0; cell < bodies.size(); ++cell)
         soup.cell_body[cell] =

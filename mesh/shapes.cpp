@@ -7,8 +7,8 @@
 #include <functional>
 #include <numbers>
 
+#include "abut/geometry/messages.hpp"
 #include "abut/mesh/gmsh_session.hpp"
-#include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {

@@ -9,7 +9,8 @@
 /// program must not have Gmsh open itself (gmsh::initialize) during a call, which would end that session. The same options
 /// give the same bits up to about 400,000 tetrahedra a part. Larger parts are meshed by Gmsh's HXT, which is fast but gives
 /// another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError when a
-/// length or count is not positive, a coordinate not finite, the cells would be more than 100 million, or when Gmsh fails.
+/// length or count is not positive, a coordinate not finite, the cells would be more than 100 million (of `structured_box`
+/// and `fan_disc`: more than a Mesh can number, 268,435,455), or when Gmsh fails.
 ///
 /// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
 /// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the

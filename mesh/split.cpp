@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "abut/geometry/messages.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/measures.hpp"
-#include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/topology.hpp"
 
@@ -52,23 +53,20 @@ std::vector<Quadrangle> measured_quadrangles(const CellSoup<3>& soup) {
 
 [[noreturn]] void throw_non_planar(const CellSoup<3>& soup, const std::vector<Quadrangle>& quadrangles,
                                    const Quadrangle& worst, const MeshOptions& options) {
-    const auto key = [](std::array<std::int32_t, 4> v) {
-        std::sort(v.begin(), v.end());
-        return v;
-    };
     std::string cells;
     int n_cells = 0;
-    for (const Quadrangle& q : quadrangles)
-        if (key(q.vertices) == key(worst.vertices) && ++n_cells > 0)
-            cells +=
-                std::string(cells.empty() ? "" : "|") + std::to_string(soup.cell_label[static_cast<std::size_t>(q.cell)]);
+    for (const Quadrangle& q : quadrangles) {
+        if (face_key(q.vertices) != face_key(worst.vertices)) continue;
+        cells += (n_cells++ > 0 ? "|" : "") + std::to_string(soup.cell_label[static_cast<std::size_t>(q.cell)]);
+    }
     const double size = std::sqrt(geometry::face_measure<3>(face_corners<3>(soup.vertices, worst.vertices).view()));
-    throw MeshError(
-        soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
-        " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
-        number(options.planarity_tolerance * size) + " m is allowed. Set MeshOptions::non_planar to NonPlanarFaces::split" +
-        (n_cells > 1 ? ", or raise MeshOptions::planarity_tolerance."
-                     : "; a larger MeshOptions::planarity_tolerance would not do, contact needs plane boundary faces."));
+    throw MeshError(soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
+                    " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
+                    number(options.planarity_tolerance * size) +
+                    " m is allowed. Have such cells cut: non-planar faces \"split\" (MeshOptions::non_planar)" +
+                    (n_cells > 1
+                         ? ", or raise MeshOptions::planarity_tolerance."
+                         : "; a larger MeshOptions::planarity_tolerance would not do, contact needs plane boundary faces."));
 }
 
 /// Spreads the mark to all cells that are linked to a marked one through quadrangles.
@@ -130,40 +128,25 @@ void cut_cells(CellSoup<3>& soup, const std::vector<char>& cut) {
 /// A named quadrangle on a cut cell becomes two named triangles. Its vertices may come in any order: the cell knows the
 /// right one.
 void cut_named_faces(CellSoup<3>& soup, const std::vector<Quadrangle>& quadrangles, const std::vector<char>& cut) {
-    using Key = std::array<std::int32_t, 4>;
-    const auto key = [](Key v) {
-        std::sort(v.begin(), v.end());
-        return v;
-    };
-    std::vector<std::pair<Key, Key>> ring_of;
+    std::map<FaceKey, std::array<std::int32_t, 4>> rings;
     for (const Quadrangle& q : quadrangles)
-        if (cut[static_cast<std::size_t>(q.cell)]) ring_of.emplace_back(key(q.vertices), q.vertices);
-    std::sort(ring_of.begin(), ring_of.end());
+        if (cut[static_cast<std::size_t>(q.cell)]) rings.emplace(face_key(q.vertices), q.vertices);
     std::vector<CellSoup<3>::NamedFace> result;
     for (const auto& face : soup.named_faces) {
-        Key wanted{};
-        if (face.vertices.size() == 4) {
-            std::copy(face.vertices.begin(), face.vertices.end(), wanted.begin());
-            wanted = key(wanted);
-        }
-        const auto found = std::lower_bound(ring_of.begin(), ring_of.end(), std::pair<Key, Key>{wanted, {}});
-        if (face.vertices.size() != 4 || found == ring_of.end() || found->first != wanted) {
+        const auto ring = face.vertices.size() == 4 ? rings.find(face_key(face.vertices)) : rings.end();
+        if (ring == rings.end()) {
             result.push_back(face);
             continue;
         }
-        for (const Triangle& t : triangles(found->second)) result.push_back({{t.begin(), t.end()}, face.group});
+        for (const Triangle& t : triangles(ring->second)) result.push_back({{t.begin(), t.end()}, face.group});
     }
     soup.named_faces = std::move(result);
 }
 
 std::int32_t count_distinct(const std::vector<Quadrangle>& quadrangles, double tolerance) {
-    std::set<std::array<std::int32_t, 4>> distinct;
-    for (const Quadrangle& q : quadrangles) {
-        if (q.deviation <= tolerance) continue;
-        auto key = q.vertices;
-        std::sort(key.begin(), key.end());
-        distinct.insert(key);
-    }
+    std::set<FaceKey> distinct;
+    for (const Quadrangle& q : quadrangles)
+        if (q.deviation > tolerance) distinct.insert(face_key(q.vertices));
     return static_cast<std::int32_t>(distinct.size());
 }
 
@@ -179,7 +162,7 @@ void handle_non_planar_faces<3>(CellSoup<3>& soup, const MeshOptions& options, B
     const auto worst = std::max_element(quadrangles.begin(), quadrangles.end(),
                                         [](const Quadrangle& a, const Quadrangle& b) { return a.deviation < b.deviation; });
     report.worst_planarity = worst->deviation;
-    report.worst_face_cell = worst->cell;
+    report.worst_face_cell = soup.cell_label[static_cast<std::size_t>(worst->cell)];
     if (worst->deviation <= options.planarity_tolerance) return;
     if (options.non_planar == NonPlanarFaces::fail) throw_non_planar(soup, quadrangles, *worst, options);
     std::vector<char> cut(soup.cell_shape.size(), 0);

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <vector>
 
+#include "abut/geometry/messages.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/local_faces.hpp"
-#include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes.hpp"
 
@@ -192,9 +192,9 @@ Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, con
 
 Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double turn, const std::string& name,
                  const MeshOptions& mesh_options) {
-    if (n_sectors < 3)
-        throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) +
-                        ", at least 3 is needed. Change the argument.");
+    if (n_sectors < 3 || n_sectors > max_cells)
+        throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) + ", at least 3 and at most " +
+                        std::to_string(max_cells) + " are needed. Change the argument.");
     if (!(radius > 0.0) || !std::isfinite(radius))
         throw MeshError(name + ": radius is " + number(radius) +
                         " m, a finite length above 0 is needed. Change the argument.");

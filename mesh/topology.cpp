@@ -10,18 +10,6 @@
 namespace abut::mesh {
 namespace {
 
-/// Vertices in increasing order, -1 behind the last.
-std::array<std::int32_t, 4> sorted_key(std::span<const std::int32_t> vertices) {
-    std::array<std::int32_t, 4> key = {-1, -1, -1, -1};
-    std::size_t count = 0;
-    for (const std::int32_t vertex : vertices) {
-        std::size_t place = count++;
-        for (; place > 0 && key[place - 1] > vertex; --place) key[place] = key[place - 1];
-        key[place] = vertex;
-    }
-    return key;
-}
-
 /// One cell's side of a face. Half faces are numbered by cell, then by place in the cell.
 struct HalfFace {
     std::array<std::int32_t, 3> other_vertices;  ///< the key without its smallest vertex
@@ -65,7 +53,7 @@ Buckets bucket_by_smallest_vertex(const CellSoup<Dim>& soup, std::size_t n_half_
     for (std::size_t v = 0; v + 1 < buckets.begin.size(); ++v) buckets.begin[v + 1] += buckets.begin[v];
     std::vector<std::int32_t> next(buckets.begin.begin(), buckets.begin.end() - 1);
     for_each_half_face(soup, [&](std::int32_t half, std::int32_t, const LocalFace& face) {
-        const auto key = sorted_key(face.view());
+        const auto key = face_key(face.view());
         const auto slot = next[static_cast<std::size_t>(key[0])]++;
         buckets.half_faces[static_cast<std::size_t>(slot)] = {{key[1], key[2], key[3]}, half};
     });
@@ -166,7 +154,7 @@ Faces find_faces(const CellSoup<Dim>& soup) {
     return faces;
 }
 
-BoundaryFaceFinder::Key BoundaryFaceFinder::key(std::span<const std::int32_t> vertices) { return sorted_key(vertices); }
+BoundaryFaceFinder::Key BoundaryFaceFinder::key(std::span<const std::int32_t> vertices) { return face_key(vertices); }
 
 BoundaryFaceFinder::BoundaryFaceFinder(const Rows& face_vertices,
                                        const std::vector<std::array<std::int32_t, 2>>& face_cells) {

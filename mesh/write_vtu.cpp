@@ -19,9 +19,9 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "abut/geometry/messages.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/file.hpp"
-#include "abut/mesh/messages.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/vtk_messages.hpp"
 

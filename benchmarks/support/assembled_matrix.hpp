@@ -11,7 +11,7 @@ namespace abut::benchmark {
 /// K of the CCG energy as a sparse matrix of 3 x 3 blocks: compressed rows, each block contiguous and by columns.
 class AssembledMatrix {
 public:
-    /// Adds up the terms of the energy (METHOD.md, section 2: elastic of each cell, stabilisation of each interior face)
+    /// Adds up the terms of the energy (elastic of each cell, stabilisation of each interior face; docs/method.md, Space)
     /// from the mesh, the stencils and the boundary reconstruction: independent of the code that it is compared with.
     AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const dynamics::Material> materials, const dynamics::Ccg<3>& ccg);
 

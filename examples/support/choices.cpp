@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 
@@ -109,18 +110,15 @@ CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValue
 }
 
 CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least) {
-    const auto in_range = [least](std::string& text) {
-        char* end = nullptr;
-        const long number = std::strtol(text.c_str(), &end, 10);
-        if (!text.empty() && end == text.c_str() + text.size() && number >= least &&
-            number <= std::numeric_limits<int>::max())
-            return std::string();
-        return fmt::format("'{}' is not allowed; it must be a whole number of at least {}.", text, least);
+    const auto read = [&value, option, least](const std::string& text) {
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || value < least)
+            throw CLI::ValidationError(
+                option, fmt::format("'{}' is not allowed; it must be a whole number of at least {}.", text, least));
     };
-    return app.add_option(option, value, unit_after(help, {}))
+    return app.add_option_function<std::string>(option, read, unit_after(help, {}))
         ->type_name("N")
-        ->check(CLI::Validator(in_range, ""))
-        ->capture_default_str();
+        ->default_str(fmt::format("{}", value));
 }
 
 }  // namespace abut::examples

@@ -57,10 +57,11 @@ void remove_result(const fs::path& path) {
 }  // namespace
 
 void prepare_directory(const fs::path& directory) {
-    std::error_code error;
+    std::error_code error, unknown;
     fs::create_directories(directory, error);
-    if (!fs::is_directory(directory))
-        refuse_directory(directory, fs::exists(directory) ? "a file is in its place" : error.message());
+    const auto status = fs::status(directory, unknown);
+    if (!fs::is_directory(status))
+        refuse_directory(directory, fs::exists(status) ? "a file is in its place" : (error ? error : unknown).message());
     const fs::path probe = directory / ".writable";
     std::ofstream file(probe);
     file << "abut\n";

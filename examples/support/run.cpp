@@ -27,6 +27,8 @@ using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
+/// More than any run takes; all of them are counted exactly in doubles and integers.
+constexpr double most_steps = 1e15;
 
 class Stopwatch {
 public:
@@ -53,24 +55,35 @@ double choose_step(const RunOptions& options, const dynamics::StableStep& stable
     if (std::isnan(options.dt)) return options.cfl * stable.dt;
     if (options.dt > stable.dt && !options.allow_unstable)
         throw std::invalid_argument(
-            fmt::format("--dt: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl; --allow-unstable "
-                        "takes it all the "
-                        "same.",
+            fmt::format("--dt: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl; "
+                        "--allow-unstable takes it all the same.",
                         options.dt, stable.dt));
     return options.dt;
 }
 
 std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
     if (std::isnan(options.time) && options.steps > 0) return options.steps;
-    return static_cast<std::int64_t>(std::ceil((std::isnan(options.time) ? time_of_scene : options.time) / dt));
+    const double time = std::isnan(options.time) ? time_of_scene : options.time;
+    const double steps = std::ceil(time / dt);
+    if (!(steps >= 1.0 && steps <= most_steps))
+        throw std::invalid_argument(fmt::format(
+            "--time, --dt: {:g} s in steps of {:g} s are {:g} steps, 1 to {:g} are allowed. Give another end of the "
+            "run with --time or --steps, or another step with --dt or --cfl.",
+            time, dt, steps, most_steps));
+    return static_cast<std::int64_t>(steps);
+}
+
+dynamics::SolidTimes difference(const dynamics::SolidTimes& a, const dynamics::SolidTimes& b) {
+    return {a.bulk - b.bulk, a.contact - b.contact, a.search - b.search};
 }
 
 EnergyScale known_scale(EnergyScale scale, double kinetic) {
     if (scale.value == 0.0) scale.value = kinetic;
     if (!(scale.value > 0.0))
-        throw std::invalid_argument(
-            "the scene is at rest at the start: it has to say by Scene::energy_scale what energies are "
-            "measured with, a value above 0 J.");
+        throw std::invalid_argument(fmt::format(
+            "the kinetic energy at the start is {} J, above 0 J is needed to measure energies with. Raise the speed "
+            "at the start; a scene that starts at rest gives Scene::energy_scale.",
+            scale.value));
     return scale;
 }
 
@@ -84,6 +97,7 @@ public:
         result_.dt = choose_step(options, result_.stable);
         result_.steps = choose_steps(options, scene.time, result_.dt);
         result_.stencils = solid_.ccg().stencil_report();
+        result_.boundary_stencils = solid_.ccg().boundary().report;
         result_.contact_faces_left_out = solid_.contact_faces_left_out();
         result_.skin = solid_.contact()->skin();
         const std::vector<double> at_rest(solid_.size(), 0.0);
@@ -91,6 +105,7 @@ public:
         if (options.filter)
             integrator_->set_after_step(
                 [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+        times_of_setup_ = solid_.times();
     }
 
     [[nodiscard]] RunResult<Dim>& result() { return result_; }
@@ -112,7 +127,7 @@ public:
         }
         result_.end = dynamics::body_motions(*integrator_, solid_);
         result_.contact = solid_.contact_report();
-        result_.times = solid_.times();
+        result_.times = difference(solid_.times(), times_of_setup_);
         energies.finish();
     }
 
@@ -134,7 +149,6 @@ private:
             const Stopwatch watch(result_.seconds.ledger);
             result_.ledger.record(dynamics::measure(*integrator_, solid_));
             const auto contact = solid_.contact_report();
-            result_.candidates_max = std::max(result_.candidates_max, contact.candidates);
             result_.not_admitted_max = std::max(result_.not_admitted_max, contact.not_admitted);
             warn_once(contact);
         }
@@ -159,8 +173,8 @@ private:
         if (std::isfinite(entry.pseudo_energy) && entry.energy <= divergence_factor * scale) return;
         throw std::runtime_error(fmt::format(
             "step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J and H~ {:.3g} J; {:g} times {:.3g} J is allowed. "
-            "Steps are "
-            "{:.4g} s long, stable are {:.4g} s: lower --cfl or --dt. energy.csv.partial holds the records so far.",
+            "Steps "
+            "are {:.4g} s long, stable are {:.4g} s: lower --cfl or --dt. energy.csv.partial holds the records so far.",
             entry.step, entry.time, entry.energy, entry.pseudo_energy, divergence_factor, scale, result_.dt,
             result_.stable.dt));
     }
@@ -176,14 +190,30 @@ private:
     dynamics::NeutralFilter<Dim> filter_;
     std::optional<dynamics::Memm<dynamics::Solid<Dim>>> integrator_;
     RunResult<Dim> result_;
+    dynamics::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
     bool warned_ = false;
 };
+
+void log_mesh(const mesh::BuildReport& report) {
+    for (const std::string& warning : report.warnings) spdlog::warn("Gmsh: {}", warning);
+    if (report.n_unused_vertices > 0)
+        spdlog::info("{} vertices belong to no cell and are left out", report.n_unused_vertices);
+    if (report.n_ignored_elements > 0)
+        spdlog::info("{} elements are neither cells nor faces of a named group and are left out", report.n_ignored_elements);
+    if (report.n_cut_cells > 0)
+        spdlog::info("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
+                     report.n_non_planar_faces);
+    if (report.n_coincident_vertices > 0)
+        spdlog::warn("{} vertices lie on a vertex of another body: meshes that match are a special case of contact",
+                     report.n_coincident_vertices);
+}
 
 /// What was found at set-up and is not as it should be.
 template <int Dim>
 void log_start(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     spdlog::info("{} cells, {} boundary faces; {} steps of {:.4g} s", scene.mesh.n_cells(), scene.mesh.boundary_faces.size(),
                  result.steps, result.dt);
+    log_mesh(scene.mesh.report);
     if (const auto& stencils = result.stencils; stencils.extrapolated > 0)
         spdlog::warn(
             "{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is shorter",

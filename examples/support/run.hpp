@@ -62,13 +62,13 @@ struct RunResult {
     double skin = 0.0;  ///< of the candidate list [m]
     int threads = 0;    ///< allowed
     contact::ContactReport contact;
-    std::int64_t candidates_max = 0;          ///< largest candidate list at a record
-    std::int64_t not_admitted_max = 0;        ///< most pairs at a record that face each other inside and are no contacts
-    std::int64_t contact_faces_left_out = 0;  ///< their displacement is prescribed
-    dynamics::StencilReport stencils;
+    std::int64_t not_admitted_max = 0;          ///< most pairs at a record that face each other inside and are no contacts
+    std::int64_t contact_faces_left_out = 0;    ///< their displacement is prescribed
+    dynamics::StencilReport stencils;           ///< of the faces between cells
+    dynamics::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<dynamics::BodyMotion<Dim>> start;
     std::vector<dynamics::BodyMotion<Dim>> end;
-    dynamics::SolidTimes times;
+    dynamics::SolidTimes times;  ///< of the steps
     RunSeconds seconds;
     std::vector<Finding> findings;  ///< of the scene
     std::string without_picture;    ///< why there is none; empty: there is

@@ -77,6 +77,16 @@ Json energies_json(const RunResult<Dim>& result) {
             {"angular_momentum_drift_max", ledger.angular_momentum_drift()}};
 }
 
+Json mesh_json(const mesh::BuildReport& report) {
+    return {{"unused_vertices", report.n_unused_vertices},
+            {"ignored_elements", report.n_ignored_elements},
+            {"coincident_vertices", report.n_coincident_vertices},
+            {"non_planar_faces", report.n_non_planar_faces},
+            {"cut_cells", report.n_cut_cells},
+            {"worst_planarity", report.worst_planarity},
+            {"warnings", report.warnings}};
+}
+
 template <int Dim>
 Json counts_json(const RunResult<Dim>& result) {
     const auto& contact = result.contact;
@@ -85,7 +95,7 @@ Json counts_json(const RunResult<Dim>& result) {
             {"active_pairs_final", result.ledger.entries().back().active_pairs},
             {"lost_contacts", contact.lost_contacts},
             {"not_admitted_max", result.not_admitted_max},
-            {"candidates", result.candidates_max},
+            {"candidates", contact.candidates_max},
             {"rebuilds", contact.rebuilds},
             {"contact_faces_left_out", result.contact_faces_left_out},
             {"compression_max", contact.compression_max},
@@ -93,7 +103,9 @@ Json counts_json(const RunResult<Dim>& result) {
             {"stencil_faces", result.stencils.faces},
             {"stencil_extrapolations", result.stencils.extrapolated},
             {"stencil_worst_weight", result.stencils.worst_weight},
-            {"stencil_lowered_floor", result.stencils.lowered_floor}};
+            {"stencil_lowered_floor", result.stencils.lowered_floor},
+            {"boundary_stencil_extrapolations", result.boundary_stencils.extrapolated},
+            {"boundary_stencil_worst_weight", result.boundary_stencils.worst_weight}};
 }
 
 template <int Dim>
@@ -167,7 +179,8 @@ Json summary(const Program& program, const Scene<Dim>& scene, const RunOptions& 
     json.update(energies_json(result));
     json.update(counts_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = finding.value;
-    json.update({{"bodies", bodies_json(scene, result)},
+    json.update({{"mesh", mesh_json(scene.mesh.report)},
+                 {"bodies", bodies_json(scene, result)},
                  {"seconds", seconds_json(result)},
                  {"contact_share", contact_share(result)},
                  {"options", options_json(scene, options, result)}});

@@ -1,5 +1,5 @@
 #pragma once
-// The contact model written down once more, straight from METHOD.md, section 3, and as slowly as it likes: nothing here is
+// The contact model written down once more, straight from docs/method.md, Contact, and as slowly as it likes: nothing here is
 // shared with the library but the arrays of the surface.
 #include <Eigen/Dense>
 #include <algorithm>

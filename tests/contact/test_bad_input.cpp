@@ -65,7 +65,7 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
     SECTION("no depth") { surface.depth[1] = 0.0; }
     SECTION("an area that is not that of the corners") {
         surface.area[1] *= 1.001;
-        says = "face 1 has the area";
+        says = ") m) has the area 1.001, its corners give 1";
     }
     SECTION("a centroid that is not that of the corners") {
         surface.centroid[1][0] += 1e-6;
@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
     }
     SECTION("a normal that is not that of the corners") {
         surface.normal[1] = tilted<Dim>();
-        says = "face 1 has a normal whose cosine";
+        says = "away from that of its corners";
     }
     SECTION("offsets that do not begin at 0") {
         surface.face_offsets.front() = 1;
@@ -113,8 +113,42 @@ TEST_CASE("a face of too many corners is refused", "[contact][errors]") {
     std::vector<Vector<3>> corners;
     for (int i = 0; i <= geometry::max_polygon_vertices; ++i)
         corners.emplace_back(std::cos(0.3 * i), std::sin(0.3 * i), 0.0);
-    surface.append(corners, 0.1, 1.0, 0);
-    CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 0") && Contains("17 corners"));
+    const auto append = [&] { surface.append(corners, 0.1, 1.0, 0); };
+    CHECK_THROWS_WITH(append(), Contains("face 0") && Contains("17 corners"));
+    corners.pop_back();
+    CHECK_NOTHROW(append());
+}
+
+TEST_CASE("a segment has two corners", "[contact][errors]") {
+    contact::Surface<2> surface;
+    const std::vector<Vector<2>> polyline{{0, 0}, {1, 0}, {2, 1}};
+    for (const std::size_t n_corners : {0, 1, 3}) {
+        INFO(n_corners << " corners");
+        CHECK_THROWS_WITH(surface.append(std::span(polyline).first(n_corners), 0.1, 1.0, 0),
+                          Contains("face 0 has " + std::to_string(n_corners) + " corners; 2 are needed"));
+    }
+    CHECK(surface.size() == 0);
+    surface.append(std::span(polyline).first(2), 0.1, 1.0, 0);
+    surface.vertices.push_back(polyline[2]);
+    surface.face_vertices.push_back(2);
+    surface.face_offsets.back() = 3;
+    CHECK_THROWS_WITH(contact::check(surface.view()), Contains("3 corners"));
+}
+
+TEMPLATE_TEST_CASE_SIG("faces far from the origin pass the check, in map coordinates for one", "[contact][errors]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(3);
+    contact::Surface<Dim> surface;
+    for (int i = 0; i < 300; ++i) {
+        const Vector<Dim> normal = random_vector<Dim>(random, 1.0).normalized();
+        const Vector<Dim> centre = random_vector<Dim>(random, 1.0) + 5e6 * Vector<Dim>::Ones();
+        surface.append(tile<Dim>(centre, normal, 0.5), 0.1, 1.0, 0);
+        if constexpr (Dim == 3)
+            surface.append(std::vector<Vector<3>>{centre, centre + normal, centre + normal.unitOrthogonal()}, 0.1, 1.0, 0);
+    }
+    CHECK_NOTHROW(contact::check(surface.view()));
+    surface.centroid[7][0] += 1e-6;  // rounding explains 1e-8
+    CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 7"));
 }
 
 TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][errors]", ((int Dim), Dim), 2, 3) {
@@ -134,7 +168,7 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
         says = "facing_cosine";
     }
     SECTION("no angle") {
-        options.facing_cosine = -1.1;
+        options.facing_cosine = -1.0;  // nothing would ever be below
         says = "facing_cosine";
     }
     SECTION("angle not a number") {
@@ -180,8 +214,33 @@ TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused wi
     u[1] = -(0.1 + 2.0 * 0.6 + 1e-6) * up<Dim>();
     CHECK_THROWS(mover.move_to(u));
     u[1] = -(0.1 + 2.5 * 0.6) * up<Dim>();
-    CHECK_THROWS_WITH(mover.move_to(u), Contains("faces 0 and 1") && Contains("2.5 times") && Contains("2 is allowed") &&
-                                            Contains("compression_limit"));
+    CHECK_THROWS_WITH(mover.move_to(u), Contains("face 0 (body 0") && Contains("face 1 (body 1") && Contains("2.5 times") &&
+                                            Contains("2 is allowed") && Contains("compression_limit"));
+}
+
+TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next one makes it", "[contact][errors]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto surface = two_tiles<Dim>();
+    contact::Contact<Dim> contact(surface.view(), {.skin = 1.0});
+    const auto u = at_rest(surface);
+    CHECK_THROWS_WITH(contact.integrate({u, u, u, u}), Contains("no candidate list"));
+    const auto good = [](std::span<const std::int32_t> faces) {
+        return contact::FaceCoupling<Dim>{std::vector<std::int32_t>(faces.size() + 1, 0), {}, {}};
+    };
+    contact.search(u, u, good);
+    REQUIRE(contact.covers(0.0));
+    CHECK_THROWS_WITH(contact.search(u, u, [](auto) -> contact::FaceCoupling<Dim> { throw std::runtime_error("host"); }),
+                      "host");
+    CHECK_FALSE(contact.covers(0.0));
+    CHECK_THROWS_AS(contact.integrate({u, u, u, u}), std::logic_error);
+    CHECK_THROWS_AS(contact.evaluate(u, u), std::logic_error);
+    contact.search(u, u, good);
+    CHECK(contact.covers(0.0));
+    CHECK_NOTHROW(contact.integrate({u, u, u, u}));
+    auto bad = u;
+    bad[1][0] = not_a_number;
+    CHECK_THROWS_WITH(contact.integrate({u, bad, u, u}), Contains("face 1") && Contains("not finite"));
+    CHECK_THROWS_WITH(contact.evaluate(u, bad), Contains("face 1") && Contains("not finite"));
 }
 
 TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its face", "[contact][errors]", ((int Dim), Dim),

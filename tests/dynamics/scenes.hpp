@@ -9,6 +9,7 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes.hpp"
+#include "support/worst.hpp"
 
 namespace abut::test {
 
@@ -90,7 +91,7 @@ std::vector<double> sampled(const mesh::Mesh<Dim>& mesh, const Field& field) {
 
 inline double largest(std::span<const double> values) {
     double size = 0.0;
-    for (const double value : values) size = std::isnan(value) ? value : std::max(size, std::abs(value));
+    for (const double value : values) raise(size, std::abs(value));
     return size;
 }
 
@@ -156,7 +157,7 @@ dynamics::SolidOptions<Dim> bodies(int n, const contact::ContactOptions& contact
     return options;
 }
 
-/// The two discs of CASES.md: R = 1, v = +-0.05, gap 0.02, meshes that do not match.
+/// Two discs: R = 1, v = +-0.05, gap 0.02, meshes that do not match.
 inline mesh::Mesh<2> two_discs(double offset, double size = 0.25, double gap = 0.02) {
     const double x = std::sqrt(4.0 - offset * offset);  // centres at the distance 2
     return together(unit_disc(size, 0, {-0.5 * (x + gap), -0.5 * offset}),

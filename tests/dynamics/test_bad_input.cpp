@@ -93,6 +93,61 @@ TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their
     CHECK_THROWS_WITH(dynamics::Solid<Dim>(mesh, options), Contains(says));
 }
 
+TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act on, when they are", "[dynamics][errors]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
+    auto options = bodies<Dim>(1);
+    const Vector<Dim> bad = Vector<Dim>::Constant(GENERATE(not_a_number, infinite));
+    const dynamics::Field<Dim> later = [bad](double t, const Vector<Dim>&) {
+        return t > 0.0 ? bad : Vector<Dim>(Vector<Dim>::Zero());
+    };
+    std::string says = "'xmin'";
+    bool from_the_start = true;
+    SECTION("a displacement") { options.boundary.dirichlet.push_back({.group = "xmin", .value = bad, .history = {}}); }
+    SECTION("a traction") { options.boundary.traction.push_back({.group = "xmin", .value = bad, .history = {}}); }
+    SECTION("a displacement later on") {
+        options.boundary.dirichlet.push_back({.group = "xmin", .history = later});
+        from_the_start = false;
+    }
+    SECTION("a traction later on") {
+        options.boundary.traction.push_back({.group = "xmin", .history = later});
+        from_the_start = false;
+    }
+    SECTION("gravity") {
+        options.acceleration = {bad};
+        says = "acceleration of body 0 ('block')";
+    }
+    SECTION("a force density") {
+        options.body_load = [bad](const Vector<Dim>&) { return bad; };
+        says = "SolidOptions::body_load";
+    }
+    SECTION("the path of an obstacle, later on") {
+        options.obstacles = {contact::plane_obstacle<Dim>(-2.0 * Vector<Dim>::Unit(0), Vector<Dim>::Unit(0), 1.0,
+                                                          [later](double t) { return later(t, Vector<Dim>::Zero()); })};
+        says = "obstacle 0";
+        from_the_start = false;
+    }
+    if (from_the_start) {
+        CHECK_THROWS_WITH(dynamics::Solid<Dim>(mesh, options), Contains(says) && Contains("not finite"));
+        return;
+    }
+    dynamics::Solid<Dim> solid(mesh, options);
+    const std::vector<double> zero(solid.size(), 0.0);
+    dynamics::Memm<dynamics::Solid<Dim>> memm(solid, zero, zero, 0.01);
+    const auto two_steps = [&] {
+        memm.step();
+        memm.step();
+    };
+    CHECK_THROWS_WITH(two_steps(), Contains(says) && Contains("0.01 s") && Contains("not finite"));
+}
+
+TEST_CASE("velocities for another number of bodies are refused", "[dynamics][errors]") {
+    const auto mesh = two_discs(0.0, 0.6);
+    const dynamics::Solid<2> solid(mesh, bodies<2>(2));
+    const std::vector<Vector<2>> one{{0.05, 0.0}};
+    CHECK_THROWS_WITH(dynamics::uniform_momentum<2>(solid, one), Contains("1 velocities") && Contains("2 bodies"));
+}
+
 TEST_CASE("an unknown group is answered with the names that exist", "[dynamics][errors]") {
     const auto mesh = mesh::box<2>({.size = 0.5});
     auto options = bodies<2>(1);

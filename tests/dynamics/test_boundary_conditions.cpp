@@ -109,7 +109,7 @@ TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the 
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const Vector<Dim> expected =
             material.density * mesh.cell_measure[c] * acceleration + mesh.cell_measure[c] * load(mesh.cell_centroid[c]);
-        worst = std::max(worst, (vectors<Dim>(force)[c] - vectors<Dim>(bare_force)[c] - expected).norm());
+        raise(worst, (vectors<Dim>(force)[c] - vectors<Dim>(bare_force)[c] - expected).norm());
         work += expected.dot(vectors<Dim>(q)[c]);
     }
     CHECK(worst < 1e-14 * largest(force));
@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, 
     scene.run(50);
     double worst = 0.0;
     for (const Vector<Dim>& u : dynamics::as_vectors<Dim>(scene.memm.q()))
-        worst = std::max(worst, std::abs(u[Dim - 1] + 0.5 * 2.0 * 0.25));
+        raise(worst, std::abs(u[Dim - 1] + 0.5 * 2.0 * 0.25));
     CHECK(worst < 1e-13);  // parabolas are exact
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-13);
 }

@@ -43,12 +43,12 @@ TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to
         scene->solid.force(q, force);
         double lift = 0.0, size = 0.0;
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-            size = std::max(size, vectors<Dim>(force)[c].norm());
+            raise(size, vectors<Dim>(force)[c].norm());
             if (mesh.cell_body[c] == 1) lift += vectors<Dim>(force)[c][Dim - 1];
         }
         CHECK(std::abs(pressed[0] - lift) < 1e-12 * size);
         CHECK(std::abs(pressed[1] - lift) < 1e-12 * size);
-        largest_force = std::max(largest_force, lift);
+        raise(largest_force, lift);
     }
     CHECK(largest_force > 1e-3);
 }
@@ -87,4 +87,72 @@ TEST_CASE("a state that is not finite is refused, never taken for one that has n
     broken[static_cast<std::size_t>(2 * cell)] = std::nan("");
     CHECK_THROWS_WITH(scene.solid.mean_force(q, broken, scene.memm.time(), scene.memm.dt(), force),
                       Catch::Matchers::Contains("not finite"));
+}
+
+namespace {
+
+/// Body 1 moved as a whole.
+template <int Dim>
+std::vector<double> upper_moved(const mesh::Mesh<Dim>& mesh, double height) {
+    std::vector<double> q(static_cast<std::size_t>(mesh.n_cells() * Dim), 0.0);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        if (mesh.cell_body[c] == 1) vectors<Dim>(q)[c][Dim - 1] = height;
+    return q;
+}
+
+template <int Dim>
+mesh::Mesh<Dim> flat_bodies() {
+    return impact<Dim>()->mesh;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was looked at before", "[dynamics][contact]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto mesh = flat_bodies<Dim>();
+    auto options = bodies<Dim>(2);
+    options.contact->skin = 0.2;
+    const auto pressed = upper_moved(mesh, -0.03);
+    dynamics::Solid<Dim> fresh(mesh, options);
+    const double energy = fresh.potential(pressed);
+    REQUIRE(energy > 1e-5);
+
+    const double looked_at = GENERATE(0.0, -0.01, 5.0);  // within the skin of `pressed`, in contact, and far
+    dynamics::Solid<Dim> solid(mesh, options);
+    CHECK(solid.potential(upper_moved(mesh, looked_at)) >= 0.0);
+    CHECK(solid.potential(pressed) == Approx(energy).epsilon(1e-13));
+    const std::vector<double> at_rest(solid.size(), 0.0);
+    dynamics::Memm<dynamics::Solid<Dim>> memm(solid, pressed, at_rest, 0.5 * dynamics::stable_step(solid).dt);
+    dynamics::Ledger<Dim> ledger;
+    for (int i = 0; i < 40; ++i) {
+        ledger.record(dynamics::measure(memm, solid));
+        memm.step();
+    }
+    CHECK(ledger.pseudo_energy_drift() < 1e-12 * ledger.largest_energy());
+    CHECK(solid.contact_report().lost_contacts == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list is refused, and so is another run",
+                       "[dynamics][contact][errors]", ((int Dim), Dim), 2, 3) {
+    const auto scene = impact<Dim>();
+    scene->run(10);
+    CHECK_THROWS_AS(scene->solid.potential(upper_moved(scene->mesh, 1.0)), std::logic_error);
+    CHECK_THROWS_WITH(scene->solid.contact_field(upper_moved(scene->mesh, 1.0)),
+                      Catch::Matchers::Contains("half the skin") && Catch::Matchers::Contains("ContactOptions::skin"));
+    const std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end()), zero(q.size(), 0.0);
+    dynamics::Memm<dynamics::Solid<Dim>> again(scene->solid, q, zero, scene->memm.dt());
+    CHECK_THROWS_WITH(again.step(), Catch::Matchers::Contains("make a Solid for every run"));
+    scene->run(50);  // none of it has done any harm
+    CHECK(scene->ledger.pseudo_energy_drift() < 1e-11 * scene->kinetic_start());
+    CHECK(scene->solid.contact_report().active_pairs_max > 0);
+}
+
+TEST_CASE("a state that a long step has reached is within the list, however thin the skin", "[dynamics][contact]") {
+    auto options = bodies<2>(2);
+    options.contact->skin = 1e-6;
+    Scene<2> scene(two_discs(0.8, 0.3), options, disc_velocities);
+    scene.run(80);  // a record after every step asks for the potential
+    CHECK(scene.solid.contact_report().rebuilds >= 80);
+    CHECK(scene.solid.contact_report().events > 0);
+    CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
 }

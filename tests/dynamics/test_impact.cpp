@@ -165,7 +165,6 @@ TEST_CASE("a scene turned by a right angle gives the result turned by a right an
     other.run_until(6.0, 1000);
     double worst = 0.0;
     for (std::int32_t c = 0; c < original.n_cells(); ++c)
-        worst = std::max(
-            worst, (turn(dynamics::as_vectors<2>(scene.memm.q())[c]) - dynamics::as_vectors<2>(other.memm.q())[c]).norm());
+        raise(worst, (turn(dynamics::as_vectors<2>(scene.memm.q())[c]) - dynamics::as_vectors<2>(other.memm.q())[c]).norm());
     CHECK(worst < 1e-9);
 }

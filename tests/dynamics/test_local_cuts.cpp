@@ -28,14 +28,14 @@ std::vector<Vector<Dim>> fast_velocities() {
 template <int Dim>
 double size_of(std::span<const Vector<Dim>> v) {
     double size = 0.0;
-    for (const Vector<Dim>& x : v) size = std::max(size, x.norm());
+    for (const Vector<Dim>& x : v) raise(size, x.norm());
     return size;
 }
 
 template <int Dim>
 double distance(std::span<const Vector<Dim>> a, std::span<const Vector<Dim>> b) {
     double size = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) size = std::max(size, (a[i] - b[i]).norm());
+    for (std::size_t i = 0; i < a.size(); ++i) raise(size, (a[i] - b[i]).norm());
     return size;
 }
 
@@ -67,9 +67,8 @@ TEMPLATE_TEST_CASE_SIG(
         global.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
                          Cuts::global);
         const double size = size_of<Dim>(global.mean_force());
-        worst = std::max(worst, distance<Dim>(local.mean_force(), global.mean_force()) / size);
-        worst_against_solid =
-            std::max(worst_against_solid, distance<Dim>(local.mean_force(), contact.result().mean_force()) / size);
+        raise(worst, distance<Dim>(local.mean_force(), global.mean_force()) / size);
+        raise(worst_against_solid, distance<Dim>(local.mean_force(), contact.result().mean_force()) / size);
         events += global.events();
         ++steps_with_contact;
         steps_with_coupled_faces += contact.coupling().columns.size() > faces.size();

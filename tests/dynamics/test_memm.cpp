@@ -68,15 +68,48 @@ TEST_CASE("MEMM is of second order", "[dynamics][memm]") {
 
 TEST_CASE("H~ is exact for any sequence of kept steps", "[dynamics][memm]") {
     Well well{.k = 1.0, .b = 3.0};
-    auto memm = from_rest(well, 0.1);
-    const double start = memm.pseudo_energy();
     std::mt19937 random(2);
-    std::uniform_real_distribution<double> step(0.01, 0.2);
-    double drift = 0.0;
-    for (int i = 0; i < 10000; ++i) {
-        memm.step(step(random), StepChange::keep);
-        drift = std::max(drift, std::abs(memm.pseudo_energy() - start) / (memm.pseudo_energy() + memm.energy_excess()));
+    std::uniform_real_distribution<double> any_step(0.01, 0.2);
+    double drift = 0.0, growth = 0.0;  // over the first H of each run
+    const auto run = [&](int steps, const auto& step) {
+        auto memm = from_rest(well, 0.1);
+        const double start = memm.pseudo_energy(), size = start + memm.energy_excess();
+        for (int i = 0; i < steps; ++i) {
+            memm.step(step(i), StepChange::keep);
+            REQUIRE(std::isfinite(memm.pseudo_energy()));
+            raise(drift, std::abs(memm.pseudo_energy() - start) / size);
+            raise(growth, (memm.pseudo_energy() + memm.energy_excess()) / size);
+        }
+    };
+    SECTION("steps drawn at random, in runs too short to explode") {
+        for (int i = 0; i < 500; ++i) run(20, [&](int) { return any_step(random); });
+        CHECK(growth < 10.0);
     }
+    SECTION("steps that change slowly, from 0.02 to 0.18 and back") {
+        run(10000, [](int i) { return 0.1 + 0.08 * std::sin(0.01 * i); });
+        CHECK(growth < 1.1);
+    }
+    CHECK(drift < 1e-13);
+}
+
+TEST_CASE("the trap of irregular steps: kept, steps drawn at random explode at any size, and H~ does not notice",
+          "[dynamics][memm]") {
+    // In a number of steps that goes as 1/(omega^2 variance of dt).
+    Well well;
+    const double mean = GENERATE(0.1, 0.03, 0.01);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> step(0.1 * mean, 1.9 * mean);
+    const double variance = std::pow(1.8 * mean, 2) / 12.0;
+    auto memm = from_rest(well, mean);
+    const double start = memm.pseudo_energy();
+    double largest = start, drift = 0.0;
+    while (memm.steps() < 200.0 / variance && largest < 1e6 * start) {
+        memm.step(step(random), StepChange::keep);
+        raise(largest, memm.pseudo_energy() + memm.energy_excess());
+        raise(drift, std::abs(memm.pseudo_energy() - start) / largest);
+    }
+    CHECK(largest >= 1e6 * start);
+    CHECK(memm.steps() > 1.0 / variance);
     CHECK(drift < 1e-12);
 }
 
@@ -155,19 +188,26 @@ TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega an
     const Eigen::MatrixXd k = root.asDiagonal() * dense_stiffness(solid) * root.asDiagonal();
     const double omega =
         std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
-    const auto size_after = [&](double part) {
-        const std::vector<double> start = random_state(solid.size(), 6, 1e-3);
+    for (const double part : {0.98, 1.01}) {
+        CAPTURE(part);
+        const std::vector<double> at_start = random_state(solid.size(), 6, 1e-3);
         const std::vector<double> rest(solid.size(), 0.0);
-        Memm<dynamics::Solid<Dim>> memm(solid, start, rest, part * 2.0 / omega);
-        double size = 0.0;
+        Memm<dynamics::Solid<Dim>> memm(solid, at_start, rest, part * 2.0 / omega);
+        const double start = memm.pseudo_energy();
+        double size = 0.0, energy = 0.0, drift = 0.0;  // the drift over the largest energy H so far
         for (int i = 0; i < 400; ++i) {
             memm.step();
-            size = std::max(size, largest(memm.q()));
+            raise(size, largest(memm.q()));
+            raise(energy, memm.pseudo_energy() + memm.energy_excess());
+            raise(drift, std::abs(memm.pseudo_energy() - start) / energy);
         }
-        return size;
-    };
-    CHECK(size_after(0.98) < 0.1);
-    CHECK(size_after(1.01) > 1e6);
+        REQUIRE(std::isfinite(size));
+        if (part < 1.0)
+            CHECK(size < 0.1);
+        else
+            CHECK(size > 1e6);
+        CHECK(drift < 1e-13);
+    }
 }
 
 TEST_CASE("a time step that is not positive and finite, or a state of another size, is refused",

@@ -54,11 +54,11 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor a
         const Invariants<Dim> before(*scene, q, p_before, p_after);
         filter(q, dt, p_before, p_after);
         const Invariants<Dim> after(*scene, q, p_before, p_after);
-        kinetic = std::max(kinetic, std::abs(after.kinetic - before.kinetic));
-        momentum = std::max(momentum, (after.momentum - before.momentum).norm());
-        angular = std::max(angular, (after.angular - before.angular).norm());
+        raise(kinetic, std::abs(after.kinetic - before.kinetic));
+        raise(momentum, (after.momentum - before.momentum).norm());
+        raise(angular, (after.angular - before.angular).norm());
         for (std::size_t i = 0; i < unfiltered.size(); ++i)
-            changed = std::max(changed, std::abs(unfiltered[i] - p_after[i]) * scene->solid.inverse_mass()[i]);
+            raise(changed, std::abs(unfiltered[i] - p_after[i]) * scene->solid.inverse_mass()[i]);
     });
     scene->run_until(8.0, 10);
     const double m_v = dynamics::body_motions<Dim>(scene->memm, scene->solid)[0].mass * 0.05;

@@ -59,6 +59,12 @@ const std::vector<BadInput> bad_options = {
     {"--gap -0.1",
      {"'left'", "'right'", "overlap", "cells", "m inside each other", "0 m is allowed", "Raise --gap", "-0.1 m"}},
     {"--dim 3 --size 0.3 --gap -0.2", {"'left'", "'right'", "overlap", "Raise --gap"}},
+    {"--gap -4.02", {"'left'", "'right'", "overlap", "Raise --gap"}},
+    {"--time 1e300", {"--time", "1e+300 s", "steps", "1 to 1e+15 are allowed", "--dt"}},
+    {"--dt 1e-300", {"--time", "steps of 1e-300 s", "1 to 1e+15 are allowed", "--dt"}},
+    {"--speed 1e-200 --time 1", {"kinetic energy", "0 J", "Raise the speed"}},
+    {"--steps 1e3", {"--steps", "1e3", "whole number"}},
+    {"--non-planar split", {"--non-planar", "--mesh"}},
     {"--mesh left.msh", {"--mesh", "2"}},
     {"--mesh left.msh,right.msh", {"--mesh", "--time", "above 0 s", "--steps"}},
     {"--mesh left.msh,right.msh --radius 2", {"--mesh", "--radius"}},
@@ -167,11 +173,11 @@ TEST_CASE("bad options of the bouncing bar end in the same way", "[examples]") {
 }
 
 TEST_CASE("a run that breaks off says at which step, and leaves no result", "[examples]") {
-    const BadInput bad = GENERATE(
-        BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
-                 {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "energy.csv.partial"}},
-        BadInput{"--speed 5 --frames 0",
-                 {"step 1", "faces", "2 is allowed", "compression_limit", "lower the speed", "energy.csv.partial"}});
+    const BadInput bad = GENERATE(BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
+                                           {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "energy.csv.partial"}},
+                                  BadInput{"--speed 5 --frames 0",
+                                           {"step 1", "face ", "(body 0, at (", "2 is allowed", "compression_limit",
+                                            "lower the speed", "energy.csv.partial"}});
     const auto outcome = run_program("slipping_cylinders", bad.arguments, "broken_off");
     check_refused(bad, outcome);
     CHECK(fs::exists(outcome.directory / "energy.csv.partial"));
@@ -185,6 +191,14 @@ TEST_CASE("an output folder with a file in its place is refused before the run",
     const BadInput bad = {"", {"--out", file, "cannot be written to", "a file is in its place", "Choose another folder"}};
     check_refused(bad, run_into(file, program, ""));
     CHECK(read_text(file) == "something\n");
+}
+
+TEST_CASE("an output folder that cannot exist is refused before the run", "[examples]") {
+    const Folder folder("no_name");
+    const std::string out = (folder.path() / std::string(300, 'x')).string();
+    Outcome outcome = run_into(out, "slipping_cylinders", "");
+    outcome.directory = folder.path();
+    check_refused({"", {"--out", "cannot be written to", "File name too long", "Choose another folder"}}, outcome);
 }
 
 TEST_CASE("an output folder without permission to write is refused before the run", "[examples]") {

@@ -55,7 +55,8 @@ TEST_CASE("the bouncing bar leaves the files of all examples and says how far it
 TEST_CASE("the bouncing bar stops where a named limit of compression is exceeded", "[examples]") {
     const auto outcome = run_program("bouncing_bar", "--steps 1200 --frames 0 --compression-limit 1", "bar_limit");
     CHECK(outcome.exit_code == 1);
-    for (const char* word : {"step ", "faces", "allowed"}) CHECK(outcome.error.find(word) != std::string::npos);
+    for (const char* word : {"step ", "face ", "(body 0, at (", "allowed"})
+        CHECK(outcome.error.find(word) != std::string::npos);
     CHECK_FALSE(std::filesystem::exists(outcome.directory / "summary.json"));
 }
 

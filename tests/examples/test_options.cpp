@@ -83,7 +83,7 @@ TEST_CASE("the options --cfl, --dt, --time and --steps say how long steps and th
     CHECK(by_cfl["time"].get<double>() >= 1.5 * (1.0 - 1e-12));
     CHECK(by_cfl["time"].get<double>() < 1.5 + dt);
 
-    const auto by_dt = read_summary(run_coarse("--dt 0.02 --steps 7", "dt"));
+    const auto by_dt = read_summary(run_coarse("--dt 0.02 --steps 007", "dt"));  // decimal
     CHECK(by_dt["dt"] == 0.02);
     CHECK(by_dt["dt_over_stable_dt"].get<double>() == Approx(0.02 / by_dt["stable_dt"].get<double>()));
     CHECK(by_dt["options"]["dt"] == 0.02);
@@ -134,6 +134,55 @@ TEST_CASE("two meshes from files collide", "[examples]") {
     CHECK(summary["options"]["mesh"] == nlohmann::json({left.string(), right.string()}));
     for (const char* unused : {"radius", "length", "size", "offset", "gap"})
         CHECK_FALSE(summary["options"].contains(unused));
+}
+
+TEST_CASE("what is left out of a mesh file, and meshes that match by accident, are said and counted", "[examples]") {
+    const Folder meshes("accidents");
+    const auto left = meshes.path() / "left.msh", right = meshes.path() / "right.msh";
+    write_square(left, -1.0, 0.0, 1.0, 3);
+    write_square(right, 0.0, 0.0, 1.0, 3);  // shares the four places of an edge
+    std::string text = read_text(right);
+    text.replace(text.find("$Elements\n9\n"), 12, "$Elements\n10\n");
+    text.replace(text.find("$EndElements"), 12, "10 1 2 0 1 1 2\n$EndElements");  // a line that is in no group
+    std::ofstream(right) << text;
+    const auto outcome =
+        run_well("slipping_cylinders", fmt::format("--mesh '{}','{}' --steps 2 --frames 0", left.string(), right.string()),
+                 "accidents_found");
+    const auto mesh = read_summary(outcome)["mesh"];
+    CHECK(mesh["ignored_elements"] == 1);
+    CHECK(mesh["coincident_vertices"] == 8);
+    CHECK(outcome.out.find("1 elements are neither cells nor faces") != std::string::npos);
+    CHECK(outcome.out.find("8 vertices lie on a vertex of another body") != std::string::npos);
+}
+
+TEST_CASE("warped hexahedra of a file are refused, or cut and counted where asked for", "[examples]") {
+    const Folder meshes("warped");
+    std::array<std::string, 2> files;
+    for (const int body : {0, 1}) {
+        files[body] = (meshes.path() / fmt::format("body_{}.msh", body)).string();
+        std::ofstream file(files[body]);
+        file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n27\n";
+        for (int i = 0; i < 27; ++i) {
+            const int x = i % 3, y = i / 3 % 3, z = i / 9;
+            file << i + 1 << " " << x + 3 * body << " " << y << " " << (i == 13 ? 1.1 : z) << "\n";  // its middle is moved
+        }
+        file << "$EndNodes\n$Elements\n8\n";
+        for (int i = 0; i < 8; ++i) {
+            const int n = 1 + i % 2 + 3 * (i / 2 % 2) + 9 * (i / 4);
+            file << fmt::format("{} 5 2 1 1 {} {} {} {} {} {} {} {}\n", i + 1, n, n + 1, n + 4, n + 3, n + 9, n + 10, n + 13,
+                                n + 12);
+        }
+        file << "$EndElements\n";
+    }
+    const auto arguments = fmt::format("--dim 3 --steps 2 --frames 0 --mesh '{}','{}'", files[0], files[1]);
+    const auto refused = run_program("slipping_cylinders", arguments, "warped_refused");
+    CHECK(refused.exit_code == 1);
+    CHECK(refused.error.find("is not planar") != std::string::npos);
+    CHECK(refused.error.find("non-planar faces \"split\"") != std::string::npos);
+    const auto summary = read_summary(run_well("slipping_cylinders", arguments + " --non-planar split", "warped_split"));
+    CHECK(summary["mesh"]["cut_cells"] == 16);
+    CHECK(summary["cells"].get<int>() >= 5 * 16);
+    CHECK(summary["options"]["non_planar"] == "split");
 }
 
 TEST_CASE("summary.json holds all that a reader is promised", "[examples]") {

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "polygons.hpp"
+#include "support/worst.hpp"
 
 using namespace abut;
 using namespace abut::test;
@@ -76,7 +77,7 @@ TEST_CASE("between neighbouring events the area is a quadratic in tau, and acros
         };
         const std::vector<double> cuts = cuts_of(face_1, face_2, shift_0, shift_1);
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
-            worst_between = std::max(worst_between, std::abs(cubic_part(area, cuts[k], cuts[k + 1])));
+            raise(worst_between, std::abs(cubic_part(area, cuts[k], cuts[k + 1])));
         if (cuts.size() == 2) continue;
         ++paths_with_events;
         if (std::abs(cubic_part(area, 0.0, 1.0)) > 1e-3) ++broken_across;

@@ -183,7 +183,7 @@ TEST_CASE("a non-planar face is refused with distance, limit and remedy", "[mesh
     const auto message = complaint(test::one_cell<3>(CellShape::hexahedron, corners));
     CHECK_THAT(message, Contains("one.msh: face (4, 5, 6, 7) of cell 0 is not planar: a vertex lies 0.00") &&
                             Contains("m off its plane, 1e-10 m is allowed.") &&
-                            Contains("Set MeshOptions::non_planar to NonPlanarFaces::split; a larger "
+                            Contains("Have such cells cut: non-planar faces \"split\" (MeshOptions::non_planar); a larger "
                                      "MeshOptions::planarity_tolerance would not do"));
     CHECK(complaint(test::one_cell<3>(CellShape::hexahedron, corners), {.planarity_tolerance = 0.01}) == "nothing");
 }

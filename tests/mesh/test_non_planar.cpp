@@ -25,10 +25,12 @@ CellSoup<3> shaken_box(CellShape shape, double amplitude) {
 TEST_CASE("cutting cells with warped faces conserves the volume and conforms", "[mesh][split]") {
     for (const CellShape shape : {CellShape::hexahedron, CellShape::prism, CellShape::pyramid}) {
         const auto soup = shaken_box(shape, 0.05);
-        REQUIRE_THROWS_WITH(build_mesh(soup),
-                            Catch::Contains("is not planar: a vertex lies ") &&
-                                Catch::Contains(" m is allowed. Set MeshOptions::non_planar to "
-                                                "NonPlanarFaces::split, or raise MeshOptions::planarity_tolerance."));
+        REQUIRE_THROWS_WITH(
+            build_mesh(soup),
+            Catch::Contains("is not planar: a vertex lies ") &&
+                Catch::Contains(
+                    " m is allowed. Have such cells cut: non-planar faces \"split\" (MeshOptions::non_planar), or raise "
+                    "MeshOptions::planarity_tolerance."));
         const auto mesh = build_mesh(soup, {.non_planar = NonPlanarFaces::split});
         CHECK(test::total_measure(mesh) == Approx(6.0).epsilon(1e-13));
         test::check_two_sides(mesh);

@@ -1,0 +1,19 @@
+#pragma once
+// Private to the layer.
+#include <cstdint>
+#include <string>
+
+#include "abut/contact/surface.hpp"
+#include "abut/geometry/messages.hpp"
+
+namespace abut::contact {
+
+/// "face 61 (body 0, at (0.98, 0.21) m)": a host knows its faces by their place rather than by the number they have here.
+template <int Dim>
+[[nodiscard]] std::string face_name(const SurfaceView<Dim>& surface, std::int32_t face) {
+    std::string name = "face " + std::to_string(face) + " (body " + std::to_string(surface.body[face]) + ", at (";
+    for (int i = 0; i < Dim; ++i) name += (i > 0 ? ", " : "") + number(surface.centroid[face][i]);
+    return name + ") m)";
+}
+
+}  // namespace abut::contact
