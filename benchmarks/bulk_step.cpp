@@ -1,6 +1,6 @@
 // One step of the bulk, matrix-free, against one product with the assembled sparse matrix of the same operator.
 //
-// Mesh: Gmsh's cylinder (tetrahedra, numbered along a space-filling curve), free, one material, no contact. Step: position
+// Mesh: Gmsh's cylinder (tetrahedra, numbered in layers one cell thick), free, one material, no contact. Step: position
 // update, force at the midpoint, momentum update of MEMM. Rival: y = K x alone, K in 3 x 3 blocks in compressed rows;
 // Eigen's scalar RowMajor matrix beside it. STREAM's triad in the same rounds says what the memory gives. One thread,
 // processor time. Expected: the answers agree to 1e-12; the step is several times faster than the product, below
@@ -53,7 +53,7 @@ double product_bytes(const benchmark::AssembledMatrix& matrix) {
     return static_cast<double>(matrix.bytes() + matrix.n_rows() * 2 * 24) / static_cast<double>(matrix.n_rows());
 }
 
-/// Bytes a cell that a step touches, from the sizes of the arrays that dynamics/ccg.cpp and dynamics/memm.cpp sweep over.
+/// Bytes a cell that a step touches, from the sizes of the arrays of dynamics/ccg_sweeps.hpp, ccg_arrays.hpp and memm.hpp.
 struct Traffic {
     double touched;  ///< every array counted once in each sweep that reads or writes it
     double memory;   ///< what cannot stay in cache from one sweep to the next: constant data and the state, once each way
@@ -62,28 +62,28 @@ struct Traffic {
 Traffic step_traffic(const mesh::Mesh<3>& mesh, const dynamics::BoundaryReconstruction<3>& boundary) {
     const auto per_cell = [&](std::size_t n) { return static_cast<double>(n) / mesh.n_cells(); };
     constexpr double vector = 24, lane = 32, tensor = 3 * lane, id = 4, number = 8;
-    const double faces = per_cell(static_cast<std::size_t>(mesh.n_faces())), slots = per_cell(mesh.cell_faces.values.size());
-    const double stencils = faces - per_cell(mesh.boundary_faces.size());
-    const double boundary_rows = per_cell(boundary.weights.size()) * (id + tensor);
-    const double cell_data = slots * 2 * id + id + 6 * number;                    // slots, their offset, 1/|c|, Lame, x_c
-    const double constant = faces * (2 * id + 4 * (id + number)) + boundary_rows  // reconstruction: sides, stencils, R
-                            + cell_data + faces * vector                          // gradients: area vectors
-                            + faces * 4 * number                                  // jumps: x_f, k_f
-                            + stencils * 4 * (id + number) + id + boundary_rows;  // cell gradients: transposed stencils, R^T
-    const double again = faces * 2 * id + 6 * number                              // jumps: sides, x_c
-                         + cell_data + faces * 4 * number                         // stresses
-                         + faces * (2 * id + vector);                             // face forces: sides, area vectors
-    const double work = 4 * lane + 2 * faces * lane  // u: written and read by reconstruction, gradients, jumps; relative
-                        + 3 * tensor                 // g: jumps and stresses read it
-                        + 2 * faces * lane           // jump forces
-                        + 2 * tensor + 2 * lane      // S, direct part
-                        + 2 * faces * lane;          // face forces
-    const double state = 4 * vector                  // q^{n+1}: q, p, 1/m; written
-                         + 3 * vector                // midpoint: both q; written
-                         + 2 * vector                // loaded; result
-                         + 2 * vector                // sign
-                         + 3 * vector;               // momentum: p, F; written
-    return {constant + again + work + state, constant + state};
+    const double faces = per_cell(static_cast<std::size_t>(mesh.n_faces()));
+    const double slots = per_cell(mesh.cell_faces.values.size()), on_boundary = per_cell(mesh.boundary_faces.size());
+    // Constant
+    const double sides = faces * 2 * id, stencils = faces * 4 * (id + number), face_geometry = faces * 4 * number;
+    const double slot_table = id + slots * 3 * id, arms = slots * vector, cell_geometry = 3 * number;
+    const double transposed = id + (faces - on_boundary) * 4 * (id + number);
+    const double boundary_rows = per_cell(boundary.weights.size()) * (id + tensor);  // R, and R^T once more
+    // Work
+    const double displacement = lane, of_faces = faces * lane, traces = slots * lane, corrections = on_boundary * lane;
+
+    const double load = vector + displacement;
+    const double reconstruction = sides + stencils + displacement + boundary_rows + corrections + of_faces;
+    const double gradients = slot_table + of_faces + displacement + face_geometry + arms + cell_geometry + tensor + traces;
+    const double stresses = slot_table + face_geometry + traces + arms + cell_geometry + tensor + tensor + lane;
+    const double face_forces = sides + tensor + face_geometry + corrections + of_faces;
+    const double cell_gradients = transposed + of_faces + lane + boundary_rows + vector;
+    const double state = 4 * vector + 3 * vector     // q^{n+1} from q, p, 1/m; midpoint from both q
+                         + 2 * vector + 3 * vector;  // sign of the force; momentum from p and F
+    const double constant =
+        sides + stencils + face_geometry + slot_table + arms + cell_geometry + transposed + 2 * boundary_rows;
+    return {load + reconstruction + gradients + stresses + face_forces + cell_gradients + state,
+            constant + 2 * vector + state};
 }
 
 struct Result {

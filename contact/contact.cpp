@@ -28,7 +28,7 @@ const ContactOptions& checked(const ContactOptions& options) {
     return options;
 }
 
-/// Half the mean size of the deformable faces.
+/// The mean size of the deformable faces: of the slipping cylinders this skin costs least (docs/performance.md).
 template <int Dim>
 double default_skin(const SurfaceView<Dim>& surface) {
     double size = 0.0;
@@ -38,7 +38,7 @@ double default_skin(const SurfaceView<Dim>& surface) {
         size += Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
         ++n;
     }
-    return n > 0 ? 0.5 * size / n : 0.0;
+    return n > 0 ? size / n : 0.0;
 }
 
 template <int Dim>

@@ -25,7 +25,7 @@ struct ContactOptions {
     bool events = true;           ///< cut the step where a pair opens, closes or changes its overlap formula
     int quadrature = 0;           ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
     double facing_cosine = -0.5;  ///< n_1 . n_2 below this: the faces look at each other. Between -1 and 0
-    /// [m] how far faces may move, together, before the candidate list is made anew; 0: half the mean face size
+    /// [m] how far faces may move, together, before the candidate list is made anew; 0: the mean face size
     double skin = 0.0;
     /// Also pairs of faces of one body. Both sides of an edge sharper than `facing_cosine` says face each other, too (below 60
     /// degrees by default), and touch from the start: lower facing_cosine for a body with such edges.

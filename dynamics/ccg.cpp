@@ -1,6 +1,5 @@
 #include "abut/dynamics/ccg.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include "abut/dynamics/ccg_arrays.hpp"
 #include "abut/dynamics/ccg_region.hpp"
 #include "abut/dynamics/ccg_sweeps.hpp"
+#include "abut/dynamics/motion_bound.hpp"
 #include "abut/dynamics/parallel.hpp"
 #include "abut/geometry/messages.hpp"
 
@@ -16,11 +16,6 @@ namespace abut::dynamics {
 namespace {
 
 /// The largest stretch of a vector.
-template <int Dim>
-double spectral_norm(const Matrix<Dim>& m) {
-    return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
-}
-
 template <int Dim>
 std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
@@ -39,17 +34,14 @@ struct Ccg<Dim>::Impl {
     FaceConditions<Dim> face_conditions;
     CcgArrays<Dim> arrays;
     CcgSweeps<Dim> sweeps;
+    MotionBound<Dim> motion_bound;
     std::vector<Vector<Dim>> boundary_centroid;
     std::vector<double> boundary_measure;
     std::vector<double> boundary_stiffness;
     bool varies = false;
-    std::vector<std::array<std::int32_t, 2>> body_boundary_cells;  // ranges of arrays.boundary_cells, one a body
-    std::vector<double> body_amplification;                        // largest sum of the norms of a boundary face's weights
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
          const BoundaryConditions<Dim>& boundary_conditions);
-    void set_motion_bound(const mesh::Mesh<Dim>& mesh);
-    [[nodiscard]] double free_motion_bound(std::span<const Vector<Dim>> from, std::span<const Vector<Dim>> to) const;
 };
 
 template <int Dim>
@@ -58,7 +50,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann),
-      sweeps(arrays) {
+      sweeps(arrays),
+      motion_bound(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
         const std::int32_t c = mesh.face_cells[f][0];
         boundary_centroid.push_back(mesh.face_centroid[f]);
@@ -68,50 +61,6 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
     }
     for (const auto& condition : conditions.dirichlet) varies = varies || condition.history;
     for (const auto& condition : conditions.traction) varies = varies || condition.history;
-    set_motion_bound(mesh);
-}
-
-template <int Dim>
-void Ccg<Dim>::Impl::set_motion_bound(const mesh::Mesh<Dim>& mesh) {
-    body_amplification.assign(static_cast<std::size_t>(mesh.n_bodies()), 0.0);
-    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
-    for (std::int32_t b = 0; b < boundary.size(); ++b) {
-        double sum = 0.0;
-        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-            sum += spectral_norm<Dim>(boundary.weights[i]);
-        double& largest = body_amplification[mesh.cell_body[arrays.cell_of(b)]];
-        largest = std::max(largest, sum);
-    }
-    const std::vector<std::int32_t>& cells = arrays.boundary_cells;
-    std::int32_t begin = 0;
-    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
-        auto end = begin;
-        while (end < static_cast<std::int32_t>(cells.size()) && mesh.cell_body[cells[end]] == body) ++end;
-        body_boundary_cells.push_back({begin, end});
-        begin = end;
-    }
-}
-
-/// û_f moves as sum_j W_j du_j, and the weights of a row sum to the identity: with any motion m of the body taken out,
-/// |dû_f - m| <= sum |W_j| max |du_j - m|. The mean of a few cells is a good m.
-template <int Dim>
-double Ccg<Dim>::Impl::free_motion_bound(std::span<const Vector<Dim>> from, std::span<const Vector<Dim>> to) const {
-    double bound = 0.0;
-    for (std::size_t body = 0; body < body_boundary_cells.size(); ++body) {
-        const auto [begin, end] = body_boundary_cells[body];
-        if (begin == end) continue;
-        const auto motion = [&](std::ptrdiff_t i) -> Vector<Dim> {
-            const std::int32_t c = arrays.boundary_cells[static_cast<std::size_t>(begin + i)];
-            return to[c] - from[c];
-        };
-        const std::ptrdiff_t n = end - begin;
-        const std::ptrdiff_t few = std::min<std::ptrdiff_t>(n, 64);
-        Vector<Dim> mean = Vector<Dim>::Zero();
-        for (std::ptrdiff_t k = 0; k < few; ++k) mean += motion(k * n / few) / static_cast<double>(few);
-        const double deviation = std::sqrt(largest(n, [&](std::ptrdiff_t i) { return (motion(i) - mean).squaredNorm(); }));
-        bound = larger(bound, mean.norm() + body_amplification[body] * deviation);
-    }
-    return bound;
 }
 
 template <int Dim>
@@ -250,21 +199,8 @@ contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const std::int32_t> face
 
 template <int Dim>
 double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
-                              std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const {
-    return load_to.displacement.empty() ? impl_->free_motion_bound(u_from, u_to)
-                                        : largest_motion(u_from, load_from, u_to, load_to);
-}
-
-template <int Dim>
-double Ccg<Dim>::largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
-                                std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const {
-    const auto squared_motion = [&](std::ptrdiff_t i) {
-        const auto b = static_cast<std::int32_t>(i);
-        Vector<Dim> motion = impl_->sweeps.boundary_motion(b, u_from, u_to);
-        if (!load_to.displacement.empty()) motion += load_to.displacement[b] - load_from.displacement[b];
-        return motion.squaredNorm();
-    };
-    return std::sqrt(largest(n_boundary(), squared_motion));
+                              std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
+    return impl_->motion_bound(u_from, load_from, u_to, load_to);
 }
 
 template <int Dim>

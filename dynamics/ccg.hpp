@@ -96,12 +96,9 @@ public:
     /// Q_ff' among these boundary faces (places in Mesh::boundary_faces). docs/method.md, Time.
     [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const std::int32_t> faces) const;
 
-    /// A cheap bound on how far any boundary face has moved from one state to another [m].
+    /// How far a boundary face has moved at most from one state to another [m]; a close bound, much cheaper than the motion.
     [[nodiscard]] double motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
-                                      std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const;
-    /// The same, not a bound but the largest motion itself [m].
-    [[nodiscard]] double largest_motion(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
-                                        std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) const;
+                                      std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells` since
     /// then have set those of their region.

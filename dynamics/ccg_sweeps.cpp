@@ -146,16 +146,6 @@ Matrix<Dim> CcgSweeps<Dim>::stress(std::int32_t c) const {
     return unload(elastic_stress(arrays_.cells[c], load_tensor<Dim>(g_, c)));
 }
 
-template <int Dim>
-Vector<Dim> CcgSweeps<Dim>::boundary_motion(std::int32_t b, std::span<const Vector<Dim>> u_from,
-                                            std::span<const Vector<Dim>> u_to) const {
-    const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
-    Lanes<Dim> motion;
-    for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-        motion += arrays_.boundary_weights[i] * (load<Dim>(u_to[boundary.cells[i]]) - load<Dim>(u_from[boundary.cells[i]]));
-    return unload<Dim>(motion);
-}
-
 // One chunk ----------------------------------------------------------------------------------------------------------
 
 template <int Dim>

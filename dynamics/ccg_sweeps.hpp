@@ -40,10 +40,6 @@ public:
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
-    /// How far a boundary face has moved, in each direction [m].
-    [[nodiscard]] Vector<Dim> boundary_motion(std::int32_t b, std::span<const Vector<Dim>> u_from,
-                                              std::span<const Vector<Dim>> u_to) const;
-
     // Of the last call.
     [[nodiscard]] Vector<Dim> face_displacement(std::int32_t f) const {
         return unload<Dim>(load<Dim>(relative_, f) + load<Dim>(u_, arrays_.sides[f][0]));

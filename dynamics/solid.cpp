@@ -211,18 +211,15 @@ void Solid<Dim>::follow_list(std::span<const Vector<Dim>> q_0, std::span<const V
     if (!list_covers(q_1, time + dt)) search(q_0, q_1, time, dt);
 }
 
-/// A cheap bound is asked first, and the exact motion only when the bound cannot tell; the bound then starts again from
-/// there.
 template <int Dim>
 bool Solid<Dim>::list_covers(std::span<const Vector<Dim>> q, double time) {
-    if (searched_.u.empty()) return false;
-    const double obstacles = obstacle_motion(time);
-    if (contact_->covers(obstacles + measured_motion_ + ccg_.motion_bound(measured_.u, measured_.load, q, load_)))
-        return true;
-    measured_motion_ = ccg_.largest_motion(searched_.u, searched_.load, q, load_);
-    measured_.u.assign(q.begin(), q.end());
-    measured_.load = load_;
-    return contact_->covers(obstacles + measured_motion_);
+    return !searched_.u.empty() && contact_->covers(motion_since_search(q, time));
+}
+
+/// At most, of any face [m].
+template <int Dim>
+double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q, double time) {
+    return obstacle_motion(time) + ccg_.motion_bound(searched_.u, searched_.load, q, load_);
 }
 
 /// The list for one state. Contacts have no history before the first step: then it may be made anew. Later a state out of its
@@ -230,10 +227,11 @@ bool Solid<Dim>::list_covers(std::span<const Vector<Dim>> q, double time) {
 template <int Dim>
 void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
     if (std::ranges::equal(q, swept_end_) || list_covers(q, time_)) return;
-    if (has_stepped_ && std::isfinite(measured_motion_))
+    const double motion = has_stepped_ ? motion_since_search(q, time_) : 0.0;
+    if (has_stepped_ && std::isfinite(motion))
         throw std::logic_error(
-            "solid: a face is " + number(measured_motion_) +
-            " m away from where contacts were last searched, half the skin of " + number(contact_->skin()) +
+            "solid: faces may be " + number(motion) + " m away from where contacts were last searched, half the skin of " +
+            number(contact_->skin()) +
             " m is allowed in a state that no step has reached. Step there, make a Solid for every run, or "
             "raise ContactOptions::skin.");
     if (!has_stepped_) contact_.emplace(surface_.view(), *options_.contact);
@@ -265,8 +263,6 @@ void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector
     searched_.load = load_start_;
     searched_time_ = time;
     swept_end_.assign(q_1.begin(), q_1.end());
-    measured_ = searched_;
-    measured_motion_ = 0.0;
     evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
 }
 

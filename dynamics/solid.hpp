@@ -96,6 +96,7 @@ private:
     void follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     [[nodiscard]] bool list_covers(std::span<const Vector<Dim>> q, double time);
+    [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q, double time);
     void require_list(std::span<const Vector<Dim>> q);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const;
@@ -134,9 +135,7 @@ private:
     };
     Reference searched_;  // state at the last search
     double searched_time_ = 0.0;
-    std::vector<Vector<Dim>> swept_end_;  // the list holds there, too: end of the step that it was made for
-    Reference measured_;                  // state at which the motion since the search was last measured
-    double measured_motion_ = 0.0;
+    std::vector<Vector<Dim>> swept_end_;              // the list holds there, too: end of the step that it was made for
     Region<Dim> region_;                              // of the faces in the candidate list
     std::vector<std::int32_t> local_boundary_;        // their places in boundary_faces (deformable faces come first)
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // path of the listed faces; between steps _0 is its end

@@ -69,7 +69,7 @@ void add_contact_options(CLI::App& app, RunOptions& options) {
     grouped(add_choice(app, "--quadrature", contact.quadrature,
                        "Gauss points on each part of a step; by default the exact number: 2 in 2D, 3 in 3D", quadratures));
     grouped(add_number(app, "--skin", contact.skin,
-                       "how far faces move before the list of near faces is made anew; 0: half the mean face size",
+                       "how far faces move before the list of near faces is made anew; 0: the mean face size",
                        {.unit = "m", .above = 0.0, .zero = true}));
     grouped(add_choice(app, "--neumann", options.neumann,
                        "displacement of free faces; extrapolate and adjacent are there for comparison", neumanns));

@@ -167,8 +167,8 @@ TEMPLATE_TEST_CASE_SIG("a list covers motions up to half its skin, and nothing b
     contact::ContactOptions options;
     options.skin = GENERATE(0.0, 0.3);
     Mover<Dim> mover(surface, options);
-    // By default half of the mean size of the deformable faces, 1 and 3.
-    const double expected = options.skin > 0.0 ? options.skin : 0.5 * 2.0;
+    // By default the mean size of the deformable faces, 1 and 3.
+    const double expected = options.skin > 0.0 ? options.skin : 2.0;
     CHECK(mover.contact.skin() == Approx(expected).epsilon(1e-14));
     CHECK_FALSE(mover.contact.covers(0.0));
     mover.search(at_rest(surface));

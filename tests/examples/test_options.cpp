@@ -95,9 +95,9 @@ TEST_CASE("the options --cfl, --dt, --time and --steps say how long steps and th
 
 TEST_CASE("the skin of the summary is the one used, and a thicker one is made anew less often", "[examples]") {
     const auto by_default = read_summary(run_coarse("", "skin_default"));
-    const auto thick = read_summary(run_coarse("--skin 0.4", "skin_thick"));
-    CHECK(by_default["options"]["skin"].get<double>() == Approx(0.5 * 0.25).epsilon(0.2));  // half the mean face size
-    CHECK(thick["options"]["skin"] == 0.4);
+    const auto thick = read_summary(run_coarse("--skin 0.8", "skin_thick"));
+    CHECK(by_default["options"]["skin"].get<double>() == Approx(0.25).epsilon(0.2));  // the mean face size
+    CHECK(thick["options"]["skin"] == 0.8);
     CHECK(thick["rebuilds"] < by_default["rebuilds"]);
     CHECK(by_default["options"]["threads"] > 0);
 }

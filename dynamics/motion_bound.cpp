@@ -1,0 +1,64 @@
+#include "abut/dynamics/motion_bound.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/sort_unique.hpp"
+
+namespace abut::dynamics {
+namespace {
+
+template <int Dim>
+double spectral_norm(const Matrix<Dim>& m) {
+    return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
+}
+
+}  // namespace
+
+template <int Dim>
+MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), cells_(arrays.boundary_cells) {
+    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(b));
+    sort_unique(cells_);
+    const auto place = [&](std::int32_t cell) {
+        return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
+    };
+    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
+    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
+        own_.push_back(place(arrays.cell_of(b)));
+        kept_.push_back(spectral_norm<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b]));
+    }
+    for (const std::int32_t cell : boundary.cells) places_.push_back(place(cell));
+    for (const Matrix<Dim>& weight : boundary.weights) norms_.push_back(spectral_norm<Dim>(weight));
+    moved_.resize(cells_.size());
+}
+
+template <int Dim>
+double MotionBound<Dim>::of_face(std::int32_t b) const {
+    const Vector<Dim> own = moved_[own_[b]];
+    double norms = 0.0;
+    double squares = 0.0;
+    for (std::int32_t i = arrays_.boundary.offsets[b]; i < arrays_.boundary.offsets[b + 1]; ++i) {
+        norms += norms_[i];
+        squares += norms_[i] * (moved_[places_[i]] - own).squaredNorm();
+    }
+    return kept_[b] * own.norm() + std::sqrt(norms * squares);
+}
+
+template <int Dim>
+double MotionBound<Dim>::operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                                    std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
+    parallel_each(static_cast<std::ptrdiff_t>(cells_.size()),
+                  [&](std::ptrdiff_t i) { moved_[i] = u_to[cells_[i]] - u_from[cells_[i]]; });
+    return largest(arrays_.n_boundary(), [&](std::ptrdiff_t i) {
+        const auto b = static_cast<std::int32_t>(i);
+        if (load_to.displacement.empty()) return of_face(b);
+        return of_face(b) + (load_to.displacement[b] - load_from.displacement[b]).norm();
+    });
+}
+
+template class MotionBound<2>;
+template class MotionBound<3>;
+
+}  // namespace abut::dynamics

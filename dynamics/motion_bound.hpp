@@ -1,0 +1,40 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/dynamics/ccg.hpp"
+#include "abut/dynamics/ccg_arrays.hpp"
+
+namespace abut::dynamics {
+
+/// How far boundary faces have moved at most between two states. With D the deficit of a row of weights W_j and c the cell of
+/// the face,
+///
+///     dû_f = (1 - D) du_c + sum_j W_j (du_j - du_c) + what the loads have changed
+///
+/// and by Cauchy and Schwarz |sum_j W_j d_j|^2 <= sum |W_j| sum |W_j| |d_j|^2: a norm is read instead of each W_j. Neighbours
+/// move alike, so the bound is close.
+template <int Dim>
+class MotionBound {
+public:
+    /// The arrays must outlive it.
+    explicit MotionBound(const CcgArrays<Dim>& arrays);
+
+    [[nodiscard]] double operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                                    std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
+
+private:
+    [[nodiscard]] double of_face(std::int32_t b) const;
+
+    const CcgArrays<Dim>& arrays_;
+    std::vector<std::int32_t> cells_;   // all that a boundary face depends on, and those of the faces, increasing
+    std::vector<std::int32_t> own_;     // place in cells_ of the face's cell (n_boundary)
+    std::vector<double> kept_;          // |1 - D| (n_boundary)
+    std::vector<std::int32_t> places_;  // place in cells_, by weight
+    std::vector<double> norms_;         // |W_j|, by weight
+    std::vector<Vector<Dim>> moved_;    // du of cells_
+};
+
+}  // namespace abut::dynamics
