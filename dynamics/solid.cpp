@@ -1,30 +1,17 @@
 #include "abut/dynamics/solid.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
 #include "abut/dynamics/parallel.hpp"
+#include "abut/dynamics/stopwatch.hpp"
 #include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
 namespace {
-
-class Stopwatch {
-public:
-    explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}
-    ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    using Clock = std::chrono::steady_clock;
-    double& total_;
-    Clock::time_point start_;
-};
 
 template <int Dim>
 const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {

@@ -5,13 +5,13 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <stdexcept>
 
 #include "abut/dynamics/parasitic_filter.hpp"
+#include "abut/dynamics/stopwatch.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "support/energy_file.hpp"
 #include "support/energy_picture.hpp"
@@ -23,25 +23,13 @@
 namespace abut::examples {
 namespace {
 
+using dynamics::Stopwatch;
 using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
 /// More than any run takes; all of them are counted exactly in doubles and integers.
 constexpr double most_steps = 1e15;
-
-class Stopwatch {
-public:
-    explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}
-    ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    using Clock = std::chrono::steady_clock;
-    double& total_;
-    Clock::time_point start_;
-};
 
 template <int Dim>
 dynamics::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {

@@ -119,6 +119,15 @@ Eigen::MatrixXd dense_stiffness(dynamics::Solid<Dim>& solid) {
     return k;
 }
 
+/// omega_max of the dense eigenvalue problem K x = omega^2 M x.
+template <int Dim>
+double highest_frequency(dynamics::Solid<Dim>& solid) {
+    const auto n = static_cast<Eigen::Index>(solid.size());
+    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(solid.inverse_mass().data(), n).cwiseSqrt();
+    const Eigen::MatrixXd k = root.asDiagonal() * dense_stiffness(solid) * root.asDiagonal();
+    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
+}
+
 /// A solid with its mesh and its integrator, at rest in its reference shape but for uniform velocities of its bodies.
 template <int Dim>
 struct Scene {
