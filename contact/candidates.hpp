@@ -16,10 +16,9 @@ template <int Dim>
                                                           std::span<const Vector<Dim>> u_1, double facing_cosine,
                                                           double skin);
 
-/// Every pair of facing faces (face_1 < face_2) whose swept boxes overlap and whose gap and shift allow contact: a superset of
-/// all pairs that can be active on the straight way from u_0 to u_1, and as long as no face has moved by more than half the
-/// skin from u_0. Sorted.
-/// Rigid faces never pair with each other. The same list for every broad phase.
+/// Every pair of facing faces (face_1 < face_2) whose swept boxes overlap and whose gap and shift allow contact: a superset
+/// of all pairs that can be active on the straight way from u_0 to u_1, and as long as no face has moved by more than half
+/// the skin from u_0. Sorted. Rigid faces never pair with each other. The same list for every broad phase.
 template <int Dim>
 [[nodiscard]] std::vector<geometry::IndexPair> find_candidates(const SurfaceView<Dim>& surface,
                                                                std::span<const Vector<Dim>> u_0,

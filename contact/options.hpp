@@ -27,8 +27,8 @@ struct ContactOptions {
     double facing_cosine = -0.5;  ///< n_1 . n_2 below this: the faces look at each other. Between -1 and 0
     /// [m] how far faces may move, together, before the candidate list is made anew; 0: the mean face size
     double skin = 0.0;
-    /// Also pairs of faces of one body. Both sides of an edge sharper than `facing_cosine` says face each other, too (below 60
-    /// degrees by default), and touch from the start: lower facing_cosine for a body with such edges.
+    /// Also pairs of faces of one body. Both sides of an edge sharper than `facing_cosine` says face each other, too (below
+    /// 60 degrees by default), and touch from the start: lower facing_cosine for a body with such edges.
     bool self_contact = false;
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error

@@ -66,8 +66,9 @@ private:
     std::vector<PlaneVector<Dim>> corners_;  // of each pair: face 1, then face 2, about their own centroids
 };
 
-/// n_12, unit, from face 1's body into face 2's: (n_1 - n_2)/|n_1 - n_2|, or the normal of the face that is rigid, because an
-/// obstacle's face may be far larger than its partner and a gap read at its centroid along a tilted normal would mean nothing.
+/// n_12, unit, from face 1's body into face 2's: (n_1 - n_2)/|n_1 - n_2|, or the normal of the face that is rigid, because
+/// an obstacle's face may be far larger than its partner and a gap read at its centroid along a tilted normal would mean
+/// nothing.
 template <int Dim>
 [[nodiscard]] Vector<Dim> pair_normal(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2);
 

@@ -53,10 +53,10 @@ struct Surface {
 };
 
 /// Throws std::invalid_argument naming the face, the value, the limit and the remedy: array sizes that disagree, an index
-/// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a normal
-/// that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the corners (all
-/// within 1e-10 of the face, and what rounding adds far from the origin), a depth that is not > 0 (rigid: >= 0), a stiffness
-/// that is not > 0.
+/// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
+/// normal that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the
+/// corners (all within 1e-10 of the face, and what rounding adds far from the origin), a depth that is not > 0 (rigid: >=
+/// 0), a stiffness that is not > 0.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 

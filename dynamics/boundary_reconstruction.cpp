@@ -109,7 +109,8 @@ private:
     }
 
     /// Minimum of the cell's energy over what is free of its boundary faces:
-    ///   N A N z = N (|f| t - A_interior u_g - A P u_D),  z = pinv(...) + the part of the affine extrapolation in the null space.
+    ///   N A N z = N (|f| t - A_interior u_g - A P u_D),  z = pinv(...) + the part of the affine extrapolation in the null
+    /// space.
     void balance(std::int32_t cell, const std::vector<std::int32_t>& boundary) {
         const auto n = static_cast<Eigen::Index>(boundary.size()) * Dim;
         const auto block = [](Eigen::MatrixXd& m, std::size_t i, std::size_t j) {

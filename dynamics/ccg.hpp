@@ -47,8 +47,8 @@ struct Region {
 template <int Dim>
 class Ccg {
 public:
-    /// One material a body. Throws std::invalid_argument for another number of them, and as `check(Material)`, `sort_to_faces`
-    /// and `select_stencils` do.
+    /// One material a body. Throws std::invalid_argument for another number of them, and as `check(Material)`,
+    /// `sort_to_faces` and `select_stencils` do.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions);
     ~Ccg();
     Ccg(Ccg&&) noexcept;
@@ -100,8 +100,8 @@ public:
     [[nodiscard]] double motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
 
-    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells` since
-    /// then have set those of their region.
+    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells`
+    /// since then have set those of their region.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 

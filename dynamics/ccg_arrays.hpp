@@ -32,7 +32,8 @@ struct CellGeometry {
     double mu;
 };
 
-/// For each index of a range: the rows in which it occurs, increasing, and its weights there. The transpose of a sparse matrix.
+/// For each index of a range: the rows in which it occurs, increasing, and its weights there. The transpose of a sparse
+/// matrix.
 template <class Weight>
 struct Occurrences {
     std::vector<std::int32_t> offsets;

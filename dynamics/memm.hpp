@@ -15,8 +15,8 @@ namespace abut::dynamics {
 /// What a new time step does to the half-step momenta. docs/method.md, Time.
 enum class StepChange {
     /// H~ stays exact, but p^{n+3/2} and p^{n-1/2} are then not 2 dt apart. Only for slow and smooth changes:
-    /// alternating or irregular steps feed the parasitic mode, which then grows exponentially at any size of step, and H~ does
-    /// not notice.
+    /// alternating or irregular steps feed the parasitic mode, which then grows exponentially at any size of step, and H~
+    /// does not notice.
     keep,
     restart,  ///< the half-step momenta are made anew from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
 };

@@ -9,13 +9,13 @@
 
 namespace abut::dynamics {
 
-/// How far boundary faces have moved at most between two states. With D the deficit of a row of weights W_j and c the cell of
-/// the face,
+/// How far boundary faces have moved at most between two states. With D the deficit of a row of weights W_j and c the cell
+/// of the face,
 ///
 ///     dû_f = (1 - D) du_c + sum_j W_j (du_j - du_c) + what the loads have changed
 ///
-/// and by Cauchy and Schwarz |sum_j W_j d_j|^2 <= sum |W_j| sum |W_j| |d_j|^2: a norm is read instead of each W_j. Neighbours
-/// move alike, so the bound is close.
+/// and by Cauchy and Schwarz |sum_j W_j d_j|^2 <= sum |W_j| sum |W_j| |d_j|^2: a norm is read instead of each W_j.
+/// Neighbours move alike, so the bound is close.
 template <int Dim>
 class MotionBound {
 public:

@@ -209,8 +209,8 @@ double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q, double ti
     return obstacle_motion(time) + ccg_.motion_bound(searched_.u, searched_.load, q, load_);
 }
 
-/// The list for one state. Contacts have no history before the first step: then it may be made anew. Later a state out of its
-/// reach is refused, since a list made there would forget which pairs are in contact.
+/// The list for one state. Contacts have no history before the first step: then it may be made anew. Later a state out of
+/// its reach is refused, since a list made there would forget which pairs are in contact.
 template <int Dim>
 void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
     if (std::ranges::equal(q, swept_end_) || list_covers(q, time_)) return;

@@ -42,7 +42,8 @@ struct SolidTimes {
 template <int Dim>
 class Solid {
 public:
-    /// The mesh must outlive the solid. Throws std::invalid_argument or std::runtime_error with place, value, limit and remedy.
+    /// The mesh must outlive the solid. Throws std::invalid_argument or std::runtime_error with place, value, limit and
+    /// remedy.
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options);
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
@@ -53,9 +54,9 @@ public:
 
     /// Displacements q are cell by cell, shape (n_cells, Dim) [m].
     void force(std::span<const double> q, std::span<double> force);
-    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way (docs/method.md, Time). Throws
-    /// std::logic_error where the step should begin when the last one ended but does not, std::runtime_error when the run has diverged or a
-    /// pair is pressed in deeper than `compression_limit`.
+    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way (docs/method.md, Time).
+    /// Throws std::logic_error where the step should begin when the last one ended but does not, std::runtime_error when the
+    /// run has diverged or a pair is pressed in deeper than `compression_limit`.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force);
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
@@ -67,8 +68,8 @@ public:
 
     /// Parts of the bodies that were in contact during the last step; bodies joined by a pair are in one patch.
     [[nodiscard]] std::vector<ContactPatch> contact_patches() const;
-    /// F(q) on some cells only (n, Dim) [N], q being where the last step ended. Costs as much as these cells, and the pairs of
-    /// the candidate list.
+    /// F(q) on some cells only (n, Dim) [N], q being where the last step ended. Costs as much as these cells, and the pairs
+    /// of the candidate list.
     void end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
 
     /// Contact pressure [Pa] and smallest gap [m] of each boundary face in state q, in the order of Mesh::boundary_faces;

@@ -4,9 +4,8 @@
 namespace abut::dynamics {
 
 struct StableStep {
-    double
-        omega_max;  ///< highest frequency without contact, from the last Rayleigh quotient (a lower bound) times 1.02 [rad/s]
-    double dt;      ///< 2 / omega_max, times 0.85 with contact: a closed contact stiffens its cells [s]
+    double omega_max;  ///< highest frequency without contact [rad/s]: the last Rayleigh quotient, a lower bound, times 1.02
+    double dt;         ///< 2 / omega_max, times 0.85 with contact: a closed contact stiffens its cells [s]
     int iterations;
     double change;  ///< relative change of the last iteration
 };

@@ -102,8 +102,8 @@ private:
     void descend(int corner, std::size_t first, double sum) {
         if (corner == Dim + 1) return consider(sum);
         for (std::size_t i = first; i < near_.size(); ++i) {
-            // Distances increase: once a simplex holds the point, none with a larger sum can be better; of equal sums the cell
-            // numbers decide.
+            // Distances increase: once a simplex holds the point, none with a larger sum can be better; of equal sums the
+            // cell numbers decide.
             if (best_extrapolation_ == 0.0 && sum + near_[i].distance * (Dim + 1 - corner) > best_sum_) return;
             chosen_[corner] = i;
             descend(corner + 1, i + 1, sum + near_[i].distance);

@@ -69,7 +69,8 @@ private:
 
     static bool is_inside(Span span, std::int32_t begin, std::int32_t end) { return span.first >= begin && span.last < end; }
 
-    /// Runs the tasks of chunks [begin, end) that depend on these chunks only, each when the last of them is through stage 0.
+    /// Runs the tasks of chunks [begin, end) that depend on these chunks only, each when the last of them is through stage
+    /// 0.
     template <class Task>
     void run_part(std::int32_t begin, std::int32_t end, const Task& task) const {
         struct Waiting {

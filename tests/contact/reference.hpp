@@ -1,6 +1,6 @@
 #pragma once
-// The contact model written down once more, straight from docs/method.md, Contact, and as slowly as it likes: nothing here is
-// shared with the library but the arrays of the surface.
+// The contact model written down once more, straight from docs/method.md, Contact, and as slowly as it likes: nothing here
+// is shared with the library but the arrays of the surface.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>

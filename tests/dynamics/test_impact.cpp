@@ -119,7 +119,8 @@ TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a th
 
 TEST_CASE("two discs leave each other with the speeds of the reference runs, head-on mirrored and off-centre deflected",
           "[dynamics][impact]") {
-    // Reference: an independent prototype of the scheme on other meshes of the same size; discretisation moves the third digit.
+    // Reference: an independent prototype of the scheme on other meshes of the same size; discretisation moves the third
+    // digit.
     const double offset = GENERATE(0.0, 0.8);
     const Vector<2> expected = offset == 0.0 ? Vector<2>(-0.0477, 0.0) : Vector<2>(-0.0278, -0.0394);
     Scene<2> scene(two_discs(offset), bodies<2>(2), disc_velocities);
