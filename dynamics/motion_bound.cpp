@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "abut/dynamics/parallel.hpp"
 #include "abut/geometry/sort_unique.hpp"
@@ -31,26 +32,28 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
     }
     for (const std::int32_t cell : boundary.cells) places_.push_back(place(cell));
     for (const Matrix<Dim>& weight : boundary.weights) norms_.push_back(spectral_norm<Dim>(weight));
-    moved_.resize(cells_.size());
+    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b)
+        norm_sum_.push_back(
+            std::accumulate(norms_.begin() + boundary.offsets[b], norms_.begin() + boundary.offsets[b + 1], 0.0));
+    moved_.resize(lane_width<Dim> * cells_.size());
 }
 
 template <int Dim>
 double MotionBound<Dim>::of_face(std::int32_t b) const {
-    const Vector<Dim> own = moved_[own_[b]];
-    double norms = 0.0;
-    double squares = 0.0;
+    const Lanes<Dim> own = load<Dim>(moved_, own_[b]);
+    Lanes<Dim> squares;  // by direction
     for (std::int32_t i = arrays_.boundary.offsets[b]; i < arrays_.boundary.offsets[b + 1]; ++i) {
-        norms += norms_[i];
-        squares += norms_[i] * (moved_[places_[i]] - own).squaredNorm();
+        const Lanes<Dim> relative = load<Dim>(moved_, places_[i]) - own;
+        squares.r += norms_[i] * relative.r * relative.r;
     }
-    return kept_[b] * own.norm() + std::sqrt(norms * squares);
+    return kept_[b] * std::sqrt(dot(own, own)) + std::sqrt(norm_sum_[b] * unload<Dim>(squares).sum());
 }
 
 template <int Dim>
 double MotionBound<Dim>::operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                     std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
     parallel_each(static_cast<std::ptrdiff_t>(cells_.size()),
-                  [&](std::ptrdiff_t i) { moved_[i] = u_to[cells_[i]] - u_from[cells_[i]]; });
+                  [&](std::ptrdiff_t i) { store(load<Dim>(u_to[cells_[i]]) - load<Dim>(u_from[cells_[i]]), moved_, i); });
     return largest(arrays_.n_boundary(), [&](std::ptrdiff_t i) {
         const auto b = static_cast<std::int32_t>(i);
         if (load_to.displacement.empty()) return of_face(b);

@@ -6,6 +6,7 @@
 
 #include "abut/dynamics/ccg.hpp"
 #include "abut/dynamics/ccg_arrays.hpp"
+#include "abut/dynamics/lanes.hpp"
 
 namespace abut::dynamics {
 
@@ -34,7 +35,8 @@ private:
     std::vector<double> kept_;          // |1 - D| (n_boundary)
     std::vector<std::int32_t> places_;  // place in cells_, by weight
     std::vector<double> norms_;         // |W_j|, by weight
-    std::vector<Vector<Dim>> moved_;    // du of cells_
+    std::vector<double> norm_sum_;      // of a row (n_boundary)
+    std::vector<double> moved_;         // du of cells_, registers
 };
 
 }  // namespace abut::dynamics
