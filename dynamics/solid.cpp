@@ -195,17 +195,13 @@ void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<cons
 template <int Dim>
 void Solid<Dim>::follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
     const Stopwatch watch(times_.search);
-    if (!list_covers(q_1, time + dt)) search(q_0, q_1, time, dt);
+    if (!contact_->covers(motion_since_search(q_1, time + dt))) search(q_0, q_1, time, dt);
 }
 
-template <int Dim>
-bool Solid<Dim>::list_covers(std::span<const Vector<Dim>> q, double time) {
-    return !searched_.u.empty() && contact_->covers(motion_since_search(q, time));
-}
-
-/// At most, of any face [m].
+/// At most, of any face [m]; infinite before the first search.
 template <int Dim>
 double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q, double time) {
+    if (searched_.u.empty()) return std::numeric_limits<double>::infinity();
     return obstacle_motion(time) + ccg_.motion_bound(searched_.u, searched_.load, q, load_);
 }
 
@@ -213,8 +209,9 @@ double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q, double ti
 /// its reach is refused, since a list made there would forget which pairs are in contact.
 template <int Dim>
 void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
-    if (std::ranges::equal(q, swept_end_) || list_covers(q, time_)) return;
-    const double motion = has_stepped_ ? motion_since_search(q, time_) : 0.0;
+    if (std::ranges::equal(q, swept_end_)) return;
+    const double motion = motion_since_search(q, time_);
+    if (contact_->covers(motion)) return;
     if (has_stepped_ && std::isfinite(motion))
         throw std::logic_error(
             "solid: faces may be " + number(motion) + " m away from where contacts were last searched, half the skin of " +

@@ -96,7 +96,6 @@ private:
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     void follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
-    [[nodiscard]] bool list_covers(std::span<const Vector<Dim>> q, double time);
     [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q, double time);
     void require_list(std::span<const Vector<Dim>> q);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
