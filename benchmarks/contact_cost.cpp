@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "support/measure.hpp"
 #include "two_cylinders.hpp"

@@ -192,6 +192,21 @@ void Contact<Dim>::integrate(const FacePath<Dim>& path) {
     check_path<Dim>(surface_, faces_, path);
     update_admission(path.displacement_0);
     integral_.integrate(surface_, pairs_, local_face_, coupling_, path);
+    report_step();
+}
+
+template <int Dim>
+void Contact<Dim>::follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
+                          std::span<const Vector<Dim>> force_1) {
+    require_list();
+    check_path<Dim>(surface_, faces_, {displacement_0, displacement_1, force_1, force_1});
+    update_admission(displacement_0);
+    integral_.integrate(surface_, pairs_, local_face_, coupling_, {displacement_1, displacement_1, force_1, force_1});
+    report_step();
+}
+
+template <int Dim>
+void Contact<Dim>::report_step() {
     report_.active_pairs = static_cast<std::int64_t>(integral_.active_pairs().size());
     report_.active_pairs_max = std::max(report_.active_pairs_max, report_.active_pairs);
     report_.events += integral_.events();

@@ -54,6 +54,11 @@ public:
     /// a pair is pressed in deeper than `compression_limit` or the path is not finite, std::logic_error without a list.
     void integrate(const FacePath<Dim>& path);
 
+    /// For schemes that take the force at the end of a step alone: decides admission at its start as `integrate` does, then
+    /// takes corrections and pair forces at its end. There are no events; throws as `integrate`.
+    void follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
+                std::span<const Vector<Dim>> force_1);
+
     /// Corrections and pair forces of one state (a path without motion), with the admission as it stands; counts nothing.
     void evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> force);
 
@@ -71,6 +76,7 @@ private:
     void update_admission(std::span<const Vector<Dim>> displacement);
     void list_faces();
     void require_list() const;
+    void report_step();
 
     SurfaceView<Dim> surface_;
     ContactOptions options_;

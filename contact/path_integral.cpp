@@ -5,23 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "abut/geometry/quadrature.hpp"
+
 namespace abut::contact {
 namespace {
 
-struct Quadrature {
-    int size;
-    std::array<double, 3> node;  // in [0, 1]
-    std::array<double, 3> weight;
-};
-
-/// Gauss-Legendre on [0, 1] with 1, 2 or 3 points: exact up to degree 1, 3, 5.
-Quadrature gauss_legendre(int points) {
-    const double two = 0.5 / std::sqrt(3.0);
-    const double three = 0.5 * std::sqrt(0.6);
-    if (points == 1) return {1, {0.5}, {1.0}};
-    if (points == 2) return {2, {0.5 - two, 0.5 + two}, {0.5, 0.5}};
-    return {3, {0.5 - three, 0.5, 0.5 + three}, {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0}};
-}
+using geometry::gauss_legendre;
+using geometry::Quadrature;
 
 template <class Value>
 Value polynomial(const std::array<Value, 3>& c, double t) {

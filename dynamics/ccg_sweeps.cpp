@@ -13,6 +13,12 @@ inline constexpr std::int32_t chunk_size = 512;
 /// Elements of a region that are worth a task of their own.
 inline constexpr std::ptrdiff_t region_grain = 256;
 
+template <class Body>
+void for_all(const std::vector<std::int32_t>& list, const Body& body) {
+    parallel_each(
+        static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
+}
+
 template <int Dim>
 LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<Dim>& gradient) {
     const LaneTensor<Dim> transposed = gradient.transposed();
@@ -313,10 +319,6 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
 template <int Dim>
 void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                         const BoundaryLoad<Dim>& boundary_load) {
-    const auto for_all = [](const std::vector<std::int32_t>& list, const auto& body) {
-        parallel_each(
-            static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
-    };
     for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
     for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
     for_all(region.reconstructed_boundary,
@@ -342,14 +344,17 @@ void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const V
                                     std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     evaluate_to_stress(region, u, boundary_load);
-    for (const std::int32_t f : region.force_faces) store(interior_force(f), y_, f);
-    for (const std::int32_t b : region.faces) store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]);
-    for (std::size_t i = 0; i < region.cells.size(); ++i) {
-        const std::int32_t c = region.cells[i];
-        Lanes<Dim> sum = cell_gradient(c);
-        if (const std::int32_t place = arrays_.boundary_cell_place[c]; place >= 0) sum += boundary_cell_gradient(place);
-        result[i] = unload<Dim>(sum);
-    }
+    for_all(region.force_faces, [&](std::int32_t f) { store(interior_force(f), y_, f); });
+    for_all(region.faces, [&](std::int32_t b) { store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]); });
+    parallel_each(
+        static_cast<std::ptrdiff_t>(region.cells.size()),
+        [&](std::ptrdiff_t i) {
+            const std::int32_t c = region.cells[i];
+            Lanes<Dim> sum = cell_gradient(c);
+            if (const std::int32_t place = arrays_.boundary_cell_place[c]; place >= 0) sum += boundary_cell_gradient(place);
+            result[i] = unload<Dim>(sum);
+        },
+        region_grain);
 }
 
 template class CcgSweeps<2>;

@@ -29,19 +29,6 @@ void append_names(std::vector<std::string>& names, const std::string& name, Entr
         for (int i = 0; i < n; ++i) names.push_back(name + axis[i]);
 }
 
-/// p = (p^- + p^+)/2 of a cell.
-template <int Dim>
-class Momentum {
-public:
-    explicit Momentum(const Memm<Solid<Dim>>& integrator)
-        : before_(as_vectors<Dim>(integrator.p_before())), after_(as_vectors<Dim>(integrator.p_after())) {}
-    Vector<Dim> operator()(std::ptrdiff_t c) const { return 0.5 * (before_[c] + after_[c]); }
-
-private:
-    std::span<const Vector<Dim>> before_;
-    std::span<const Vector<Dim>> after_;
-};
-
 }  // namespace
 
 template <int Dim>
@@ -70,33 +57,22 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
 }
 
 template <int Dim>
-LedgerEntry<Dim> measure(Memm<Solid<Dim>>& integrator, Solid<Dim>& solid) {
+void detail::complete(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e, const Solid<Dim>& solid) {
     const contact::ContactReport report = solid.contact_report();
-    LedgerEntry<Dim> entry{};
-    entry.step = integrator.steps();
-    entry.time = integrator.time();
-    entry.potential = solid.potential(integrator.q());
-    const double pseudo_kinetic = integrator.pseudo_kinetic_energy();
-    entry.kinetic = pseudo_kinetic + integrator.energy_excess();
-    entry.pseudo_energy = pseudo_kinetic + entry.potential;
-    entry.energy = entry.kinetic + entry.potential;
+    entry.step = run.steps;
+    entry.time = run.time;
     entry.work = solid.work();
-    entry.restart_jumps = integrator.restart_jumps();
     entry.active_pairs = report.active_pairs;
     entry.events = report.events;
-
-    const Momentum<Dim> momentum(integrator);
-    const auto u = as_vectors<Dim>(integrator.q());
+    const auto u = as_vectors<Dim>(run.q);
     const auto n = static_cast<std::ptrdiff_t>(u.size());
-    entry.linear_momentum = ordered_sum(n, Vector<Dim>(Vector<Dim>::Zero()), momentum);
+    entry.linear_momentum =
+        ordered_sum(n, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t c) { return run.momentum(c); });
     entry.angular_momentum = ordered_sum(n, Rotation<Dim>(Rotation<Dim>::Zero()), [&](std::ptrdiff_t c) {
-        return moment<Dim>(solid.mesh().cell_centroid[c] + u[c], momentum(c));
+        return moment<Dim>(solid.mesh().cell_centroid[c] + u[c], run.momentum(c));
     });
-    std::vector<double> e(integrator.q().size());
-    integrator.parasitic_momentum(e);
-    const auto e_c = as_vectors<Dim>(std::span<const double>(e));
+    const auto e_c = as_vectors<Dim>(e);
     entry.parasitic = largest(n, [&](std::ptrdiff_t c) { return e_c[c].norm() / solid.cell_mass()[c]; });
-    return entry;
 }
 
 template <int Dim>
@@ -106,6 +82,7 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     const auto raise = [](double& so_far, double value) { so_far = larger(so_far, value); };
     const auto kept = [](const LedgerEntry<Dim>& e) { return e.pseudo_energy - e.work - e.restart_jumps; };
     raise(pseudo_energy_drift_, std::abs(kept(entry) - kept(first)));
+    raise(energy_drift_, std::abs((entry.energy - entry.work) - (first.energy - first.work)));
     raise(energy_excess_, entry.energy - entry.pseudo_energy);
     raise(parasitic_, entry.parasitic);
     raise(momentum_drift_, (entry.linear_momentum - first.linear_momentum).norm());
@@ -114,13 +91,12 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
 }
 
 template <int Dim>
-std::vector<BodyMotion<Dim>> body_motions(const Memm<Solid<Dim>>& integrator, const Solid<Dim>& solid) {
+std::vector<BodyMotion<Dim>> body_motions(const RunView<Dim>& run, const Solid<Dim>& solid) {
     std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()), {0.0, Vector<Dim>::Zero()});
-    const Momentum<Dim> momentum(integrator);
     for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
         BodyMotion<Dim>& body = motions[solid.mesh().cell_body[c]];
         body.mass += solid.cell_mass()[c];
-        body.velocity += momentum(c);
+        body.velocity += run.momentum(c);
     }
     for (BodyMotion<Dim>& body : motions) body.velocity /= body.mass;
     return motions;
@@ -142,9 +118,10 @@ std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Ve
 #define ABUT_INSTANTIATE(Dim)                                                                            \
     template std::vector<std::string> ledger_columns<Dim>();                                             \
     template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                            \
-    template LedgerEntry<Dim> measure<Dim>(Memm<Solid<Dim>>&, Solid<Dim>&);                              \
+    template void detail::complete<Dim>(LedgerEntry<Dim>&, const RunView<Dim>&, std::span<const double>, \
+                                        const Solid<Dim>&);                                              \
     template class Ledger<Dim>;                                                                          \
-    template std::vector<BodyMotion<Dim>> body_motions<Dim>(const Memm<Solid<Dim>>&, const Solid<Dim>&); \
+    template std::vector<BodyMotion<Dim>> body_motions<Dim>(const RunView<Dim>&, const Solid<Dim>&);     \
     template std::vector<double> uniform_momentum<Dim>(const Solid<Dim>&, std::span<const Vector<Dim>>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

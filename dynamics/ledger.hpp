@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/integrator.hpp"
 #include "abut/dynamics/solid.hpp"
 
 namespace abut::dynamics {
@@ -19,7 +19,7 @@ template <int Dim>
 struct LedgerEntry {
     std::int64_t step;
     double time;                  ///< [s]
-    double pseudo_energy;         ///< H~ = 1/2 p^- . M^-1 p^+ + V [J]
+    double pseudo_energy;         ///< what the scheme conserves; of MEMM H~ = 1/2 p^- . M^-1 p^+ + V [J]
     double energy;                ///< H = 1/2 p . M^-1 p + V with p = (p^- + p^+)/2 [J]
     double kinetic;               ///< 1/2 p . M^-1 p [J]
     double potential;             ///< V, less the work of constant loads [J]
@@ -39,9 +39,49 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<double> ledger_values(const LedgerEntry<Dim>& entry);
 
-/// Measures the present state; costs about two force evaluations.
+/// An integrator of solids, as far as its ledger and its output go: no scheme has its own.
 template <int Dim>
-[[nodiscard]] LedgerEntry<Dim> measure(Memm<Solid<Dim>>& integrator, Solid<Dim>& solid);
+class RunView {
+public:
+    template <class Scheme>
+    RunView(const Integrator<Scheme, Solid<Dim>>& integrator)  // implicit: a view
+        : steps(integrator.steps()),
+          time(integrator.time()),
+          q(integrator.q()),
+          p_before(integrator.p_before()),
+          p_after(integrator.p_after()) {}
+
+    std::int64_t steps;
+    double time;                       ///< [s]
+    std::span<const double> q;         ///< (n_cells, Dim) [m]
+    std::span<const double> p_before;  ///< p^{n-1/2} [kg m/s]
+    std::span<const double> p_after;   ///< p^{n+1/2}
+    /// p^n = (p^{n-1/2} + p^{n+1/2})/2 of a cell [kg m/s]
+    [[nodiscard]] Vector<Dim> momentum(std::ptrdiff_t c) const {
+        return 0.5 * (as_vectors<Dim>(p_before)[c] + as_vectors<Dim>(p_after)[c]);
+    }
+};
+
+namespace detail {
+/// Fills what does not depend on the scheme; e is the parasitic momentum.
+template <int Dim>
+void complete(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e, const Solid<Dim>& solid);
+}  // namespace detail
+
+/// Measures the present state; costs about two force evaluations.
+template <int Dim, class Scheme>
+[[nodiscard]] LedgerEntry<Dim> measure(Integrator<Scheme, Solid<Dim>>& integrator, Solid<Dim>& solid) {
+    LedgerEntry<Dim> entry{};
+    entry.potential = solid.potential(integrator.q());
+    entry.kinetic = integrator.kinetic_energy();
+    entry.energy = entry.kinetic + entry.potential;
+    entry.pseudo_energy = integrator.pseudo_energy(entry.potential);
+    entry.restart_jumps = integrator.restart_jumps();
+    std::vector<double> e(integrator.q().size());
+    integrator.parasitic_momentum(e);
+    detail::complete<Dim>(entry, integrator, e, solid);
+    return entry;
+}
 
 /// Largest deviations of a run from its first entry.
 template <int Dim>
@@ -50,8 +90,10 @@ public:
     void record(const LedgerEntry<Dim>& entry);
 
     [[nodiscard]] const std::vector<LedgerEntry<Dim>>& entries() const { return entries_; }
-    /// max |H~ - H~0 - work - restart_jumps| [J]
+    /// max |H~ - H~0 - work - restart_jumps|, H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double pseudo_energy_drift() const { return pseudo_energy_drift_; }
+    /// max |H - H0 - work| [J]: the true error
+    [[nodiscard]] double energy_drift() const { return energy_drift_; }
     /// max (H - H~) [J]
     [[nodiscard]] double energy_excess() const { return energy_excess_; }
     [[nodiscard]] double parasitic() const { return parasitic_; }
@@ -63,6 +105,7 @@ public:
 private:
     std::vector<LedgerEntry<Dim>> entries_;
     double pseudo_energy_drift_ = 0.0;
+    double energy_drift_ = 0.0;
     double energy_excess_ = 0.0;
     double parasitic_ = 0.0;
     double momentum_drift_ = 0.0;
@@ -77,7 +120,7 @@ struct BodyMotion {
     Vector<Dim> velocity;  ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
 };
 template <int Dim>
-[[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const Memm<Solid<Dim>>& integrator, const Solid<Dim>& solid);
+[[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const RunView<Dim>& run, const Solid<Dim>& solid);
 
 /// Momenta of bodies that move as a whole, one velocity a body [m/s].
 template <int Dim>

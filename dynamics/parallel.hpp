@@ -51,17 +51,21 @@ void parallel_each(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = pa
 /// Sum of term(i) over [0, n): blocks of fixed size, then the blocks in order, so that the bits depend on n alone.
 template <class Value, class Term>
 Value ordered_sum(std::ptrdiff_t n, const Value& zero, const Term& term) {
-    const std::ptrdiff_t n_blocks = (n + parallel_grain - 1) / parallel_grain;
-    std::vector<Value> sums(static_cast<std::size_t>(n_blocks), zero);
-    const auto add_block = [&](std::ptrdiff_t block) {
+    const auto sum_of_block = [&](std::ptrdiff_t block) {
+        Value sum = zero;
         const std::ptrdiff_t end = std::min(n, (block + 1) * parallel_grain);
-        for (std::ptrdiff_t i = block * parallel_grain; i < end; ++i) sums[static_cast<std::size_t>(block)] += term(i);
+        for (std::ptrdiff_t i = block * parallel_grain; i < end; ++i) sum += term(i);
+        return sum;
     };
-    if (n_blocks <= 2)
-        for (std::ptrdiff_t block = 0; block < n_blocks; ++block) add_block(block);
-    else
-        oneapi::tbb::parallel_for(std::ptrdiff_t{0}, n_blocks, add_block);
+    const std::ptrdiff_t n_blocks = (n + parallel_grain - 1) / parallel_grain;
     Value total = zero;
+    if (n_blocks <= 2) {
+        for (std::ptrdiff_t block = 0; block < n_blocks; ++block) total += sum_of_block(block);
+        return total;
+    }
+    std::vector<Value> sums(static_cast<std::size_t>(n_blocks), zero);
+    oneapi::tbb::parallel_for(std::ptrdiff_t{0}, n_blocks,
+                              [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); });
     for (const Value& sum : sums) total += sum;
     return total;
 }

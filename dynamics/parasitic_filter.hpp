@@ -1,5 +1,4 @@
 #pragma once
-#include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/solid.hpp"
 
 namespace abut::dynamics {
@@ -16,7 +15,7 @@ class NeutralFilter {
 public:
     explicit NeutralFilter(Solid<Dim>& solid, double kappa = 1.0) : solid_(solid), kappa_(kappa) {}
 
-    /// To be called after each step (Memm::set_after_step).
+    /// To be called after each step (Integrator::set_after_step).
     void operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after);
 
 private:

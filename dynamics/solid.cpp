@@ -13,6 +13,8 @@
 namespace abut::dynamics {
 namespace {
 
+inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
+
 template <int Dim>
 const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
@@ -133,10 +135,7 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
 template <int Dim>
 void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                             std::span<double> force) {
-    if (time != time_ && (contact_ || ccg_.load_varies()))
-        throw std::logic_error("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
-                               exact_number(time_) +
-                               " s. Loads, work and contacts go on from step to step: make a Solid for every run.");
+    require_start(time, dt);
     const auto u_0 = as_vectors<Dim>(q_0);
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
@@ -154,12 +153,138 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     } else {
         ccg_.gradient(midpoint_, load_, corrections(), gradient);
     }
-    add_boundary_work();
-    add_obstacle_work();
+    add_boundary_work(1.0);
+    add_obstacle_work(1.0);
     to_force(gradient);
-    std::swap(u_0_, u_1_);  // the next step begins where this one ends
+    evaluations_ += mesh_.n_cells();
+    end_step(time + dt);
+}
+
+template <int Dim>
+void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
+                           std::span<double> force) {
+    require_start(time, dt);
+    const auto u_0 = as_vectors<Dim>(q_0);
+    const auto u_1 = as_vectors<Dim>(q_1);
+    const auto gradient = as_vectors<Dim>(force);
+    follow_loads(u_0, time, dt);
+    if (contact_) follow_faces(u_0, u_1, time, dt);
+    if (!is_autonomous()) {  // the work is shared between the forces at both ends
+        if (contact_) {
+            contact_->evaluate(u_0_, y_0_);
+            keep_active_pairs();
+        }
+        ccg_.gradient(u_0, load_start_, corrections(), gradient);
+        add_boundary_work(0.5);
+        add_obstacle_work(0.5);
+    }
+    if (contact_) {
+        const Stopwatch watch(times_.contact);
+        contact_->follow(u_0_, u_1_, y_1_);
+        keep_active_pairs();
+    }
+    const Stopwatch watch(times_.bulk);
+    ccg_.gradient(u_1, load_, corrections(), gradient);
+    add_boundary_work(0.5);
+    add_obstacle_work(0.5);
+    to_force(gradient);
+    evaluations_ += mesh_.n_cells();
+    end_step(time + dt);
+}
+
+template <int Dim>
+bool Solid<Dim>::is_autonomous() const {
+    return !ccg_.load_varies() &&
+           std::ranges::none_of(options_.obstacles, [](const auto& obstacle) { return bool(obstacle.path); });
+}
+
+template <int Dim>
+void Solid<Dim>::require_start(double time, double dt) const {
+    if (!(std::abs(time - time_) <= same_time * dt) && (contact_ || ccg_.load_varies()))
+        throw std::logic_error("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
+                               exact_number(time_) +
+                               " s. Loads, work and contacts go on from step to step: make a Solid for every run.");
+}
+
+template <int Dim>
+void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
+    if (ccg_.load_varies())
+        throw std::invalid_argument(mesh_.name +
+                                    ": a boundary condition has a history, and local time steps do not follow it. Take one "
+                                    "step for all cells.");
+    const std::int32_t n_cells = mesh_.n_cells();
+    std::vector<std::int32_t> evaluated(static_cast<std::size_t>(n_cells), 0);  // level of each cell's force
+    for (std::int32_t l = 1; l < n_levels; ++l) {
+        std::vector<std::int32_t> as_fine;
+        for (std::int32_t c = 0; c < n_cells; ++c)
+            if (level[static_cast<std::size_t>(c) * Dim] >= l) as_fine.push_back(c);
+        // K is symmetric: what these cells depend on depends on them.
+        for (const std::int32_t c : ccg_.region_of_cells(as_fine).loaded_cells) evaluated[c] = l;
+    }
+    level_regions_.clear();
+    for (std::int32_t l = 0; l < n_levels; ++l) {
+        std::vector<std::int32_t> cells;
+        for (std::int32_t c = 0; c < n_cells; ++c)
+            if (evaluated[c] == l) cells.push_back(c);
+        level_regions_.push_back(ccg_.region_of_cells(cells));
+    }
+    contact_region_ = ccg_.region_of_cells(region_.loaded_cells);
+    moved_.assign(static_cast<std::size_t>(n_cells), Vector<Dim>::Zero());
+    gradient_.resize(static_cast<std::size_t>(n_cells));
+}
+
+template <int Dim>
+void Solid<Dim>::add_impulse(std::int32_t level, std::span<const double> q, std::span<const double> v, double time,
+                             double dt, std::span<double> impulse) {
+    const auto u = as_vectors<Dim>(q);
+    const auto velocity = as_vectors<Dim>(v);
+    add_bulk_impulse(level, u, velocity, dt, as_vectors<Dim>(impulse));
+    if (static_cast<std::size_t>(level) + 1 < level_regions_.size()) return;
+    require_start(time, dt);
+    if (contact_) add_contact_impulse(u, velocity, time, dt, as_vectors<Dim>(impulse));
+    end_step(time + dt);
+}
+
+/// Linear: the midpoint is exact.
+template <int Dim>
+void Solid<Dim>::add_bulk_impulse(std::int32_t level, std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v,
+                                  double dt, std::span<Vector<Dim>> impulse) {
+    const Stopwatch watch(times_.bulk);
+    const Region<Dim>& region = level_regions_[level];
+    parallel_each(static_cast<std::ptrdiff_t>(region.loaded_cells.size()), [&](std::ptrdiff_t i) {
+        const std::int32_t c = region.loaded_cells[i];
+        moved_[c] = q[c] + (0.5 * dt) * v[c];
+    });
+    ccg_.evaluate_cells(region, moved_, load_, {}, gradient_);
+    const bool loaded = !body_force_.empty();
+    parallel_each(static_cast<std::ptrdiff_t>(region.cells.size()), [&](std::ptrdiff_t i) {
+        const std::int32_t c = region.cells[i];
+        if (loaded) impulse[c] += dt * body_force_[c];
+        impulse[c] -= dt * gradient_[i];
+    });
+    evaluations_ += static_cast<std::int64_t>(region.cells.size());
+}
+
+/// What the corrections and the pair forces add to the force; it is linear in them.
+template <int Dim>
+void Solid<Dim>::add_contact_impulse(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v, double time, double dt,
+                                     std::span<Vector<Dim>> impulse) {
+    parallel_each(static_cast<std::ptrdiff_t>(q.size()), [&](std::ptrdiff_t c) { moved_[c] = q[c] + dt * v[c]; });
+    follow_contact(q, moved_, time, dt);
+    add_obstacle_work(1.0);
+    if (active_pairs_.empty()) return;
+    const Stopwatch watch(times_.contact);
+    for (const std::int32_t c : contact_region_.loaded_cells) moved_[c].setZero();
+    ccg_.evaluate_cells(contact_region_, moved_, ccg_.load_free(), corrections(), gradient_);
+    for (std::size_t i = 0; i < contact_region_.cells.size(); ++i) impulse[contact_region_.cells[i]] -= dt * gradient_[i];
+}
+
+/// The next step begins where this one ends.
+template <int Dim>
+void Solid<Dim>::end_step(double time) {
+    std::swap(u_0_, u_1_);
     std::swap(y_0_, y_1_);
-    time_ = time + dt;
+    time_ = time;
     has_stepped_ = true;
 }
 
@@ -181,12 +306,24 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
 
 template <int Dim>
 void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+    follow_faces(q_0, q_1, time, dt);
+    const Stopwatch watch(times_.contact);
+    contact_->integrate({u_0_, u_1_, y_0_, y_1_});
+    keep_active_pairs();
+}
+
+/// The path of the listed faces.
+template <int Dim>
+void Solid<Dim>::follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
     follow_list(q_0, q_1, time, dt);
     const Stopwatch watch(times_.contact);
     if (!has_stepped_) evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
     active_pairs_.clear();
     evaluate_faces(q_1, load_, time + dt, u_1_, y_1_);
-    contact_->integrate({u_0_, u_1_, y_0_, y_1_});
+}
+
+template <int Dim>
+void Solid<Dim>::keep_active_pairs() {
     const auto active = contact_->result().active_pairs();
     active_pairs_.assign(active.begin(), active.end());
 }
@@ -247,6 +384,7 @@ void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector
     searched_.load = load_start_;
     searched_time_ = time;
     swept_end_.assign(q_1.begin(), q_1.end());
+    if (!level_regions_.empty()) contact_region_ = ccg_.region_of_cells(region_.loaded_cells);
     evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
 }
 
@@ -303,15 +441,16 @@ void Solid<Dim>::evaluate_contact(std::span<const Vector<Dim>> q) {
     contact_->evaluate(u_1_, y_1_);
 }
 
+/// `share` of the work in the last step that the present face forces would do.
 template <int Dim>
-void Solid<Dim>::add_boundary_work() {
+void Solid<Dim>::add_boundary_work(double share) {
     if (!ccg_.load_varies()) return;
     for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
-        work_ += ccg_.boundary_force(b).dot(load_.displacement[b] - load_start_.displacement[b]);
+        work_ += share * ccg_.boundary_force(b).dot(load_.displacement[b] - load_start_.displacement[b]);
 }
 
 template <int Dim>
-void Solid<Dim>::add_obstacle_work() {
+void Solid<Dim>::add_obstacle_work(double share) {
     if (options_.obstacles.empty()) return;
     std::fill(obstacle_force_.begin(), obstacle_force_.end(), Vector<Dim>::Zero());
     if (active_pairs_.empty()) return;
@@ -319,7 +458,7 @@ void Solid<Dim>::add_obstacle_work() {
     for (std::size_t i = local_boundary_.size(); i < faces.size(); ++i) {
         const Vector<Dim> gradient = contact_->result().mean_force()[i];
         obstacle_force_[obstacle_of(faces[i])] -= gradient;
-        work_ += gradient.dot(u_1_[i] - u_0_[i]);
+        work_ += share * gradient.dot(u_1_[i] - u_0_[i]);
     }
 }
 

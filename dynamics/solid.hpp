@@ -59,6 +59,24 @@ public:
     /// run has diverged or a pair is pressed in deeper than `compression_limit`.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force);
+    /// F(q_1) after the straight way from q_0: for schemes that take no mean. Loads, candidates and admission follow the step as
+    /// in `mean_force`; contacts that open and close again inside it go unnoticed. Work from outside is taken by the
+    /// trapezoidal rule. Throws as `mean_force`.
+    void end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
+                   std::span<double> force);
+    /// Whether V depends on q alone: no condition has a history and no obstacle a path.
+    [[nodiscard]] bool is_autonomous() const;
+    /// Local time steps: each cell on the level of its degrees of freedom, with their force evaluated as often as the finest
+    /// level among the cells that it depends on. Throws std::invalid_argument if a boundary condition has a history.
+    void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level);
+    /// Adds to the impulse [N s] what acts during dt on the cells whose force is evaluated at this level, while all cells go
+    /// from q with the velocity v. Contact, with its events, belongs to the finest level, whose calls lead the run as those
+    /// of `mean_force` do. Throws as `mean_force`.
+    void add_impulse(std::int32_t level, std::span<const double> q, std::span<const double> v, double time, double dt,
+                     std::span<double> impulse);
+    /// Forces of cells that the steps have evaluated so far.
+    [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
     [[nodiscard]] double potential(std::span<const double> q);
     /// Work of prescribed displacements, of changing tractions and of moving obstacles so far [J].
@@ -80,7 +98,7 @@ public:
     };
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
 
-    /// Mean force of the last step on an obstacle [N].
+    /// Mean force of the last step on an obstacle, after `end_force` that at its end [N].
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
@@ -94,7 +112,11 @@ public:
 private:
     void build_surface();
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
+    void require_start(double time, double dt) const;
+    void end_step(double time);
     void follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void keep_active_pairs();
     void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q, double time);
     void require_list(std::span<const Vector<Dim>> q);
@@ -104,8 +126,12 @@ private:
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force);
     void evaluate_contact(std::span<const Vector<Dim>> q);
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
-    void add_boundary_work();
-    void add_obstacle_work();
+    void add_bulk_impulse(std::int32_t level, std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v, double dt,
+                          std::span<Vector<Dim>> impulse);
+    void add_contact_impulse(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v, double time, double dt,
+                             std::span<Vector<Dim>> impulse);
+    void add_boundary_work(double share);
+    void add_obstacle_work(double share);
     [[nodiscard]] std::size_t obstacle_of(std::int32_t surface_face) const {
         return static_cast<std::size_t>(surface_.body[surface_face] - mesh_.n_bodies());
     }
@@ -143,6 +169,11 @@ private:
     std::vector<std::int32_t> active_pairs_;  // of the last step
     std::vector<Vector<Dim>> obstacle_force_;
     Region<Dim> patch_region_;
+    std::vector<Region<Dim>> level_regions_;  // cells evaluated at each level; empty: no local steps
+    Region<Dim> contact_region_;              // of local steps: cells that feel the faces in the candidate list
+    std::vector<Vector<Dim>> moved_;          // work arrays of local steps: all cells,
+    std::vector<Vector<Dim>> gradient_;       // and those of a region
+    std::int64_t evaluations_ = 0;
     SolidTimes times_;
 };
 

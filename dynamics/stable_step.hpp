@@ -15,4 +15,8 @@ struct StableStep {
 template <int Dim>
 [[nodiscard]] StableStep stable_step(Solid<Dim>& solid);
 
+/// The stable step of cells whose highest frequency is omega [rad/s], with the same margin for contact [s].
+template <int Dim>
+[[nodiscard]] double stable_step_of(const Solid<Dim>& solid, double omega);
+
 }  // namespace abut::dynamics

@@ -3,22 +3,64 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
+#include <vector>
 
+#include "abut/dynamics/mass.hpp"
 #include "abut/geometry/vector.hpp"
 
 namespace abut::dynamics {
 
-/// What an integrator steps: positions q with a diagonal mass and a potential. All arrays hold one double a degree of
-/// freedom. `mean_force` is the exact mean of the force along the straight way from q_0 (at time t) to q_1 (at t + dt);
-/// it is called once a step, in order, since contact remembers which pairs it has admitted.
+/// What an integrator steps: positions q with a mass and a potential. All arrays hold one double a degree of freedom.
+/// `inverse_mass` is a plain array of 1/m, or the factors of a sparse matrix (InverseMass).
 template <class S>
-concept System = requires(S& system, std::span<const double> q, std::span<double> force, double t, double dt) {
+concept System = requires(S& system, std::span<const double> q, std::span<double> force) {
     { system.size() } -> std::convertible_to<std::size_t>;
-    { system.inverse_mass() } -> std::convertible_to<std::span<const double>>;  ///< [1/kg]
-    system.force(q, force);                                                     ///< F(q) = -dV/dq [N]
-    system.mean_force(q, q, t, dt, force);                                      ///< [N]
-    { system.potential(q) } -> std::convertible_to<double>;                     ///< V(q) [J]
-    { system.work() } -> std::convertible_to<double>;  ///< done on the system from outside since the start [J]
+    add_scaled_velocity(q, 1.0, system.inverse_mass(), q, force);  ///< [1/kg]
+    system.force(q, force);                                        ///< F(q) = -dV/dq [N]
+    { system.potential(q) } -> std::convertible_to<double>;        ///< V(q) [J]
+};
+
+/// A system that knows the mean of its force along the straight way from q_0 (at time t) to q_1 (at t + dt): exactly, or by
+/// any other rule with mean . (q_1 - q_0) = V(q_0) - V(q_1) that tends to F (a discrete gradient).
+template <class S>
+concept PathMeanSystem = System<S> &&
+    requires(S& system, std::span<const double> q, std::span<double> force, double t, double dt) {
+    system.mean_force(q, q, t, dt, force);  ///< [N]
+};
+
+/// A system that remembers where it has been, as contact remembers which pairs are in contact: it must be led along every
+/// step, in order, by exactly one of `mean_force` and `end_force`.
+template <class S>
+concept FollowedSystem = PathMeanSystem<S> &&
+    requires(S& system, std::span<const double> q, std::span<double> force, double t, double dt) {
+    system.end_force(q, q, t, dt, force);                     ///< F at the end of the step from q_0 to q_1 [N]
+    { system.work() } -> std::convertible_to<double>;         ///< done on it from outside since the start [J]
+    { system.is_autonomous() } -> std::convertible_to<bool>;  ///< whether V depends on q alone, not on time
+};
+
+/// F(q_1), where a step from q_0 at time t has ended.
+template <System S>
+void force_after_step(S& system, std::span<const double> q_0, std::span<const double> q_1, double t, double dt,
+                      std::span<double> force) {
+    if constexpr (FollowedSystem<S>)
+        system.end_force(q_0, q_1, t, dt, force);
+    else
+        system.force(q_1, force);
+}
+
+/// A system with second derivatives, for Newton's method.
+template <class S>
+concept StiffnessSystem = System<S> && requires(S& system, std::span<const double> q, std::vector<MatrixEntry>& entries) {
+    system.append_stiffness(q, 1.0, entries);  ///< adds the entries of 1.0 d^2V/dq^2 [N/m]
+};
+
+/// A system whose forces fall into parts, each of a few degrees of freedom: what local time steps need. A level is a rank:
+/// 0 has the longest steps. Each part goes with the finest level among those that it touches.
+template <class S>
+concept LocalSystem = System<S> && requires(S& system, std::span<const std::int32_t> level, std::span<const double> q,
+                                            std::span<double> impulse, double t, double dt) {
+    system.set_levels(1, level);                  ///< how many there are, and that of each degree of freedom
+    system.add_impulse(0, q, q, t, dt, impulse);  ///< + integral of the parts of a level while q moves with velocity v [N s]
 };
 
 /// Arrays of shape (n, Dim) and arrays of n vectors are the same memory.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "abut/mesh/read_mesh.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 /// After the first touch, in units of (R / sqrt(E / rho)) of the slower body: long enough for impact, slip and release.
 constexpr double default_crossings = 10.0;
+
+constexpr double refined_part = 0.8;  // of the radius
 
 const Choices<mesh::NonPlanarFaces> non_planar_faces = {{"fail", mesh::NonPlanarFaces::fail},
                                                         {"split", mesh::NonPlanarFaces::split}};
@@ -34,6 +37,9 @@ void add_body_options(CLI::App& app, CylinderOptions& options) {
                             {.unit = "m/s", .above = 0.0, .zero = true}));
     grouped(
         add_body_values(app, "--size", options.size, "edge length of the cells; by default R/10 in 2D, R/12 in 3D", length));
+    grouped(add_number(app, "--refine", options.refine,
+                       "how many times smaller cells are where the bodies meet first; their size grows over 0.8 R",
+                       {.above = 0.0}));
     grouped(add_body_values(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus",
                             {.unit = "Pa", .above = 0.0, .zero = true}));
 }
@@ -49,7 +55,8 @@ void add_place_options(CLI::App& app, CylinderOptions& options, double offset_ov
         "by default the program makes the meshes";
     auto* meshes = app.add_option("--mesh", options.meshes, mesh_help)->group("Scene");
     meshes->delimiter(',')->expected(2)->type_name("FILE,FILE");
-    meshes->excludes(offset, gap, app.get_option("--radius"), app.get_option("--length"), app.get_option("--size"));
+    meshes->excludes(offset, gap, app.get_option("--radius"), app.get_option("--length"), app.get_option("--size"),
+                     app.get_option("--refine"));
     add_choice(app, "--non-planar", options.non_planar,
                "cells of the files with faces that are not planar: refuse them, or split them into tetrahedra",
                non_planar_faces)
@@ -69,6 +76,10 @@ void check(const CylinderOptions& options, const RunOptions& run) {
                 "the run with --time, above 0 s, or --steps.");
         return;
     }
+    if (options.refine < 1.0)
+        throw std::invalid_argument(fmt::format(
+            "--refine: {} makes cells larger where the bodies meet; 1, for cells of one size, or more is allowed.",
+            options.refine));
     for (std::size_t body = 0; body < 2; ++body)
         if (options.size[body] > options.radius[body])
             throw std::invalid_argument(fmt::format(
@@ -89,6 +100,16 @@ std::array<Vector<2>, 2> centres(const CylinderOptions& options) {
     return {Vector<2>(-half), half};
 }
 
+/// Smaller cells about the point of a body that is nearest to the other one.
+template <int Dim>
+std::optional<mesh::Refinement<Dim>> refinement(const CylinderOptions& options, std::size_t body) {
+    if (options.refine == 1.0) return {};
+    const auto centre = centres(options);
+    Vector<Dim> nearest = Vector<Dim>::Zero();
+    nearest.template head<2>() = centre[body] + options.radius[body] * (centre[1 - body] - centre[body]).normalized();
+    return mesh::Refinement<Dim>{nearest, options.size[body] / options.refine, refined_part * options.radius[body]};
+}
+
 template <int Dim>
 mesh::Mesh<Dim> cylinder(const CylinderOptions& options, std::size_t body) {
     static constexpr std::array<const char*, 2> names{"left", "right"};
@@ -98,6 +119,7 @@ mesh::Mesh<Dim> cylinder(const CylinderOptions& options, std::size_t body) {
         return mesh::disc({.centre = centre,
                            .radius = options.radius[body],
                            .size = options.size[body],
+                           .refinement = refinement<2>(options, body),
                            .variant = variant,
                            .name = names[body]});
     else
@@ -105,6 +127,7 @@ mesh::Mesh<Dim> cylinder(const CylinderOptions& options, std::size_t body) {
                                .radius = options.radius[body],
                                .length = options.length[body],
                                .size = options.size[body],
+                               .refinement = refinement<3>(options, body),
                                .variant = variant,
                                .name = names[body]});
 }
@@ -147,6 +170,7 @@ nlohmann::ordered_json to_json(const CylinderOptions& options) {
         return json;
     }
     json.update({{"radius", options.radius}, {"size", options.size}, {"offset", options.offset}, {"gap", options.gap}});
+    if (options.refine != 1.0) json["refine"] = options.refine;
     if (options.dim == 3) json["length"] = options.length;
     return json;
 }

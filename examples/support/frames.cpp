@@ -18,12 +18,9 @@ Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
 
 /// v = M^-1 (p^- + p^+)/2 by cell [m/s].
 template <int Dim>
-std::vector<Vector<Dim>> velocities(const dynamics::Memm<dynamics::Solid<Dim>>& integrator,
-                                    const dynamics::Solid<Dim>& solid) {
-    const auto before = dynamics::as_vectors<Dim>(integrator.p_before());
-    const auto after = dynamics::as_vectors<Dim>(integrator.p_after());
-    std::vector<Vector<Dim>> velocity(before.size());
-    for (std::size_t c = 0; c < velocity.size(); ++c) velocity[c] = 0.5 / solid.cell_mass()[c] * (before[c] + after[c]);
+std::vector<Vector<Dim>> velocities(const dynamics::RunView<Dim>& run, const dynamics::Solid<Dim>& solid) {
+    std::vector<Vector<Dim>> velocity;
+    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) velocity.push_back(run.momentum(c) / solid.cell_mass()[c]);
     return velocity;
 }
 
@@ -65,21 +62,21 @@ Frames<Dim>::Frames(const std::filesystem::path& directory, const std::string& s
     : series_(directory, series, mesh), n_frames_(n_frames), n_steps_(n_steps) {}
 
 template <int Dim>
-void Frames<Dim>::write_if_due(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid) {
+void Frames<Dim>::write_if_due(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid) {
     const std::int64_t frame = series_.n_frames();
     if (frame >= n_frames_) return;
     const std::int64_t intervals = std::max<std::int64_t>(1, n_frames_ - 1);
-    if (integrator.steps() * intervals >= frame * n_steps_) write(integrator, solid);
+    if (run.steps * intervals >= frame * n_steps_) write(run, solid);
 }
 
 template <int Dim>
-void Frames<Dim>::write(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid) {
-    const auto contact = solid.contact_field(integrator.q());
+void Frames<Dim>::write(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid) {
+    const auto contact = solid.contact_field(run.q);
     const auto gap = finite_or_nan(contact.gap);
-    static_cast<void>(solid.potential(integrator.q()));  // leaves the stresses of this state behind
+    static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
     const Stresses<Dim> stresses(solid);
-    const auto velocity = velocities(integrator, solid);
-    mesh::Frame<Dim> frame{.time = integrator.time(), .displacement = dynamics::as_vectors<Dim>(integrator.q())};
+    const auto velocity = velocities(run, solid);
+    mesh::Frame<Dim> frame{.time = run.time, .displacement = dynamics::as_vectors<Dim>(run.q)};
     frame.cell_fields = {
         {"velocity [m/s]", velocity}, {"stress [Pa]", stresses.stress}, {"von Mises [Pa]", stresses.equivalent}};
     if constexpr (Dim == 2) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});

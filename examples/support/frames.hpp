@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/solid.hpp"
 #include "abut/mesh/write_vtu.hpp"
 
@@ -18,11 +18,11 @@ public:
     Frames(const std::filesystem::path& directory, const std::string& series, const mesh::Mesh<Dim>& mesh, int n_frames,
            std::int64_t n_steps);
 
-    /// Writes a frame if one is due at the integrator's step.
-    void write_if_due(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid);
+    /// Writes a frame if one is due at this step.
+    void write_if_due(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid);
 
 private:
-    void write(const dynamics::Memm<dynamics::Solid<Dim>>& integrator, dynamics::Solid<Dim>& solid);
+    void write(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid);
 
     mesh::VtuSeries<Dim> series_;
     std::int64_t n_frames_;

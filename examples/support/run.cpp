@@ -9,7 +9,12 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
+#include "abut/dynamics/bilbao.hpp"
+#include "abut/dynamics/leapfrog.hpp"
+#include "abut/dynamics/local_steps.hpp"
+#include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/parasitic_filter.hpp"
 #include "abut/dynamics/stopwatch.hpp"
 #include "abut/mesh/interpenetration.hpp"
@@ -28,6 +33,7 @@ using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
+constexpr int default_levels = 8;
 /// More than any run takes; all of them are counted exactly in doubles and integers.
 constexpr double most_steps = 1e15;
 
@@ -75,46 +81,83 @@ EnergyScale known_scale(EnergyScale scale, double kinetic) {
     return scale;
 }
 
-/// One run, from the operators to the last step.
+/// What a run begins from, whatever its integrator.
 template <int Dim>
-class Simulation {
-public:
-    Simulation(const Scene<Dim>& scene, const RunOptions& options)
-        : scene_(scene), options_(options), solid_(scene.mesh, solid_options(scene, options)), filter_(solid_) {
-        result_.stable = dynamics::stable_step(solid_);
-        result_.dt = choose_step(options, result_.stable);
-        result_.steps = choose_steps(options, scene.time, result_.dt);
-        result_.stencils = solid_.ccg().stencil_report();
-        result_.boundary_stencils = solid_.ccg().boundary().report;
-        result_.contact_faces_left_out = solid_.contact_faces_left_out();
-        result_.skin = solid_.contact()->skin();
-        const std::vector<double> at_rest(solid_.size(), 0.0);
-        integrator_.emplace(solid_, at_rest, dynamics::uniform_momentum<Dim>(solid_, scene.velocity), result_.dt);
-        if (options.filter)
-            integrator_->set_after_step(
-                [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
-        times_of_setup_ = solid_.times();
+struct Start {
+    Start(const Scene<Dim>& scene, const RunOptions& options) : solid(scene.mesh, solid_options(scene, options)) {
+        result.stable = dynamics::stable_step(solid);
+        result.finest_dt = result.dt = choose_step(options, result.stable);
+        if (options.integrator == SolidIntegrator::memm_async) set_local_steps(options);
+        result.steps = choose_steps(options, scene.time, result.dt);
+        result.stencils = solid.ccg().stencil_report();
+        result.boundary_stencils = solid.ccg().boundary().report;
+        result.contact_faces_left_out = solid.contact_faces_left_out();
+        result.skin = solid.contact()->skin();
+        at_rest.assign(solid.size(), 0.0);
+        momentum = dynamics::uniform_momentum<Dim>(solid, scene.velocity);
     }
 
-    [[nodiscard]] RunResult<Dim>& result() { return result_; }
+    dynamics::Solid<Dim> solid;
+    RunResult<Dim> result;
+    std::vector<double> at_rest;
+    std::vector<double> momentum;
+    dynamics::LocalSteps local_steps;  // of memm_async
+
+private:
+    void set_local_steps(const RunOptions& options) {
+        auto local = dynamics::local_steps(solid, result.stable,
+                                           {.most_levels = options.levels == 0 ? default_levels : options.levels,
+                                            .contact_levels = options.contact_levels});
+        local_steps = std::move(local.steps);
+        result.level_cells = std::move(local.cells);
+        result.dt *= local.dt / result.stable.dt;
+        result.finest_dt = result.dt / local_steps.parts.back();
+    }
+};
+
+/// c of the Bilbao scheme [J].
+template <int Dim>
+double gauge(const Scene<Dim>& scene, const RunOptions& options, const Start<Dim>& start) {
+    if (!std::isnan(options.gauge)) return options.gauge;
+    if (scene.energy_scale.value > 0.0) return scene.energy_scale.value;
+    return 0.5 * dynamics::mass_product(start.momentum, start.solid.inverse_mass(), start.momentum);
+}
+
+/// One run, from the first step to the last.
+template <int Dim, class Integrator>
+class Simulation {
+public:
+    Simulation(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& start, Integrator integrator)
+        : scene_(scene),
+          options_(options),
+          solid_(start.solid),
+          result_(start.result),
+          filter_(solid_),
+          integrator_(std::move(integrator)),
+          times_of_setup_(solid_.times()) {
+        if (options.filter)
+            integrator_.set_after_step(
+                [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+    }
 
     void run(const std::string& series) {
         EnergyFile<Dim> energies(options_.out / "energy.csv");
         std::optional<Frames<Dim>> frames;
         if (options_.frames > 0) frames.emplace(options_.out, series, solid_.mesh(), options_.frames, result_.steps);
         Progress progress(result_.steps);
-        result_.start = dynamics::body_motions(*integrator_, solid_);
+        result_.start = dynamics::body_motions<Dim>(integrator_, solid_);
         record(energies);
         write(frames);
-        while (integrator_->steps() < result_.steps) {
+        while (integrator_.steps() < result_.steps) {
             step();
-            if (integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps) record(energies);
+            if (integrator_.steps() % options_.interval == 0 || integrator_.steps() == result_.steps) record(energies);
             write(frames);
-            progress.show(integrator_->steps(), integrator_->time(),
+            progress.show(integrator_.steps(), integrator_.time(),
                           result_.ledger.pseudo_energy_drift() / result_.scale.value);
         }
-        result_.end = dynamics::body_motions(*integrator_, solid_);
+        result_.end = dynamics::body_motions<Dim>(integrator_, solid_);
         result_.contact = solid_.contact_report();
+        result_.evaluations = solid_.evaluations();
         result_.times = difference(solid_.times(), times_of_setup_);
         energies.finish();
     }
@@ -122,12 +165,12 @@ public:
 private:
     void step() {
         try {
-            integrator_->step();
+            integrator_.step();
         } catch (const std::exception& error) {
             throw std::runtime_error(
                 fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {} "
                             "energy.csv.partial holds the records so far.",
-                            integrator_->steps() + 1, integrator_->time(), result_.dt, result_.stable.dt, error.what()));
+                            integrator_.steps() + 1, integrator_.time(), result_.dt, result_.stable.dt, error.what()));
         }
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
     }
@@ -135,7 +178,7 @@ private:
     void record(EnergyFile<Dim>& energies) {
         {
             const Stopwatch watch(result_.seconds.ledger);
-            result_.ledger.record(dynamics::measure(*integrator_, solid_));
+            result_.ledger.record(dynamics::measure(integrator_, solid_));
             const auto contact = solid_.contact_report();
             result_.not_admitted_max = std::max(result_.not_admitted_max, contact.not_admitted);
             warn_once(contact);
@@ -153,7 +196,7 @@ private:
         spdlog::warn(
             "by step {} faces are pressed {:.2g} of the skin D into each other, more than {:g}; above {:g} the run stops. "
             "A lower speed or load makes it less",
-            integrator_->steps(), contact.compression_max, options_.contact.compression_warning,
+            integrator_.steps(), contact.compression_max, options_.contact.compression_warning,
             options_.contact.compression_limit);
     }
 
@@ -169,18 +212,53 @@ private:
 
     void write(std::optional<Frames<Dim>>& frames) {
         const Stopwatch watch(result_.seconds.output);
-        if (frames) frames->write_if_due(*integrator_, solid_);
+        if (frames) frames->write_if_due(integrator_, solid_);
     }
 
     const Scene<Dim>& scene_;
     const RunOptions& options_;
-    dynamics::Solid<Dim> solid_;
+    dynamics::Solid<Dim>& solid_;
+    RunResult<Dim>& result_;
     dynamics::NeutralFilter<Dim> filter_;
-    std::optional<dynamics::Memm<dynamics::Solid<Dim>>> integrator_;
-    RunResult<Dim> result_;
+    Integrator integrator_;
     dynamics::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
     bool warned_ = false;
 };
+
+void check(const RunOptions& options) {
+    if (options.filter && options.integrator != SolidIntegrator::memm)
+        throw std::invalid_argument(
+            fmt::format("--filter neutral: the filter is made for memm, and {} was chosen. Take --filter none.",
+                        name_of(options.integrator)));
+    if ((options.levels != 0 || options.contact_levels != 0) && options.integrator != SolidIntegrator::memm_async)
+        throw std::invalid_argument(fmt::format(
+            "--levels, --contact-levels: {} takes one step for all cells. Take --integrator memm_async, or leave them out.",
+            name_of(options.integrator)));
+    if (!std::isnan(options.gauge) && options.integrator != SolidIntegrator::bilbao)
+        throw std::invalid_argument(fmt::format("--gauge: {} has no gauge. Take --integrator bilbao, or leave --gauge out.",
+                                                name_of(options.integrator)));
+}
+
+/// The one place that knows all schemes.
+template <int Dim>
+void simulate(const std::string& series, const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& start) {
+    using Solid = dynamics::Solid<Dim>;
+    const auto run_with = [&](auto integrator) {
+        Simulation<Dim, decltype(integrator)>(scene, options, start, std::move(integrator)).run(series);
+    };
+    const double dt = start.result.dt;
+    switch (options.integrator) {
+        case SolidIntegrator::memm:
+            return run_with(dynamics::Memm<Solid>(start.solid, start.at_rest, start.momentum, dt));
+        case SolidIntegrator::memm_async:
+            return run_with(dynamics::MemmAsync<Solid>(start.solid, start.at_rest, start.momentum, dt, start.local_steps));
+        case SolidIntegrator::leapfrog:
+            return run_with(dynamics::Leapfrog<Solid>(start.solid, start.at_rest, start.momentum, dt));
+        case SolidIntegrator::bilbao:
+            return run_with(
+                dynamics::Bilbao<Solid>(start.solid, start.at_rest, start.momentum, dt, gauge(scene, options, start)));
+    }
+}
 
 void log_mesh(const mesh::BuildReport& report) {
     for (const std::string& warning : report.warnings) spdlog::warn("Gmsh: {}", warning);
@@ -252,24 +330,25 @@ void run(const Program& program, const RunOptions& given, const std::function<Sc
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
 
+    check(options);
     prepare_directory(options.out);
     remove_earlier_results(options.out, program.series);
     RunSeconds seconds;
     std::optional<Scene<Dim>> scene;
-    std::optional<Simulation<Dim>> simulation;
+    std::optional<Start<Dim>> start;
     {
         const Stopwatch whole(seconds.total);
         scene = timed_scene(make_scene, seconds.mesh);
         {
             const Stopwatch watch(seconds.setup);
             mesh::check_apart(scene->mesh, scene->remedy_if_overlapping, options.contact.broad_phase);
-            simulation.emplace(*scene, options);
+            start.emplace(*scene, options);
         }
-        log_start(*scene, simulation->result());
-        simulation->run(program.series);
-        draw(program.name, *scene, options, simulation->result());
+        log_start(*scene, start->result);
+        simulate(program.series, *scene, options, *start);
+        draw(program.name, *scene, options, start->result);
     }
-    auto& result = simulation->result();
+    auto& result = start->result;
     result.seconds.total = seconds.total;
     result.seconds.mesh = seconds.mesh;
     result.seconds.setup = seconds.setup;

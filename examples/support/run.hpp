@@ -56,7 +56,10 @@ template <int Dim>
 struct RunResult {
     dynamics::Ledger<Dim> ledger;
     dynamics::StableStep stable;
-    double dt = 0.0;  ///< [s]
+    double dt = 0.0;                        ///< [s]
+    double finest_dt = 0.0;                 ///< of the finest cells; dt itself but with memm_async [s]
+    std::vector<std::int64_t> level_cells;  ///< cells that step with dt, dt/2, ... (memm_async); empty: all with dt
+    std::int64_t evaluations = 0;           ///< forces of cells, in the steps
     std::int64_t steps = 0;
     EnergyScale scale;  ///< with its value, > 0
     double skin = 0.0;  ///< of the candidate list [m]

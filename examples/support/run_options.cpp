@@ -19,6 +19,10 @@ const Choices<BroadPhase> broad_phases = {
 const Choices<OverlapMode> overlap_modes = {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}};
 const Choices<Weights> weights = {{"half", Weights::half}, {"stiffness", Weights::stiffness}};
 const Choices<AreaMethod> areas = {{"fast", AreaMethod::fast}, {"exact", AreaMethod::exact}};
+const Choices<SolidIntegrator> integrators = {{"memm", SolidIntegrator::memm},
+                                              {"memm_async", SolidIntegrator::memm_async},
+                                              {"leapfrog", SolidIntegrator::leapfrog},
+                                              {"bilbao", SolidIntegrator::bilbao}};
 const Choices<bool> switches = {{"on", true}, {"off", false}};
 const Choices<bool> filters = {{"none", false}, {"neutral", true}};
 const Choices<int> quadratures = {{"1", 1}, {"2", 2}, {"3", 3}};
@@ -27,6 +31,8 @@ const Choices<Neumann> neumanns = {{"local_equilibrium", Neumann::local_equilibr
                                    {"adjacent", Neumann::adjacent}};
 
 }  // namespace
+
+std::string name_of(SolidIntegrator integrator) { return name_of(integrators, integrator); }
 
 void add_time_options(CLI::App& app, RunOptions& options, const std::string& default_of_time) {
     const Limits positive{.unit = "s", .above = 0.0};
@@ -47,6 +53,15 @@ void add_time_options(CLI::App& app, RunOptions& options, const std::string& def
     app.add_flag("--allow-unstable", options.allow_unstable, "take --dt even above the stable step")
         ->needs(dt)
         ->default_str("off")
+        ->group("Time");
+    add_choice(app, "--integrator", options.integrator, "scheme in time (docs/integrators.md)", integrators)->group("Time");
+    add_count(app, "--levels", options.levels, "of memm_async: different steps at most, each half the one before; 0: 8", 0)
+        ->group("Time");
+    add_count(app, "--contact-levels", options.contact_levels,
+              "of memm_async: how often the steps of cells in contact are halved beyond that", 0)
+        ->group("Time");
+    add_number(app, "--gauge", options.gauge, "c of the Bilbao scheme; by default the energy at the start",
+               {.unit = "J", .above = 0.0})
         ->group("Time");
     add_choice(app, "--filter", options.filter, "energy-neutral filter of the parasitic mode, after each step in contact",
                filters)
@@ -100,6 +115,10 @@ nlohmann::ordered_json to_json(const RunOptions& options) {
         json = {{"cfl", options.cfl}};
     else
         json = {{"dt", options.dt}, {"allow_unstable", options.allow_unstable}};
+    json["integrator"] = name_of(options.integrator);
+    if (options.integrator == SolidIntegrator::memm_async)
+        json.update({{"levels", options.levels}, {"contact_levels", options.contact_levels}});
+    if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge)) json["gauge"] = options.gauge;
     json.update({{"filter", name_of(filters, options.filter)},
                  {"broad_phase", name_of(broad_phases, contact.broad_phase)},
                  {"overlap", name_of(overlap_modes, contact.overlap)},

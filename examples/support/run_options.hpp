@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <string>
 
 #include "abut/contact/options.hpp"
 #include "abut/dynamics/boundary_conditions.hpp"
@@ -11,6 +12,9 @@
 namespace abut::examples {
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// The schemes that a solid with contact runs under. docs/integrators.md says which to choose.
+enum class SolidIntegrator { memm, memm_async, leapfrog, bilbao };
 
 /// How a scene is run: what all examples share.
 struct RunOptions {
@@ -21,12 +25,19 @@ struct RunOptions {
     bool allow_unstable = false;
     contact::ContactOptions contact;
     dynamics::Neumann neumann = dynamics::Neumann::local_equilibrium;
-    bool filter = false;  ///< energy-neutral filter of the parasitic mode
-    int threads = 0;      ///< 0: all
+    SolidIntegrator integrator = SolidIntegrator::memm;
+    int levels = 0;            ///< of memm_async, at most; 0: 8
+    int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
+    double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
+    bool filter = false;       ///< energy-neutral filter of the parasitic mode
+    int threads = 0;           ///< 0: all
     std::filesystem::path out;
     int interval = 0;  ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
     int frames = 21;   ///< of the VTU series, the first and the last included; 0: none
 };
+
+/// As on the command line: "memm".
+[[nodiscard]] std::string name_of(SolidIntegrator integrator);
 
 /// Groups of options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of
 /// the run is by default.

@@ -61,7 +61,10 @@ Json run_json(const RunResult<Dim>& result) {
     return {{"steps", result.steps},
             {"dt", result.dt},
             {"stable_dt", result.stable.dt},
-            {"dt_over_stable_dt", result.dt / result.stable.dt},
+            {"dt_over_stable_dt", result.finest_dt / result.stable.dt},
+            {"finest_dt", result.finest_dt},
+            {"level_cells", result.level_cells},
+            {"force_evaluations", result.evaluations},
             {"time", last.time}};
 }
 
@@ -71,6 +74,7 @@ Json energies_json(const RunResult<Dim>& result) {
     return {{"kinetic_initial", ledger.entries().front().kinetic},
             {"energy_scale", {{"name", result.scale.name}, {"value", result.scale.value}}},
             {"pseudo_energy_drift", ledger.pseudo_energy_drift()},
+            {"energy_drift", ledger.energy_drift()},
             {"energy_excess_max", ledger.energy_excess()},
             {"parasitic_max", ledger.parasitic()},
             {"momentum_drift_max", ledger.momentum_drift()},
@@ -128,6 +132,8 @@ void print_energies(const RunResult<Dim>& result) {
     if (name != "K0") print_line(fmt::format("scale of energies, {}", name), fmt::format("{:.6g} J", scale));
     print_line(fmt::format("drift of pseudo-energy, / {}", name),
                fmt::format("{:.2e}", result.ledger.pseudo_energy_drift() / scale));
+    print_line(fmt::format("true energy, max |H - H0|, / {}", name),
+               fmt::format("{:.2e}", result.ledger.energy_drift() / scale));
     print_line(fmt::format("energy excess H - H~, / {}", name),
                fmt::format("{:.2e}", result.ledger.energy_excess() / scale));
     print_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", result.ledger.parasitic()));
@@ -190,7 +196,9 @@ Json summary(const Program& program, const Scene<Dim>& scene, const RunOptions& 
 template <int Dim>
 void print_table(const Program& program, const Scene<Dim>& scene, const RunOptions& options, const RunResult<Dim>& result) {
     fmt::print("{}: {} cells, {} steps of {:.4g} s ({:.3g} of the stable step)\n", program.name, scene.mesh.n_cells(),
-               result.steps, result.dt, result.dt / result.stable.dt);
+               result.steps, result.dt, result.finest_dt / result.stable.dt);
+    if (!result.level_cells.empty())
+        print_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
     print_energies(result);
     print_contact(result);
     for (const Finding& finding : result.findings) print_line(finding.text, value_text(finding.value));

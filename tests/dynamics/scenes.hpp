@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes.hpp"
 #include "support/worst.hpp"

@@ -1,0 +1,107 @@
+#pragma once
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/dynamics/integrator.hpp"
+#include "abut/dynamics/newton.hpp"
+#include "abut/dynamics/path_mean.hpp"
+
+namespace abut::dynamics {
+
+/// The implicit energy-momentum scheme with the mean force as its discrete gradient. docs/integrators.md, Energy-momentum.
+///
+///     q^{n+1} = q^n + dt M^-1 (p^n + p^{n+1})/2
+///     p^{n+1} = p^n + dt mean of F over the straight way from q^n to q^{n+1}
+///
+/// conserves the energy H itself, exactly if the mean is exact, and is stable for any dt; Newton's method with a sparse LU
+/// decomposition in every iteration makes it a scheme for small systems. It has no half-step momenta: `p_before` and
+/// `p_after` are both p^n.
+template <StiffnessSystem S>
+requires(!FollowedSystem<S>) class EnergyMomentum : public Integrator<EnergyMomentum<S>, S> {
+public:
+    /// Starts from q and p at the same time. The system must outlive the integrator. Throws std::invalid_argument if dt is
+    /// not > 0 and finite, the sizes disagree, a value is not finite, or the system does not allow this mean. `step` throws
+    /// std::runtime_error if Newton's method does not converge, and leaves the state as it was.
+    EnergyMomentum(S& system, std::vector<double> q, std::span<const double> p, double dt, PathMean mean = PathMean::system)
+        : Integrator<EnergyMomentum, S>(system, std::move(q), dt),
+          mean_force_(system, mean),
+          matrix_(system.size(), mass_entries(system.inverse_mass())) {
+        for (auto* array : {&residual_, &change_, &q_way_}) array->resize(system.size());
+        this->begin(p);
+    }
+
+    /// Of all steps so far.
+    [[nodiscard]] std::int64_t newton_iterations() const { return iterations_; }
+    void parasitic_momentum(std::span<double> e) const { std::fill(e.begin(), e.end(), 0.0); }
+
+private:
+    friend Integrator<EnergyMomentum, S>;
+    static constexpr int most_iterations = 50;
+    static constexpr double first_convergence = 1e-10;  // of the change of q: from here on until rounding stops it
+
+    void start(std::span<const double> p) {
+        this->p_before_.assign(p.begin(), p.end());
+        this->p_after_ = this->p_before_;
+    }
+
+    void advance() {
+        const std::span<const double> q_0 = this->q_;
+        std::vector<double>& q_1 = this->q_next_;
+        const double dt = this->dt_;
+        add_scaled_velocity(q_0, dt, this->system_.inverse_mass(), this->p_after_, q_1);
+        double last = std::numeric_limits<double>::infinity();
+        for (int i = 0;; ++i) {
+            // M (q_1 - q_0) - dt p_0 - dt^2/2 mean F = 0
+            mean_force_(q_0, q_1, this->time_, dt, this->force_);
+            add_scaled(q_1, -1.0, q_0, change_);
+            matrix_.multiply_mass(change_, residual_);
+            const double way = largest(change_);
+            for (std::size_t k = 0; k < residual_.size(); ++k)
+                residual_[k] -= dt * (this->p_after_[k] + 0.5 * dt * this->force_[k]);
+            if (last > first_convergence) factorise(q_0, q_1);
+            matrix_.solve(residual_, change_);
+            add_scaled(q_1, -1.0, change_, q_1);
+            ++iterations_;
+            const double change = largest(change_) / (way > 0.0 ? way : 1.0);
+            if (change == 0.0 || (change < first_convergence && change > 0.1 * last)) break;
+            if (!(i < most_iterations) || !std::isfinite(change)) detail::refuse_newton(i + 1, change, dt);
+            last = change;
+        }
+        mean_force_(q_0, q_1, this->time_, dt, this->force_);
+        std::swap(this->q_, this->q_next_);
+        add_scaled(this->p_after_, dt, this->force_, this->p_after_);
+        this->p_before_ = this->p_after_;
+    }
+
+    /// dt^2/2 times the derivative of the mean force at the end of the way: - integral of tau K(q_0 + tau (q_1 - q_0)).
+    void factorise(std::span<const double> q_0, std::span<const double> q_1) {
+        const geometry::Quadrature rule = geometry::gauss_legendre(3);
+        stiffness_.clear();
+        for (int k = 0; k < rule.size; ++k) {
+            for (std::size_t i = 0; i < q_way_.size(); ++i) q_way_[i] = q_0[i] + rule.node[k] * (q_1[i] - q_0[i]);
+            this->system_.append_stiffness(q_way_, 0.5 * this->dt_ * this->dt_ * rule.weight[k] * rule.node[k], stiffness_);
+        }
+        matrix_.factorise(stiffness_);
+    }
+
+    static double largest(std::span<const double> values) {
+        double size = 0.0;
+        for (const double value : values)
+            if (!(std::abs(value) <= size)) size = std::abs(value);
+        return size;
+    }
+    [[nodiscard]] double conserved_energy(double potential) const { return this->staggered_kinetic_energy() + potential; }
+
+    PathMeanForce<S> mean_force_;
+    NewtonMatrix matrix_;
+    std::vector<MatrixEntry> stiffness_;
+    std::vector<double> residual_;
+    std::vector<double> change_;
+    std::vector<double> q_way_;
+    std::int64_t iterations_ = 0;
+};
+
+}  // namespace abut::dynamics

@@ -1,0 +1,158 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/dynamics/system.hpp"
+
+namespace abut::dynamics {
+
+/// What a new time step does to the half-step momenta. docs/integrators.md, Variable steps.
+enum class StepChange {
+    /// They stay: what the scheme conserves stays exact, but they are then not centred about their node. Only for slow and
+    /// smooth changes: alternating or irregular steps solve another equation, and in MEMM they feed the parasitic mode,
+    /// which then grows exponentially at any size of step, and H~ does not notice.
+    keep,
+    restart,  ///< they are made anew from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
+};
+
+namespace detail {
+/// Throw std::invalid_argument.
+void check_step(double dt);
+void check_start(std::size_t size, std::span<const double> q, std::span<const double> p);
+}  // namespace detail
+
+/// What all schemes share: positions q^n, momenta p^{n-1/2} and p^{n+1/2} around them, start-up, changes of dt, energies.
+///
+/// A Scheme derives from it, calls `begin` in its constructor, and has
+///     void start(span p)                  sets p_before_ and p_after_ (and what else it keeps) from p^n at q_, for dt_
+///     void advance()                      from q_ at time_ to the next node
+///     double conserved_energy(double V)   the energy that it conserves, V being V(q_) [J]
+/// Calls to it are resolved when it is compiled.
+template <class Scheme, System S>
+class Integrator {
+public:
+    /// Called at the end of each step with p^{n+1/2} and p^{n+3/2} at q^{n+1}; may change the latter (a filter).
+    using AfterStep = std::function<void(std::span<const double> q, double dt, std::span<const double> p_before,
+                                         std::span<double> p_after)>;
+    void set_after_step(AfterStep after_step) { after_step_ = std::move(after_step); }
+
+    /// One step of the present dt.
+    void step() {
+        scheme().advance();
+        time_ += dt_;
+        ++steps_;
+        if (after_step_) after_step_(q_, dt_, p_before_, p_after_);
+    }
+
+    /// One step of a given dt (an outer solver dictates it). Throws std::invalid_argument, and stays as it is, if dt is not
+    /// > 0 and finite.
+    void step(double dt, StepChange change) {
+        detail::check_step(dt);
+        const bool changed = dt != dt_;
+        dt_ = dt;
+        if (changed && change == StepChange::restart) restart();
+        step();
+    }
+
+    /// Turns the motion round: from here on the same way is gone back. Time goes on.
+    void reverse() {
+        std::swap(p_before_, p_after_);
+        for (auto* momenta : {&p_before_, &p_after_})
+            for (double& p : *momenta) p = -p;
+        if constexpr (requires(Scheme & s) { s.turn(); }) scheme().turn();
+    }
+
+    [[nodiscard]] double time() const { return time_; }
+    [[nodiscard]] double dt() const { return dt_; }
+    [[nodiscard]] std::int64_t steps() const { return steps_; }
+    [[nodiscard]] std::span<const double> q() const { return q_; }
+    [[nodiscard]] std::span<const double> p_before() const { return p_before_; }  ///< p^{n-1/2}
+    [[nodiscard]] std::span<const double> p_after() const { return p_after_; }    ///< p^{n+1/2}
+
+    /// The energy that the scheme conserves, at the present node [J]; work from outside is not taken out.
+    [[nodiscard]] double pseudo_energy() { return pseudo_energy(system_.potential(q_)); }
+    /// The same where V at the present node is known.
+    [[nodiscard]] double pseudo_energy(double potential) { return scheme().conserved_energy(potential); }
+    /// 1/2 p . M^-1 p with p^n = (p^{n-1/2} + p^{n+1/2})/2 [J]
+    [[nodiscard]] double kinetic_energy() const { return staggered_kinetic_energy() + energy_excess(); }
+    /// H^n = kinetic energy + V [J]
+    [[nodiscard]] double energy() { return kinetic_energy() + system_.potential(q_); }
+    /// 1/2 p^{n-1/2} . M^-1 p^{n+1/2} [J]
+    [[nodiscard]] double staggered_kinetic_energy() const { return 0.5 * mass_product(p_before_, p_after_); }
+    /// What the kinetic energy has more than the staggered one, 1/8 |p^{n+1/2} - p^{n-1/2}|^2_{M^-1} >= 0 [J]: of MEMM it is
+    /// H - H~, the size of what H~ does not see.
+    [[nodiscard]] double energy_excess() const {
+        add_scaled(p_after_, -1.0, p_before_, scratch_);
+        return 0.125 * mass_product(scratch_, scratch_);
+    }
+    /// e^n = p^{n+1/2} - p^{n-1/2} - dt F(q^n) [N s]: the alternating mode that a two-step scheme may carry undamped. Zero
+    /// for schemes without half-step momenta.
+    void parasitic_momentum(std::span<double> e) {
+        system_.force(q_, e);
+        add_scaled(p_after_, -1.0, p_before_, scratch_);
+        for (std::size_t i = 0; i < q_.size(); ++i) e[i] = scratch_[i] - step_of(i) * e[i];
+    }
+    /// Sum of all jumps of the pseudo-energy that restarts caused [J].
+    [[nodiscard]] double restart_jumps() const { return restart_jumps_; }
+
+protected:
+    Integrator(S& system, std::vector<double> q, double dt) : system_(system), q_(std::move(q)), dt_(dt) {}
+
+    /// Throws std::invalid_argument if dt is not > 0 and finite, or if sizes disagree or a value is not finite.
+    void begin(std::span<const double> p) {
+        detail::check_step(dt_);
+        detail::check_start(system_.size(), q_, p);
+        for (auto* array : {&p_before_, &p_after_, &q_next_, &force_, &scratch_}) array->resize(q_.size());
+        scheme().start(p);
+    }
+
+    /// p^{-+1/2} = p -+ dt/2 F(q)
+    void split_momentum(std::span<const double> p) {
+        system_.force(q_, force_);
+        for (std::size_t i = 0; i < q_.size(); ++i) {
+            p_before_[i] = p[i] - 0.5 * step_of(i) * force_[i];
+            p_after_[i] = p[i] + 0.5 * step_of(i) * force_[i];
+        }
+    }
+    /// a . M^-1 b
+    [[nodiscard]] double mass_product(std::span<const double> a, std::span<const double> b) const {
+        return dynamics::mass_product(a, system_.inverse_mass(), b);
+    }
+
+    S& system_;
+    std::vector<double> q_;
+    std::vector<double> p_before_;
+    std::vector<double> p_after_;
+    std::vector<double> q_next_;  // work arrays
+    std::vector<double> force_;
+    double dt_;
+    double time_ = 0.0;
+
+private:
+    Scheme& scheme() { return static_cast<Scheme&>(*this); }
+    double step_of(std::size_t i) const {
+        if constexpr (requires(const Scheme& s) { s.local_step(i); })
+            return static_cast<const Scheme&>(*this).local_step(i);
+        else
+            return dt_;
+    }
+
+    void restart() {
+        const double before = scheme().conserved_energy(0.0);  // V does not change
+        std::vector<double> p(q_.size());
+        for (std::size_t i = 0; i < p.size(); ++i) p[i] = 0.5 * (p_before_[i] + p_after_[i]);
+        scheme().start(p);
+        restart_jumps_ += scheme().conserved_energy(0.0) - before;
+    }
+
+    mutable std::vector<double> scratch_;
+    AfterStep after_step_;
+    double restart_jumps_ = 0.0;
+    std::int64_t steps_ = 0;
+};
+
+}  // namespace abut::dynamics

@@ -1,0 +1,30 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "abut/dynamics/memm_async.hpp"
+#include "abut/dynamics/stable_step.hpp"
+
+namespace abut::dynamics {
+
+struct LocalStepOptions {
+    int most_levels = 8;     ///< steps differ by up to 2^(most_levels - 1)
+    int contact_levels = 0;  ///< cells that contact may reach step that many levels finer than the finest of the others
+};
+
+/// Local time steps of a solid: each level takes steps half as long as the one before.
+struct SolidLocalSteps {
+    LocalSteps steps;
+    double dt;                        ///< of level 0, stable as `StableStep::dt` is [s]
+    std::vector<std::int64_t> cells;  ///< of each level
+    std::vector<double> omega_max;    ///< highest frequency of the cells of this level and all coarser ones [rad/s]
+};
+
+/// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with
+/// M^-1 K. The power iteration then proves each level (and all that are coarser) stable with its step; cells that carry an
+/// unstable mode go to the next finer level, until none is left. docs/integrators.md, Local steps. Throws
+/// std::invalid_argument for options out of range.
+template <int Dim>
+[[nodiscard]] SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const LocalStepOptions& options = {});
+
+}  // namespace abut::dynamics

@@ -1,0 +1,119 @@
+#include "abut/dynamics/mass.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/messages.hpp"
+
+namespace abut::dynamics {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using ConstMap = Eigen::Map<const Eigen::VectorXd>;
+
+inline constexpr double symmetry_tolerance = 1e-12;  // of the largest entry
+
+Sparse assembled(std::size_t n, std::span<const MatrixEntry> entries) {
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (const auto& [row, column, value] : entries) {
+        const auto inside = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < n; };
+        if (!inside(row) || !inside(column) || !std::isfinite(value))
+            throw std::invalid_argument("mass: entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is " +
+                                        number(value) + "; a finite number within " + std::to_string(n) + " rows and " +
+                                        "columns is allowed.");
+        triplets.emplace_back(row, column, value);
+    }
+    const auto size = static_cast<Eigen::Index>(n);
+    Sparse matrix(size, size);
+    matrix.setFromTriplets(triplets.begin(), triplets.end());
+    return matrix;
+}
+
+double largest_entry(const Sparse& matrix) { return matrix.nonZeros() == 0 ? 0.0 : matrix.coeffs().abs().maxCoeff(); }
+
+}  // namespace
+
+struct InverseMass::Impl {
+    Sparse matrix;
+    Eigen::SimplicialLLT<Sparse> factors;
+};
+
+InverseMass::InverseMass(std::size_t n, std::span<const MatrixEntry> mass) : impl_(std::make_unique<Impl>()) {
+    impl_->matrix = assembled(n, mass);
+    const double asymmetry = largest_entry(Sparse(impl_->matrix - Sparse(impl_->matrix.transpose())));
+    if (asymmetry > symmetry_tolerance * largest_entry(impl_->matrix))
+        throw std::invalid_argument("mass: the matrix differs from its transpose by up to " + number(asymmetry) +
+                                    " kg; it must be symmetric. Give both of its triangles.");
+    impl_->factors.compute(impl_->matrix);
+    if (impl_->factors.info() != Eigen::Success)
+        throw std::invalid_argument(
+            "mass: the matrix is not positive definite. Every degree of freedom needs a mass above 0 kg.");
+}
+
+InverseMass::~InverseMass() = default;
+InverseMass::InverseMass(InverseMass&&) noexcept = default;
+InverseMass& InverseMass::operator=(InverseMass&&) noexcept = default;
+
+std::size_t InverseMass::size() const { return static_cast<std::size_t>(impl_->matrix.rows()); }
+
+void InverseMass::apply(std::span<const double> p, std::span<double> v) const {
+    const auto n = static_cast<Eigen::Index>(p.size());
+    Eigen::Map<Eigen::VectorXd>(v.data(), n) = impl_->factors.solve(ConstMap(p.data(), n));
+}
+
+std::vector<MatrixEntry> InverseMass::mass() const {
+    std::vector<MatrixEntry> entries;
+    for (Eigen::Index column = 0; column < impl_->matrix.outerSize(); ++column)
+        for (Sparse::InnerIterator it(impl_->matrix, column); it; ++it)
+            entries.push_back({static_cast<std::int32_t>(it.row()), static_cast<std::int32_t>(column), it.value()});
+    return entries;
+}
+
+void add_scaled_velocity(std::span<const double> a, double s, std::span<const double> inverse_mass,
+                         std::span<const double> p, std::span<double> result) {
+    parallel_each(static_cast<std::ptrdiff_t>(a.size()),
+                  [&](std::ptrdiff_t i) { result[i] = a[i] + s * (inverse_mass[i] * p[i]); });
+}
+
+void add_scaled_velocity(std::span<const double> a, double s, const InverseMass& inverse_mass, std::span<const double> p,
+                         std::span<double> result) {
+    std::vector<double> v(p.size());
+    inverse_mass.apply(p, v);
+    add_scaled(a, s, v, result);
+}
+
+double mass_product(std::span<const double> a, std::span<const double> inverse_mass, std::span<const double> b) {
+    return ordered_sum(static_cast<std::ptrdiff_t>(a.size()), 0.0,
+                       [&](std::ptrdiff_t i) { return a[i] * inverse_mass[i] * b[i]; });
+}
+
+double mass_product(std::span<const double> a, const InverseMass& inverse_mass, std::span<const double> b) {
+    std::vector<double> v(b.size());
+    inverse_mass.apply(b, v);
+    return dot_product(a, v);
+}
+
+std::vector<MatrixEntry> mass_entries(std::span<const double> inverse_mass) {
+    std::vector<MatrixEntry> entries;
+    for (std::size_t i = 0; i < inverse_mass.size(); ++i) {
+        const auto place = static_cast<std::int32_t>(i);
+        entries.push_back({place, place, 1.0 / inverse_mass[i]});
+    }
+    return entries;
+}
+
+std::vector<MatrixEntry> mass_entries(const InverseMass& inverse_mass) { return inverse_mass.mass(); }
+
+void add_scaled(std::span<const double> a, double s, std::span<const double> v, std::span<double> result) {
+    parallel_each(static_cast<std::ptrdiff_t>(a.size()), [&](std::ptrdiff_t i) { result[i] = a[i] + s * v[i]; });
+}
+
+double dot_product(std::span<const double> a, std::span<const double> b) {
+    return ordered_sum(static_cast<std::ptrdiff_t>(a.size()), 0.0, [&](std::ptrdiff_t i) { return a[i] * b[i]; });
+}
+
+}  // namespace abut::dynamics

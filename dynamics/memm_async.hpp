@@ -1,0 +1,106 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/dynamics/integrator.hpp"
+
+namespace abut::dynamics {
+
+/// Who takes which part of the time step: level l takes `parts[l]` steps in one step of the scheme.
+struct LocalSteps {
+    std::vector<std::int32_t> parts;  ///< 1 first, each a multiple of the one before: 1, 2, 4, 8
+    std::vector<std::int32_t> level;  ///< of each degree of freedom
+};
+
+namespace detail {
+/// Throws std::invalid_argument.
+void check_local_steps(const LocalSteps& steps, std::size_t size);
+}  // namespace detail
+
+/// MEMM with a time step for each degree of freedom. docs/integrators.md, Local steps.
+///
+/// Each one flies freely between its own nodes t^k and collects the impulse I of the forces on it, integrated exactly along
+/// the motion of all that are involved, which is straight between neighbouring nodes of any of them. At its node
+///
+///     p^{k+3/2} = p^{k-1/2} + 2 I,   I = 0
+///
+/// `step` goes from one node that all have in common to the next, `dt` apart; only there are q, p and the energies to be
+/// read. 1/2 p^{k-1/2} . M^-1 p^{k+1/2} + V is exact at these nodes, and linear momentum, too. Each step must be stable for
+/// those who take it; resonances between steps can exist besides. A mass that couples degrees of freedom is not allowed.
+template <LocalSystem S>
+requires std::convertible_to<decltype(std::declval<S&>().inverse_mass()), std::span<const double>>
+class MemmAsync : public Integrator<MemmAsync<S>, S> {
+public:
+    /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt_i/2 F(q). The system must outlive the integrator.
+    /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local steps
+    /// do not fit.
+    MemmAsync(S& system, std::vector<double> q, std::span<const double> p, double dt, LocalSteps steps)
+        : Integrator<MemmAsync, S>(system, std::move(q), dt), steps_(std::move(steps)) {
+        detail::check_local_steps(steps_, system.size());
+        dofs_.resize(steps_.parts.size());
+        for (std::size_t i = 0; i < steps_.level.size(); ++i) dofs_[steps_.level[i]].push_back(i);
+        velocity_.resize(system.size());
+        impulse_.assign(system.size(), 0.0);
+        system.set_levels(static_cast<std::int32_t>(steps_.parts.size()), steps_.level);
+        this->begin(p);
+    }
+
+    [[nodiscard]] const LocalSteps& local_steps() const { return steps_; }
+    /// Of the degree of freedom i [s].
+    [[nodiscard]] double local_step(std::size_t i) const { return this->dt_ / steps_.parts[steps_.level[i]]; }
+
+private:
+    friend Integrator<MemmAsync, S>;
+
+    void start(std::span<const double> p) {
+        this->split_momentum(p);
+        for (const auto& dofs : dofs_) set_velocity(dofs);
+    }
+
+    void advance() {
+        const std::int32_t finest = steps_.parts.back();
+        const double part = this->dt_ / finest;
+        for (std::int32_t k = 0; k < finest; ++k) {
+            const double time = this->time_ + k * part;
+            for (std::size_t level = 0; level < dofs_.size(); ++level)
+                if (is_node(level, k)) {
+                    const double dt = this->dt_ / steps_.parts[level];
+                    this->system_.add_impulse(static_cast<std::int32_t>(level), this->q_, velocity_, time, dt, impulse_);
+                }
+            add_scaled(this->q_, part, velocity_, this->q_);
+            for (std::size_t level = 0; level < dofs_.size(); ++level)
+                if (is_node(level, k + 1)) kick(dofs_[level]);
+        }
+    }
+
+    /// Whether a step of this level begins after k parts of the finest.
+    [[nodiscard]] bool is_node(std::size_t level, std::int32_t k) const {
+        return k % (steps_.parts.back() / steps_.parts[level]) == 0;
+    }
+    void kick(std::span<const std::size_t> dofs) {
+        for (const std::size_t i : dofs) {
+            const double p = this->p_before_[i] + 2.0 * impulse_[i];
+            this->p_before_[i] = this->p_after_[i];
+            this->p_after_[i] = p;
+            impulse_[i] = 0.0;
+        }
+        set_velocity(dofs);
+    }
+    void set_velocity(std::span<const std::size_t> dofs) {
+        const std::span<const double> inverse_mass = this->system_.inverse_mass();
+        for (const std::size_t i : dofs) velocity_[i] = inverse_mass[i] * this->p_after_[i];
+    }
+    void turn() {
+        for (const auto& dofs : dofs_) set_velocity(dofs);
+    }
+    [[nodiscard]] double conserved_energy(double potential) const { return this->staggered_kinetic_energy() + potential; }
+
+    LocalSteps steps_;
+    std::vector<std::vector<std::size_t>> dofs_;  // of each level
+    std::vector<double> velocity_;                // M^-1 p^{k+1/2}
+    std::vector<double> impulse_;
+};
+
+}  // namespace abut::dynamics

@@ -1,0 +1,214 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/dynamics/system.hpp"
+
+namespace abut::dynamics {
+
+/// A spring on a line of elongation x: V = k/2 x^2 + b/4 x^4, of a one-sided spring only where x < 0 (a contact).
+struct LineSpring {
+    static constexpr int dim = 1;
+    double stiffness = 0.0;  ///< k [N/m]
+    double quartic = 0.0;    ///< b [N/m^3]
+    bool one_sided = false;
+
+    [[nodiscard]] double energy(const Vector<1>& r) const {
+        const double square = acting(r[0]) * acting(r[0]);
+        return square * (0.5 * stiffness + 0.25 * quartic * square);
+    }
+    /// dV/dr
+    [[nodiscard]] Vector<1> tension(const Vector<1>& r) const {
+        const double x = acting(r[0]);
+        return Vector<1>(x * (stiffness + quartic * x * x));
+    }
+    /// Mean of the tension along the straight way; exact, cut where a one-sided spring begins or ends to act.
+    [[nodiscard]] Vector<1> mean_tension(const Vector<1>& r_0, const Vector<1>& r_1) const {
+        const double a = acting(r_0[0]), b = acting(r_1[0]);
+        const double whole = 0.5 * (a + b) * (stiffness + 0.5 * quartic * (a * a + b * b));
+        return Vector<1>(begins_or_ends(r_0, r_1) ? whole * std::abs((b - a) / (r_1[0] - r_0[0])) : whole);
+    }
+    [[nodiscard]] Matrix<1> stiffness_at(const Vector<1>& r) const {
+        if (one_sided && r[0] >= 0.0) return Matrix<1>::Zero();
+        return Matrix<1>(stiffness + 3.0 * quartic * r[0] * r[0]);
+    }
+    /// Whether the formula of the tension changes on the way.
+    [[nodiscard]] bool begins_or_ends(const Vector<1>& r_0, const Vector<1>& r_1) const {
+        return one_sided && (r_0[0] < 0.0) != (r_1[0] < 0.0);
+    }
+
+private:
+    [[nodiscard]] double acting(double x) const { return one_sided ? std::min(x, 0.0) : x; }
+};
+
+/// An elastic string between two points of the plane, geometrically exact: V = k/2 (|r| - L)^2.
+struct StringSegment {
+    static constexpr int dim = 2;
+    double stiffness = 0.0;  ///< k [N/m]
+    double length = 0.0;     ///< L, without tension [m]
+
+    [[nodiscard]] double energy(const Vector<2>& r) const {
+        const double x = r.norm() - length;
+        return 0.5 * stiffness * x * x;
+    }
+    [[nodiscard]] Vector<2> tension(const Vector<2>& r) const { return stiffness * (1.0 - length / r.norm()) * r; }
+    /// The discrete gradient of Simo, Tarnow and Wong: its product with r_1 - r_0 is V(r_1) - V(r_0), and it has no moment
+    /// about the mean position.
+    [[nodiscard]] Vector<2> mean_tension(const Vector<2>& r_0, const Vector<2>& r_1) const {
+        const double mean_length = 0.5 * (r_0.norm() + r_1.norm());
+        return (0.5 * stiffness * (1.0 - length / mean_length)) * (r_0 + r_1);
+    }
+    [[nodiscard]] Matrix<2> stiffness_at(const Vector<2>& r) const {
+        const double distance = r.norm();
+        const Vector<2> n = r / distance;
+        return stiffness * ((1.0 - length / distance) * Matrix<2>::Identity() + (length / distance) * n * n.transpose());
+    }
+    [[nodiscard]] bool begins_or_ends(const Vector<2>&, const Vector<2>&) const { return false; }
+};
+
+/// Two particles and what acts between them; a bond to `fixed` holds a particle to where it began.
+template <class Law>
+struct Bond {
+    static constexpr std::int32_t fixed = -1;
+    std::int32_t first;
+    std::int32_t second;
+    Law law;
+    Vector<Law::dim> offset = Vector<Law::dim>::Zero();  ///< r = q_second - q_first + offset [m]
+};
+
+/// Particles and bonds: the small systems on which schemes are compared. A LocalSystem and a StiffnessSystem; unlike the
+/// bulk of a solid it may be as nonlinear as its Law. Mass is a std::vector<double> of 1/m, or InverseMass.
+template <class Law, class Mass = std::vector<double>>
+class Particles {
+public:
+    static constexpr int dim = Law::dim;
+    using V = Vector<dim>;
+
+    /// `load`: a constant force a degree of freedom [N]; empty: none. Throws std::invalid_argument if a bond has an end that
+    /// is no particle, two ends that are the same, or if sizes disagree.
+    Particles(Mass inverse_mass, std::vector<Bond<Law>> bonds, std::vector<double> load = {})
+        : inverse_mass_(std::move(inverse_mass)), bonds_(std::move(bonds)), load_(std::move(load)) {
+        const auto refuse = [](const std::string& what) { throw std::invalid_argument("particles: " + what); };
+        if (size() % dim != 0 || (!load_.empty() && load_.size() != size()))
+            refuse(std::to_string(size()) + " masses and " + std::to_string(load_.size()) + " loads are given; give " +
+                   std::to_string(dim) + " a particle, of loads that many or none.");
+        const auto n = static_cast<std::int32_t>(size() / dim);
+        for (const Bond<Law>& bond : bonds_)
+            if (bond.first < Bond<Law>::fixed || bond.second < Bond<Law>::fixed || bond.first >= n || bond.second >= n ||
+                bond.first == bond.second)
+                refuse("a bond joins " + std::to_string(bond.first) + " and " + std::to_string(bond.second) + "; two of " +
+                       std::to_string(n) + " particles are allowed, or one and Bond::fixed.");
+        by_level_.assign(1, all_bonds());
+    }
+
+    [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
+    [[nodiscard]] const Mass& inverse_mass() const { return inverse_mass_; }
+    [[nodiscard]] const std::vector<Bond<Law>>& bonds() const { return bonds_; }
+
+    void force(std::span<const double> q, std::span<double> force) {
+        evaluate(force, [&](const Bond<Law>& bond) { return bond.law.tension(way(bond, q)); });
+    }
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> force) {
+        evaluate(force, [&](const Bond<Law>& bond) {
+            const V r_0 = way(bond, q_0), r_1 = way(bond, q_1);
+            events_ += bond.law.begins_or_ends(r_0, r_1) ? 1 : 0;
+            return bond.law.mean_tension(r_0, r_1);
+        });
+    }
+    [[nodiscard]] double potential(std::span<const double> q) const {
+        double energy = 0.0;
+        for (const Bond<Law>& bond : bonds_) energy += bond.law.energy(way(bond, q));
+        for (std::size_t i = 0; i < load_.size(); ++i) energy -= load_[i] * q[i];
+        return energy;
+    }
+    void append_stiffness(std::span<const double> q, double factor, std::vector<MatrixEntry>& entries) const {
+        for (const Bond<Law>& bond : bonds_) {
+            const Matrix<dim> block = factor * bond.law.stiffness_at(way(bond, q));
+            for (const std::int32_t row : {bond.first, bond.second})
+                for (const std::int32_t column : {bond.first, bond.second}) {
+                    if (row == Bond<Law>::fixed || column == Bond<Law>::fixed) continue;
+                    for (int i = 0; i < dim; ++i)
+                        for (int j = 0; j < dim; ++j)
+                            entries.push_back({row * dim + i, column * dim + j, (row == column ? 1.0 : -1.0) * block(i, j)});
+                }
+        }
+    }
+
+    /// A bond goes with the higher level of its two particles. Levels of degrees of freedom; those of one particle agree.
+    void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
+        const auto level_of = [&](std::int32_t particle) {
+            return particle == Bond<Law>::fixed ? 0 : level[particle * dim];
+        };
+        by_level_.assign(static_cast<std::size_t>(n_levels), {});
+        for (std::int32_t b = 0; b < static_cast<std::int32_t>(bonds_.size()); ++b)
+            by_level_[std::max(level_of(bonds_[b].first), level_of(bonds_[b].second))].push_back(b);
+        level_.assign(level.begin(), level.end());
+    }
+    void add_impulse(std::int32_t level, std::span<const double> q, std::span<const double> v, double, double dt,
+                     std::span<double> impulse) {
+        for (const std::int32_t b : by_level_[level]) {
+            const Bond<Law>& bond = bonds_[b];
+            const V r_0 = way(bond, q), r_1 = r_0 + dt * difference(bond, v);
+            events_ += bond.law.begins_or_ends(r_0, r_1) ? 1 : 0;
+            add(bond, dt * bond.law.mean_tension(r_0, r_1), impulse);
+        }
+        evaluations_ += static_cast<std::int64_t>(by_level_[level].size());
+        for (std::size_t i = 0; i < load_.size(); ++i)
+            if (level_[i] == level) impulse[i] += dt * load_[i];
+    }
+
+    /// Bonds evaluated so far, for forces and means.
+    [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+    /// One-sided bonds that have begun or ended to act, counted along the ways of mean forces.
+    [[nodiscard]] std::int64_t events() const { return events_; }
+
+private:
+    [[nodiscard]] static V difference(const Bond<Law>& bond, std::span<const double> q) {
+        V r = V::Zero();
+        for (int i = 0; i < dim; ++i) {
+            if (bond.second != Bond<Law>::fixed) r[i] += q[bond.second * dim + i];
+            if (bond.first != Bond<Law>::fixed) r[i] -= q[bond.first * dim + i];
+        }
+        return r;
+    }
+    [[nodiscard]] static V way(const Bond<Law>& bond, std::span<const double> q) {
+        return difference(bond, q) + bond.offset;
+    }
+    /// A tension pulls the first particle towards the second.
+    static void add(const Bond<Law>& bond, const V& tension, std::span<double> force) {
+        for (int i = 0; i < dim; ++i) {
+            if (bond.first != Bond<Law>::fixed) force[bond.first * dim + i] += tension[i];
+            if (bond.second != Bond<Law>::fixed) force[bond.second * dim + i] -= tension[i];
+        }
+    }
+    template <class Tension>
+    void evaluate(std::span<double> force, const Tension& tension) {
+        if (load_.empty())
+            std::fill(force.begin(), force.end(), 0.0);
+        else
+            std::copy(load_.begin(), load_.end(), force.begin());
+        for (const Bond<Law>& bond : bonds_) add(bond, tension(bond), force);
+        evaluations_ += static_cast<std::int64_t>(bonds_.size());
+    }
+    [[nodiscard]] std::vector<std::int32_t> all_bonds() const {
+        std::vector<std::int32_t> all;
+        for (std::size_t b = 0; b < bonds_.size(); ++b) all.push_back(static_cast<std::int32_t>(b));
+        return all;
+    }
+
+    Mass inverse_mass_;
+    std::vector<Bond<Law>> bonds_;
+    std::vector<double> load_;
+    std::vector<std::int32_t> level_;
+    std::vector<std::vector<std::int32_t>> by_level_;
+    std::int64_t evaluations_ = 0;
+    std::int64_t events_ = 0;
+};
+
+}  // namespace abut::dynamics

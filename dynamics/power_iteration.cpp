@@ -1,0 +1,46 @@
+#include "abut/dynamics/power_iteration.hpp"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "abut/dynamics/parallel.hpp"
+
+namespace abut::dynamics {
+namespace {
+
+inline constexpr int most_iterations = 2000;
+
+}  // namespace
+
+template <int Dim>
+HighestMode highest_mode(Solid<Dim>& solid, std::span<const double> mask, int least) {
+    const std::span<const double> inverse_mass = solid.inverse_mass();
+    const std::size_t n = solid.size();
+    std::vector<double> x(n), k_x(n), m_x(n);
+    std::minstd_rand random(1);
+    for (double& value : x) value = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+    for (std::size_t i = 0; i < mask.size(); ++i) x[i] *= mask[i];
+
+    double quotient = 0.0;
+    double change = std::numeric_limits<double>::infinity();
+    int iteration = 0;
+    while (iteration < least || (change > settled_change && iteration < most_iterations)) {
+        solid.stiffness_product(x, k_x);
+        for (std::size_t i = 0; i < n; ++i) m_x[i] = x[i] / inverse_mass[i];
+        const double next = dot_product(x, k_x) / dot_product(x, m_x);
+        change = std::abs(next - quotient) / next;
+        quotient = next;
+        for (std::size_t i = 0; i < n; ++i) x[i] = inverse_mass[i] * k_x[i];
+        for (std::size_t i = 0; i < mask.size(); ++i) x[i] *= mask[i];
+        const double size = std::sqrt(dot_product(x, x));
+        for (double& value : x) value /= size;
+        ++iteration;
+    }
+    return {quotient, change, iteration, std::move(x)};
+}
+
+template HighestMode highest_mode<2>(Solid<2>&, std::span<const double>, int);
+template HighestMode highest_mode<3>(Solid<3>&, std::span<const double>, int);
+
+}  // namespace abut::dynamics

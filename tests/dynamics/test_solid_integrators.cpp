@@ -1,0 +1,227 @@
+// The contact solid under every scheme that steps it.
+#include <catch2/catch.hpp>
+
+#include "abut/contact/obstacle.hpp"
+#include "abut/dynamics/bilbao.hpp"
+#include "abut/dynamics/leapfrog.hpp"
+#include "abut/dynamics/local_steps.hpp"
+#include "dynamics/scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using dynamics::Solid;
+
+namespace {
+
+/// A run from rest in the reference shape but for uniform velocities.
+template <int Dim, class Make>
+dynamics::Ledger<Dim> run(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, double time,
+                          const Make& make, std::vector<double>* end = nullptr) {
+    Solid<Dim> solid(mesh, bodies<Dim>(mesh.n_bodies()));
+    const auto stable = dynamics::stable_step(solid);
+    auto integrator =
+        make(solid, std::vector<double>(solid.size(), 0.0), dynamics::uniform_momentum<Dim>(solid, velocity), stable);
+    dynamics::Ledger<Dim> ledger;
+    ledger.record(dynamics::measure(integrator, solid));
+    while (integrator.time() < time - 0.5 * integrator.dt()) {
+        integrator.step();
+        ledger.record(dynamics::measure(integrator, solid));
+    }
+    CHECK(solid.contact_report().lost_contacts == 0);
+    CHECK(solid.contact_report().active_pairs_max > 0);
+    if (end) end->assign(integrator.q().begin(), integrator.q().end());
+    return ledger;
+}
+
+/// Two discs whose cells are smaller where they meet.
+mesh::Mesh<2> refined_discs(double size, double ratio) {
+    const double x = 1.01;
+    const auto disc = [&](double side, int variant) {
+        const Vector<2> centre(side * x, 0.0), nearest(side * 0.01, 0.0);
+        return mesh::disc({.centre = centre,
+                           .size = size,
+                           .refinement = mesh::Refinement<2>{nearest, size / ratio, 0.8},
+                           .variant = variant});
+    };
+    return together(disc(-1.0, 0), disc(1.0, 1));
+}
+
+const auto memm = [](auto& solid, auto q, const auto& p, const auto& stable) {
+    return dynamics::Memm(solid, std::move(q), p, 0.9 * stable.dt);
+};
+const auto memm_async = [](auto& solid, auto q, const auto& p, const auto& stable) {
+    auto local = dynamics::local_steps(solid, stable);
+    return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
+};
+
+}  // namespace
+
+TEST_CASE("leapfrog and Bilbao carry two discs through an impact like MEMM", "[dynamics][integrators][contact]") {
+    const auto mesh = two_discs(0.8);
+    std::vector<double> q_memm, q_leapfrog, q_bilbao;
+    const double time = 6.0;
+    const auto leapfrog = run<2>(
+        mesh, disc_velocities, time,
+        [](auto& solid, auto q, const auto& p, const auto& stable) {
+            return dynamics::Leapfrog(solid, std::move(q), p, 0.9 * stable.dt);
+        },
+        &q_leapfrog);
+    double gauge = 0.0;
+    const auto bilbao = run<2>(
+        mesh, disc_velocities, time,
+        [&](auto& solid, auto q, const auto& p, const auto& stable) {
+            gauge = 0.5 * dynamics::mass_product(p, solid.inverse_mass(), p);
+            return dynamics::Bilbao(solid, std::move(q), p, 0.9 * stable.dt, gauge);
+        },
+        &q_bilbao);
+    const auto plain = run<2>(mesh, disc_velocities, time, memm, &q_memm);
+    const double k_0 = plain.entries().front().kinetic;
+    CHECK(plain.pseudo_energy_drift() < 1e-13 * k_0);
+    CHECK(bilbao.pseudo_energy_drift() < 1e-13 * k_0);
+    CHECK(leapfrog.energy_drift() < 0.02 * k_0);
+    CHECK(leapfrog.energy_drift() > 1e-6 * k_0);
+    CHECK(leapfrog.parasitic() < 1e-14);
+    for (const auto& ledger : {leapfrog, bilbao, plain}) {
+        CHECK(ledger.momentum_drift() < 1e-14);
+        CHECK(ledger.energy_drift() < 0.05 * k_0);
+    }
+    const double moved = largest(q_memm);
+    for (std::size_t i = 0; i < q_memm.size(); ++i) {
+        REQUIRE(std::abs(q_leapfrog[i] - q_memm[i]) < 0.02 * moved);
+        REQUIRE(std::abs(q_bilbao[i] - q_memm[i]) < 0.02 * moved);
+    }
+}
+
+TEST_CASE(
+    "leapfrog takes the work of moving obstacles and conditions by the trapezoidal rule: the balance closes at second order",
+    "[dynamics][integrators][obstacle]") {
+    const auto imbalance = [](double cfl) {
+        const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {8, 4}, CellShape::quadrangle);
+        auto options = bodies<2>(1);
+        options.boundary.dirichlet.push_back(
+            {.group = "ymin", .constraint = dynamics::Constraint::full, .history = [](double t, const Vector<2>&) {
+                 return Vector<2>(0.0, 0.01 * std::pow(std::sin(t), 2));
+             }});
+        Solid<2> solid(mesh, options);
+        const std::vector<double> zero(solid.size(), 0.0);
+        dynamics::Leapfrog leapfrog(solid, zero, zero, cfl * dynamics::stable_step(solid).dt);
+        dynamics::Ledger<2> ledger;
+        while (leapfrog.time() < 3.0) {
+            ledger.record(dynamics::measure(leapfrog, solid));
+            leapfrog.step();
+        }
+        CHECK(solid.work() > 1e-6);
+        return ledger.energy_drift() / ledger.largest_energy();
+    };
+    const double coarse = imbalance(0.4), fine = imbalance(0.2);
+    CHECK(coarse < 0.05);
+    CHECK(coarse / fine > 3.0);
+}
+
+TEST_CASE("Bilbao refuses a potential that changes with time, and a gauge that is too small",
+          "[dynamics][integrators][errors]") {
+    const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 2}, CellShape::quadrangle);
+    auto options = bodies<2>(1);
+    options.obstacles = {contact::plane_obstacle<2>(Vector<2>(0.0, -1.0), Vector<2>::UnitY(), 10.0)};
+    options.obstacles[0].path = [](double t) { return Vector<2>(0.0, 0.1 * t); };
+    Solid<2> moving(mesh, options);
+    const std::vector<double> zero(moving.size(), 0.0);
+    CHECK_THROWS_WITH(dynamics::Bilbao(moving, zero, zero, 0.01, 1.0), Catch::Matchers::Contains("changes with time"));
+    options.obstacles[0].path = {};
+    Solid<2> resting(mesh, options);
+    CHECK_THROWS_WITH(dynamics::Bilbao(resting, zero, zero, 0.01, 0.0), Catch::Matchers::Contains("Raise the gauge"));
+}
+
+TEST_CASE("a solid takes no quadrature but its own", "[dynamics][integrators][errors]") {
+    const auto mesh = two_discs(0.0, 0.5);
+    Solid<2> solid(mesh, bodies<2>(2));
+    const std::vector<double> zero(solid.size(), 0.0);
+    CHECK_THROWS_WITH(dynamics::Memm(solid, zero, zero, 0.01, dynamics::PathMean::gauss_2),
+                      Catch::Matchers::Contains("PathMean::system"));
+}
+
+TEST_CASE("local steps: the bulk force of all levels together is that of one level", "[dynamics][async]") {
+    const auto mesh = refined_discs(0.4, 8.0);
+    Solid<2> solid(mesh, bodies<2>(2));
+    const auto q = random_state(solid.size(), 3, 1e-3), v = random_state(solid.size(), 4, 1e-3);
+    const auto local = dynamics::local_steps(solid, dynamics::stable_step(solid));
+    REQUIRE(local.steps.parts.size() >= 3);
+    const auto n_levels = static_cast<std::int32_t>(local.steps.parts.size());
+    std::vector<double> together(solid.size(), 0.0), expected(solid.size(), 0.0), middle(solid.size()), f(solid.size());
+    const double dt = 1e-3;
+    auto free = bodies<2>(2);
+    free.contact.reset();
+    Solid<2> bulk(mesh, free);
+    bulk.set_levels(n_levels, local.steps.level);
+    for (std::int32_t level = 0; level < n_levels; ++level) bulk.add_impulse(level, q, v, 0.0, dt, together);
+    for (std::size_t i = 0; i < q.size(); ++i) middle[i] = q[i] + 0.5 * dt * v[i];
+    bulk.force(middle, f);
+    for (std::size_t i = 0; i < q.size(); ++i) REQUIRE(together[i] == Approx(dt * f[i]).margin(1e-13 * dt * largest(f)));
+}
+
+TEST_CASE("local steps: levels are stable by themselves, and fine where cells are fine", "[dynamics][async]") {
+    const auto mesh = refined_discs(0.4, 8.0);
+    Solid<2> solid(mesh, bodies<2>(2));
+    const auto stable = dynamics::stable_step(solid);
+    const auto local = dynamics::local_steps(solid, stable);
+    REQUIRE(local.cells.size() >= 3);
+    CHECK(local.dt == stable.dt * local.steps.parts.back());
+    const Eigen::MatrixXd k = dense_stiffness(solid);
+    for (std::size_t l = 0; l < local.cells.size(); ++l) {
+        CHECK(local.cells[l] > 0);
+        std::vector<Eigen::Index> own;
+        for (std::size_t i = 0; i < solid.size(); ++i)
+            if (local.steps.level[i] <= static_cast<std::int32_t>(l)) own.push_back(static_cast<Eigen::Index>(i));
+        Eigen::MatrixXd part(own.size(), own.size());
+        for (std::size_t i = 0; i < own.size(); ++i)
+            for (std::size_t j = 0; j < own.size(); ++j)
+                part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+                    k(own[i], own[j]) * std::sqrt(solid.inverse_mass()[own[i]] * solid.inverse_mass()[own[j]]);
+        const double omega =
+            std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(part, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+        CHECK(local.dt / local.steps.parts[l] < 2.0 / omega);
+        CHECK(local.omega_max[l] == Approx(omega).epsilon(0.05));
+    }
+    const auto cell_level = [&](std::int32_t c) { return local.steps.level[static_cast<std::size_t>(c) * 2]; };
+    const auto at = [&](const Vector<2>& x) {
+        std::int32_t nearest = 0;
+        for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+            if ((mesh.cell_centroid[c] - x).norm() < (mesh.cell_centroid[nearest] - x).norm()) nearest = c;
+        return nearest;
+    };
+    CHECK(cell_level(at({0.0, 0.0})) >= 2);
+    CHECK(cell_level(at({-1.8, 0.0})) == 0);
+}
+
+TEST_CASE("local steps keep H~ and momentum through an impact, with contact events inside the steps", "[dynamics][async]") {
+    const auto mesh = refined_discs(0.3, 8.0);
+    const double time = 6.0;
+    const auto local = run<2>(mesh, disc_velocities, time, memm_async);
+    const double k_0 = local.entries().front().kinetic;
+    CHECK(local.pseudo_energy_drift() < 1e-12 * k_0);
+    CHECK(local.momentum_drift() < 1e-14);
+    CHECK(local.entries().back().events > 0);
+    CHECK(local.energy_excess() < 0.05 * k_0);
+}
+
+TEST_CASE("local steps with contact on a finer level than the bulk keep H~, too", "[dynamics][async]") {
+    const auto mesh = two_discs(0.8);
+    const auto ledger = run<2>(mesh, disc_velocities, 6.0, [](auto& solid, auto q, const auto& p, const auto& stable) {
+        auto local = dynamics::local_steps(solid, stable, {.contact_levels = 2});
+        CHECK(local.cells.size() >= 3);
+        return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
+    });
+    const double k_0 = ledger.entries().front().kinetic;
+    CHECK(ledger.pseudo_energy_drift() < 1e-12 * k_0);
+    CHECK(ledger.momentum_drift() < 1e-14);
+}
+
+TEST_CASE("local steps keep H~ through an impact of tetrahedra", "[dynamics][async]") {
+    const auto mesh = two_boxes(4);
+    const auto ledger = run<3>(mesh, box_velocities, 1.5, [](auto& solid, auto q, const auto& p, const auto& stable) {
+        auto local = dynamics::local_steps(solid, stable, {.contact_levels = 1});
+        return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
+    });
+    CHECK(ledger.pseudo_energy_drift() < 1e-12 * ledger.entries().front().kinetic);
+    CHECK(ledger.momentum_drift() < 1e-14);
+}
