@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -40,7 +41,7 @@ public:
 private:
     friend Integrator<EnergyMomentum, S>;
     static constexpr int most_iterations = 50;
-    static constexpr double first_convergence = 1e-10;  // of the change of q: from here on until rounding stops it
+    static constexpr double first_convergence = 1e-10;  // of the largest |q|: from here on until rounding stops it
 
     void start(std::span<const double> p) {
         this->p_before_.assign(p.begin(), p.end());
@@ -58,14 +59,14 @@ private:
             mean_force_(q_0, q_1, this->time_, dt, this->force_);
             add_scaled(q_1, -1.0, q_0, change_);
             matrix_.multiply_mass(change_, residual_);
-            const double way = largest(change_);
             for (std::size_t k = 0; k < residual_.size(); ++k)
                 residual_[k] -= dt * (this->p_after_[k] + 0.5 * dt * this->force_[k]);
             if (last > first_convergence) factorise(q_0, q_1);
             matrix_.solve(residual_, change_);
             add_scaled(q_1, -1.0, change_, q_1);
             ++iterations_;
-            const double change = largest(change_) / (way > 0.0 ? way : 1.0);
+            const double size = std::max(largest(q_0), largest(q_1));
+            const double change = largest(change_) / (size > 0.0 ? size : 1.0);
             if (change == 0.0 || (change < first_convergence && change > 0.1 * last)) break;
             if (!(i < most_iterations) || !std::isfinite(change)) detail::refuse_newton(i + 1, change, dt);
             last = change;

@@ -11,9 +11,10 @@
 namespace abut::dynamics {
 namespace {
 
-inline constexpr int probes = 3;             // random fields that the frequencies are estimated from
-inline constexpr int products = 3;           // with M^-1 K, of each
-inline constexpr double carries_mode = 0.1;  // of the largest kinetic energy of a cell in a mode: this cell carries it, too
+inline constexpr int probes = 3;              // random fields that the frequencies are estimated from
+inline constexpr int products = 3;            // with M^-1 K, of each
+inline constexpr double carries_mode = 0.01;  // of the largest kinetic energy of a cell in a mode: this cell carries it, too
+inline constexpr double worth_a_level = 0.02;  // of all cells
 inline constexpr int level_iterations = 20;
 
 /// Level of each cell.
@@ -38,10 +39,14 @@ std::vector<double> local_growth(Solid<Dim>& solid) {
     return growth;
 }
 
+/// The longest steps are those that `worth_a_level` of the cells can take.
 Levels levels_of(const std::vector<double>& growth, int most_levels) {
-    const auto [least, most] = std::minmax_element(growth.begin(), growth.end());
-    const auto halvings = [&](double g) { return static_cast<std::int32_t>(std::floor(0.5 * std::log2(*most / g))); };
-    const std::int32_t finest = std::min(most_levels - 1, std::max(0, halvings(*least)));
+    std::vector<double> sorted = growth;
+    std::ranges::sort(sorted);
+    const double least = sorted[static_cast<std::size_t>(worth_a_level * static_cast<double>(sorted.size() - 1))];
+    const double most = sorted.back();
+    const auto halvings = [&](double g) { return static_cast<std::int32_t>(std::floor(0.5 * std::log2(most / g))); };
+    const std::int32_t finest = std::min(most_levels - 1, std::max(0, halvings(least)));
     Levels level;
     for (const double g : growth) level.push_back(std::max(0, finest - std::max(0, halvings(g))));
     return level;
@@ -66,9 +71,12 @@ std::vector<double> make_stable(Solid<Dim>& solid, double finest_step, Levels& l
             ++l;
             continue;
         }
-        const HighestMode mode = highest_mode(solid, mask_up_to<Dim>(level, l), level_iterations);
+        const double allowed = stable_step_of(solid, 1.0) / dt;  // of omega
+        const std::vector<double> mask = mask_up_to<Dim>(level, l);
+        const HighestMode mode = highest_mode(
+            solid, {.least = level_iterations, .enough = std::pow(allowed / lower_bound_margin, 2), .mask = mask});
         const double omega = lower_bound_margin * std::sqrt(mode.quotient);
-        if (dt <= stable_step_of(solid, omega)) {
+        if (omega <= allowed) {
             omega_max.push_back(omega);
             ++l;
             continue;

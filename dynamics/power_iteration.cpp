@@ -14,7 +14,8 @@ inline constexpr int most_iterations = 2000;
 }  // namespace
 
 template <int Dim>
-HighestMode highest_mode(Solid<Dim>& solid, std::span<const double> mask, int least) {
+HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options) {
+    const auto& [least, enough, mask] = options;
     const std::span<const double> inverse_mass = solid.inverse_mass();
     const std::size_t n = solid.size();
     std::vector<double> x(n), k_x(n), m_x(n);
@@ -25,7 +26,7 @@ HighestMode highest_mode(Solid<Dim>& solid, std::span<const double> mask, int le
     double quotient = 0.0;
     double change = std::numeric_limits<double>::infinity();
     int iteration = 0;
-    while (iteration < least || (change > settled_change && iteration < most_iterations)) {
+    while (iteration < least || (change > settled_change && quotient <= enough && iteration < most_iterations)) {
         solid.stiffness_product(x, k_x);
         for (std::size_t i = 0; i < n; ++i) m_x[i] = x[i] / inverse_mass[i];
         const double next = dot_product(x, k_x) / dot_product(x, m_x);
@@ -40,7 +41,7 @@ HighestMode highest_mode(Solid<Dim>& solid, std::span<const double> mask, int le
     return {quotient, change, iteration, std::move(x)};
 }
 
-template HighestMode highest_mode<2>(Solid<2>&, std::span<const double>, int);
-template HighestMode highest_mode<3>(Solid<3>&, std::span<const double>, int);
+template HighestMode highest_mode<2>(Solid<2>&, const PowerIterationOptions&);
+template HighestMode highest_mode<3>(Solid<3>&, const PowerIterationOptions&);
 
 }  // namespace abut::dynamics

@@ -1,6 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
-#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,9 +19,14 @@ struct HighestMode {
 inline constexpr double settled_change = 1e-4;      ///< of the quotient: then the iteration ends
 inline constexpr double lower_bound_margin = 1.02;  ///< of omega: a Rayleigh quotient never exceeds the largest eigenvalue
 
-/// Iterations from a fixed start, `least` at least, until the quotient has settled, at most 2,000. With a
-/// `mask` (1 or 0 a degree of freedom) of the part of the body that is free to move; empty: all.
+struct PowerIterationOptions {
+    int least = 50;                                           ///< iterations
+    double enough = std::numeric_limits<double>::infinity();  ///< quotient beyond which it need not settle [1/s^2]
+    std::span<const double> mask = {};                        ///< 1 for a degree of freedom that may move, 0; empty: all may
+};
+
+/// Iterations from a fixed start until the quotient has settled, at most 2,000.
 template <int Dim>
-[[nodiscard]] HighestMode highest_mode(Solid<Dim>& solid, std::span<const double> mask = {}, int least = 50);
+[[nodiscard]] HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options = {});
 
 }  // namespace abut::dynamics

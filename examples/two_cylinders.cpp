@@ -151,6 +151,17 @@ mesh::Mesh<Dim> both_bodies(const CylinderOptions& options) {
     return mesh::combine<Dim>(bodies);
 }
 
+/// Speed of separation over speed of approach, along the line of the two centres where they first touch [-].
+template <int Dim>
+double restitution(const CylinderOptions& options, const RunResult<Dim>& result) {
+    const auto middle = centres(options);
+    const Vector<2> normal = (middle[1] - middle[0]).normalized();
+    const auto separation = [&](const std::vector<dynamics::BodyMotion<Dim>>& bodies) {
+        return (bodies[1].velocity - bodies[0].velocity).template head<2>().dot(normal);
+    };
+    return -separation(result.end) / separation(result.start);
+}
+
 /// Approach, and then some crossings of the slower body.
 double default_time(const CylinderOptions& options) {
     const double wave_speed =
@@ -195,6 +206,10 @@ Scene<Dim> two_cylinders(const CylinderOptions& options) {
         scene.velocity.push_back((body == 0 ? 1.0 : -1.0) * options.speed[body] * Vector<Dim>::UnitX());
     }
     scene.time = default_time(options);
+    if (options.meshes.empty())
+        scene.findings = [options](const RunResult<Dim>& result) -> std::vector<Finding> {
+            return {{"restitution", "restitution along the line of centres", restitution<Dim>(options, result)}};
+        };
     scene.remedy_if_overlapping =
         options.meshes.empty() ? fmt::format("Raise --gap, it is {} m.", options.gap) : "Move one of the meshes.";
     return scene;

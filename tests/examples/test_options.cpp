@@ -194,7 +194,10 @@ TEST_CASE("summary.json holds all that a reader is promised", "[examples]") {
                              "dt",
                              "stable_dt",
                              "kinetic_initial",
+                             "finest_dt",
+                             "force_evaluations",
                              "pseudo_energy_drift",
+                             "energy_drift",
                              "energy_excess_max",
                              "parasitic_max",
                              "momentum_drift_max",
@@ -213,7 +216,8 @@ TEST_CASE("summary.json holds all that a reader is promised", "[examples]") {
                              "compressed_steps",
                              "time",
                              "dt_over_stable_dt",
-                             "contact_share"}) {
+                             "contact_share",
+                             "restitution"}) {
         INFO(name);
         REQUIRE(summary.contains(name));
         CHECK(summary[name].is_number());
@@ -229,19 +233,10 @@ TEST_CASE("summary.json holds all that a reader is promised", "[examples]") {
         if (name != std::string("total")) parts += summary["seconds"][name].get<double>();
     }
     CHECK(parts <= summary["seconds"]["total"].get<double>());
-    for (const char* name : {"dim",        "radius",
-                             "young",      "poisson",
-                             "density",    "speed",
-                             "offset",     "gap",
-                             "size",       "cfl",
-                             "time",       "broad_phase",
-                             "overlap",    "weights",
-                             "area",       "events",
-                             "quadrature", "neumann",
-                             "eta",        "filter",
-                             "threads",    "out",
-                             "interval",   "skin",
-                             "frames",     "compression_limit"})
+    for (const char* name :
+         {"dim", "radius", "young",       "poisson", "density",  "speed", "offset",     "gap",        "size",
+          "cfl", "time",   "broad_phase", "overlap", "weights",  "area",  "events",     "quadrature", "neumann",
+          "eta", "filter", "threads",     "out",     "interval", "skin",  "integrator", "frames",     "compression_limit"})
         CHECK(summary["options"].contains(name));
 }
 
