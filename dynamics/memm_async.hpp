@@ -43,13 +43,14 @@ public:
         for (std::size_t i = 0; i < steps_.level.size(); ++i) dofs_[steps_.level[i]].push_back(i);
         velocity_.resize(system.size());
         impulse_.assign(system.size(), 0.0);
+        elapsed_.assign(steps_.parts.size(), 0.0);
         system.set_levels(static_cast<std::int32_t>(steps_.parts.size()), steps_.level);
         this->begin(p);
     }
 
     [[nodiscard]] const LocalSteps& local_steps() const { return steps_; }
     /// Of the degree of freedom i [s].
-    [[nodiscard]] double local_step(std::size_t i) const { return this->dt_ / steps_.parts[steps_.level[i]]; }
+    [[nodiscard]] double local_step(std::size_t i) const { return step_of_level(steps_.level[i]); }
 
 private:
     friend Integrator<MemmAsync, S>;
@@ -62,31 +63,33 @@ private:
     void advance() {
         const std::int32_t finest = steps_.parts.back();
         const double part = this->dt_ / finest;
+        const FreeFlight flight{this->q_, velocity_, steps_.level, elapsed_};
         for (std::int32_t k = 0; k < finest; ++k) {
-            const double time = this->time_ + k * part;
             for (std::size_t level = 0; level < dofs_.size(); ++level)
-                if (is_node(level, k)) {
-                    const double dt = this->dt_ / steps_.parts[level];
-                    this->system_.add_impulse(static_cast<std::int32_t>(level), this->q_, velocity_, time, dt, impulse_);
-                }
-            add_scaled(this->q_, part, velocity_, this->q_);
+                if (is_node(level, k))
+                    this->system_.add_impulse(static_cast<std::int32_t>(level), flight, this->time_ + k * part,
+                                              step_of_level(level), impulse_);
             for (std::size_t level = 0; level < dofs_.size(); ++level)
-                if (is_node(level, k + 1)) kick(dofs_[level]);
+                is_node(level, k + 1) ? reach_node(level) : static_cast<void>(elapsed_[level] += part);
         }
     }
 
+    [[nodiscard]] double step_of_level(std::size_t level) const { return this->dt_ / steps_.parts[level]; }
     /// Whether a step of this level begins after k parts of the finest.
     [[nodiscard]] bool is_node(std::size_t level, std::int32_t k) const {
         return k % (steps_.parts.back() / steps_.parts[level]) == 0;
     }
-    void kick(std::span<const std::size_t> dofs) {
-        for (const std::size_t i : dofs) {
+    void reach_node(std::size_t level) {
+        const double dt = step_of_level(level);
+        for (const std::size_t i : dofs_[level]) {
+            this->q_[i] += dt * velocity_[i];
             const double p = this->p_before_[i] + 2.0 * impulse_[i];
             this->p_before_[i] = this->p_after_[i];
             this->p_after_[i] = p;
             impulse_[i] = 0.0;
         }
-        set_velocity(dofs);
+        elapsed_[level] = 0.0;
+        set_velocity(dofs_[level]);
     }
     void set_velocity(std::span<const std::size_t> dofs) {
         const std::span<const double> inverse_mass = this->system_.inverse_mass();
@@ -101,6 +104,7 @@ private:
     std::vector<std::vector<std::size_t>> dofs_;  // of each level
     std::vector<double> velocity_;                // M^-1 p^{k+1/2}
     std::vector<double> impulse_;
+    std::vector<double> elapsed_;  // since the last node of each level; 0 at common nodes [s]
 };
 
 }  // namespace abut::dynamics

@@ -150,11 +150,12 @@ public:
             by_level_[std::max(level_of(bonds_[b].first), level_of(bonds_[b].second))].push_back(b);
         level_.assign(level.begin(), level.end());
     }
-    void add_impulse(std::int32_t level, std::span<const double> q, std::span<const double> v, double, double dt,
-                     std::span<double> impulse) {
+    void add_impulse(std::int32_t level, const FreeFlight& flight, double, double dt, std::span<double> impulse) {
         for (const std::int32_t b : by_level_[level]) {
             const Bond<Law>& bond = bonds_[b];
-            const V r_0 = way(bond, q), r_1 = r_0 + dt * difference(bond, v);
+            const auto now = [&](std::size_t i) { return flight.at(i, 0.0); };
+            const auto then = [&](std::size_t i) { return flight.at(i, dt); };
+            const V r_0 = difference(bond, now) + bond.offset, r_1 = difference(bond, then) + bond.offset;
             events_ += bond.law.begins_or_ends(r_0, r_1) ? 1 : 0;
             add(bond, dt * bond.law.mean_tension(r_0, r_1), impulse);
         }
@@ -169,16 +170,18 @@ public:
     [[nodiscard]] std::int64_t events() const { return events_; }
 
 private:
-    [[nodiscard]] static V difference(const Bond<Law>& bond, std::span<const double> q) {
+    /// q_second - q_first, q being a function of the degree of freedom.
+    template <class Position>
+    [[nodiscard]] static V difference(const Bond<Law>& bond, const Position& q) {
         V r = V::Zero();
         for (int i = 0; i < dim; ++i) {
-            if (bond.second != Bond<Law>::fixed) r[i] += q[bond.second * dim + i];
-            if (bond.first != Bond<Law>::fixed) r[i] -= q[bond.first * dim + i];
+            if (bond.second != Bond<Law>::fixed) r[i] += q(static_cast<std::size_t>(bond.second * dim + i));
+            if (bond.first != Bond<Law>::fixed) r[i] -= q(static_cast<std::size_t>(bond.first * dim + i));
         }
         return r;
     }
     [[nodiscard]] static V way(const Bond<Law>& bond, std::span<const double> q) {
-        return difference(bond, q) + bond.offset;
+        return difference(bond, [&](std::size_t i) { return q[i]; }) + bond.offset;
     }
     /// A tension pulls the first particle towards the second.
     static void add(const Bond<Law>& bond, const V& tension, std::span<double> force) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "abut/dynamics/parallel.hpp"
 #include "abut/dynamics/stopwatch.hpp"
 #include "abut/geometry/messages.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -31,6 +33,15 @@ const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions
                                     " obstacles are given without contact, so nothing would feel them. Give "
                                     "SolidOptions::contact, or no obstacles.");
     return options;
+}
+
+/// Sets the positions of some cells at dt from now.
+template <int Dim>
+void place(const FreeFlight& flight, double dt, std::span<const std::int32_t> cells, std::span<Vector<Dim>> position) {
+    parallel_each(static_cast<std::ptrdiff_t>(cells.size()), [&](std::ptrdiff_t i) {
+        const auto first = static_cast<std::size_t>(cells[i]) * Dim;
+        for (int d = 0; d < Dim; ++d) position[cells[i]][d] = flight.at(first + d, dt);
+    });
 }
 
 template <int Dim>
@@ -139,7 +150,10 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const auto u_0 = as_vectors<Dim>(q_0);
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
-    if (contact_) follow_contact(u_0, u_1, time, dt);
+    if (contact_) {
+        follow_faces(u_0, u_1, time, dt);
+        integrate_contact();
+    }
 
     const Stopwatch watch(times_.bulk);
     midpoint_.resize(u_0.size());
@@ -228,33 +242,31 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
             if (evaluated[c] == l) cells.push_back(c);
         level_regions_.push_back(ccg_.region_of_cells(cells));
     }
+    for (auto* array : {&start_, &moved_, &gradient_}) array->assign(static_cast<std::size_t>(n_cells), Vector<Dim>::Zero());
+    surface_cells_.clear();
+    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
+        surface_cells_.insert(surface_cells_.end(), ccg_.cells_of(b).begin(), ccg_.cells_of(b).end());
+    for (const std::int32_t face : mesh_.boundary_faces) surface_cells_.push_back(mesh_.face_cells[face][0]);
+    sort_unique(surface_cells_);
     contact_region_ = ccg_.region_of_cells(region_.loaded_cells);
-    moved_.assign(static_cast<std::size_t>(n_cells), Vector<Dim>::Zero());
-    gradient_.resize(static_cast<std::size_t>(n_cells));
 }
 
 template <int Dim>
-void Solid<Dim>::add_impulse(std::int32_t level, std::span<const double> q, std::span<const double> v, double time,
-                             double dt, std::span<double> impulse) {
-    const auto u = as_vectors<Dim>(q);
-    const auto velocity = as_vectors<Dim>(v);
-    add_bulk_impulse(level, u, velocity, dt, as_vectors<Dim>(impulse));
+void Solid<Dim>::add_impulse(std::int32_t level, const FreeFlight& flight, double time, double dt,
+                             std::span<double> impulse) {
+    add_bulk_impulse(level, flight, dt, as_vectors<Dim>(impulse));
     if (static_cast<std::size_t>(level) + 1 < level_regions_.size()) return;
     require_start(time, dt);
-    if (contact_) add_contact_impulse(u, velocity, time, dt, as_vectors<Dim>(impulse));
+    if (contact_) add_contact_impulse(flight, time, dt, as_vectors<Dim>(impulse));
     end_step(time + dt);
 }
 
 /// Linear: the midpoint is exact.
 template <int Dim>
-void Solid<Dim>::add_bulk_impulse(std::int32_t level, std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v,
-                                  double dt, std::span<Vector<Dim>> impulse) {
+void Solid<Dim>::add_bulk_impulse(std::int32_t level, const FreeFlight& flight, double dt, std::span<Vector<Dim>> impulse) {
     const Stopwatch watch(times_.bulk);
     const Region<Dim>& region = level_regions_[level];
-    parallel_each(static_cast<std::ptrdiff_t>(region.loaded_cells.size()), [&](std::ptrdiff_t i) {
-        const std::int32_t c = region.loaded_cells[i];
-        moved_[c] = q[c] + (0.5 * dt) * v[c];
-    });
+    place<Dim>(flight, 0.5 * dt, region.loaded_cells, moved_);
     ccg_.evaluate_cells(region, moved_, load_, {}, gradient_);
     const bool loaded = !body_force_.empty();
     parallel_each(static_cast<std::ptrdiff_t>(region.cells.size()), [&](std::ptrdiff_t i) {
@@ -267,16 +279,30 @@ void Solid<Dim>::add_bulk_impulse(std::int32_t level, std::span<const Vector<Dim
 
 /// What the corrections and the pair forces add to the force; it is linear in them.
 template <int Dim>
-void Solid<Dim>::add_contact_impulse(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v, double time, double dt,
-                                     std::span<Vector<Dim>> impulse) {
-    parallel_each(static_cast<std::ptrdiff_t>(q.size()), [&](std::ptrdiff_t c) { moved_[c] = q[c] + dt * v[c]; });
-    follow_contact(q, moved_, time, dt);
+void Solid<Dim>::add_contact_impulse(const FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse) {
+    follow_flight(flight, time, dt);
+    integrate_contact();
     add_obstacle_work(1.0);
     if (active_pairs_.empty()) return;
     const Stopwatch watch(times_.contact);
     for (const std::int32_t c : contact_region_.loaded_cells) moved_[c].setZero();
     ccg_.evaluate_cells(contact_region_, moved_, ccg_.load_free(), corrections(), gradient_);
     for (std::size_t i = 0; i < contact_region_.cells.size(); ++i) impulse[contact_region_.cells[i]] -= dt * gradient_[i];
+}
+
+/// As `follow_faces`, but looks at no more cells than the surface needs.
+template <int Dim>
+void Solid<Dim>::follow_flight(const FreeFlight& flight, double time, double dt) {
+    place<Dim>(flight, dt, surface_cells_, moved_);
+    if (has_stepped_ && list_reaches(moved_, time + dt)) {
+        place<Dim>(flight, dt, region_.loaded_cells, moved_);
+        return move_faces(moved_, time + dt);
+    }
+    std::vector<std::int32_t> all(static_cast<std::size_t>(mesh_.n_cells()));
+    std::iota(all.begin(), all.end(), 0);
+    place<Dim>(flight, 0.0, all, start_);
+    place<Dim>(flight, dt, all, moved_);
+    follow_faces(start_, moved_, time, dt);
 }
 
 /// The next step begins where this one ends.
@@ -305,21 +331,26 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
 }
 
 template <int Dim>
-void Solid<Dim>::follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
-    follow_faces(q_0, q_1, time, dt);
+void Solid<Dim>::integrate_contact() {
     const Stopwatch watch(times_.contact);
     contact_->integrate({u_0_, u_1_, y_0_, y_1_});
     keep_active_pairs();
 }
 
-/// The path of the listed faces.
+/// The path of the listed faces, with the list made anew where it no longer reaches.
 template <int Dim>
 void Solid<Dim>::follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
-    follow_list(q_0, q_1, time, dt);
-    const Stopwatch watch(times_.contact);
+    if (!list_reaches(q_1, time + dt)) search(q_0, q_1, time, dt);
     if (!has_stepped_) evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
+    move_faces(q_1, time + dt);
+}
+
+/// The end of the path.
+template <int Dim>
+void Solid<Dim>::move_faces(std::span<const Vector<Dim>> q_1, double time) {
+    const Stopwatch watch(times_.contact);
     active_pairs_.clear();
-    evaluate_faces(q_1, load_, time + dt, u_1_, y_1_);
+    evaluate_faces(q_1, load_, time, u_1_, y_1_);
 }
 
 template <int Dim>
@@ -328,11 +359,11 @@ void Solid<Dim>::keep_active_pairs() {
     active_pairs_.assign(active.begin(), active.end());
 }
 
-/// Makes the candidate list anew when some face may have moved too far since the last search.
+/// Whether the candidate list holds there, too.
 template <int Dim>
-void Solid<Dim>::follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+bool Solid<Dim>::list_reaches(std::span<const Vector<Dim>> q, double time) {
     const Stopwatch watch(times_.search);
-    if (!contact_->covers(motion_since_search(q_1, time + dt))) search(q_0, q_1, time, dt);
+    return contact_->covers(motion_since_search(q, time));
 }
 
 /// At most, of any face [m]; infinite before the first search.
@@ -361,6 +392,7 @@ void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
 
 template <int Dim>
 void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+    const Stopwatch watch(times_.search);
     std::vector<Vector<Dim>> all(static_cast<std::size_t>(ccg_.n_boundary()));
     const auto surface_displacement = [&](std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double at) {
         ccg_.boundary_displacement(q, load, all);

@@ -69,11 +69,9 @@ public:
     /// Local time steps: each cell on the level of its degrees of freedom, with their force evaluated as often as the finest
     /// level among the cells that it depends on. Throws std::invalid_argument if a boundary condition has a history.
     void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level);
-    /// Adds to the impulse [N s] what acts during dt on the cells whose force is evaluated at this level, while all cells go
-    /// from q with the velocity v. Contact, with its events, belongs to the finest level, whose calls lead the run as those
+    /// Adds to the impulse [N s] what acts during dt on the cells whose force is evaluated at this level. Contact, with its events, belongs to the finest level, whose calls lead the run as those
     /// of `mean_force` do. Throws as `mean_force`.
-    void add_impulse(std::int32_t level, std::span<const double> q, std::span<const double> v, double time, double dt,
-                     std::span<double> impulse);
+    void add_impulse(std::int32_t level, const FreeFlight& flight, double time, double dt, std::span<double> impulse);
     /// Forces of cells that the steps have evaluated so far.
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
 
@@ -114,10 +112,11 @@ private:
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     void require_start(double time, double dt) const;
     void end_step(double time);
-    void follow_contact(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void integrate_contact();
     void follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void move_faces(std::span<const Vector<Dim>> q_1, double time);
     void keep_active_pairs();
-    void follow_list(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    [[nodiscard]] bool list_reaches(std::span<const Vector<Dim>> q, double time);
     [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q, double time);
     void require_list(std::span<const Vector<Dim>> q);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
@@ -126,10 +125,9 @@ private:
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force);
     void evaluate_contact(std::span<const Vector<Dim>> q);
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
-    void add_bulk_impulse(std::int32_t level, std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v, double dt,
-                          std::span<Vector<Dim>> impulse);
-    void add_contact_impulse(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v, double time, double dt,
-                             std::span<Vector<Dim>> impulse);
+    void add_bulk_impulse(std::int32_t level, const FreeFlight& flight, double dt, std::span<Vector<Dim>> impulse);
+    void add_contact_impulse(const FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
+    void follow_flight(const FreeFlight& flight, double time, double dt);
     void add_boundary_work(double share);
     void add_obstacle_work(double share);
     [[nodiscard]] std::size_t obstacle_of(std::int32_t surface_face) const {
@@ -170,9 +168,12 @@ private:
     std::vector<Vector<Dim>> obstacle_force_;
     Region<Dim> patch_region_;
     std::vector<Region<Dim>> level_regions_;  // cells evaluated at each level; empty: no local steps
-    Region<Dim> contact_region_;              // of local steps: cells that feel the faces in the candidate list
-    std::vector<Vector<Dim>> moved_;          // work arrays of local steps: all cells,
-    std::vector<Vector<Dim>> gradient_;       // and those of a region
+    // Of local steps.
+    Region<Dim> contact_region_;               // cells that feel the faces in the candidate list
+    std::vector<std::int32_t> surface_cells_;  // cells that some boundary face depends on
+    std::vector<Vector<Dim>> start_;           // work arrays: all cells at the start of a part of a step,
+    std::vector<Vector<Dim>> moved_;           // those that are looked at, at another time of it,
+    std::vector<Vector<Dim>> gradient_;        // and those of a region
     std::int64_t evaluations_ = 0;
     SolidTimes times_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -54,13 +55,24 @@ concept StiffnessSystem = System<S> && requires(S& system, std::span<const doubl
     system.append_stiffness(q, 1.0, entries);  ///< adds the entries of 1.0 d^2V/dq^2 [N/m]
 };
 
+/// Degrees of freedom that fly freely, each since its own last node.
+struct FreeFlight {
+    std::span<const double> q;            ///< of each at its node [m]
+    std::span<const double> v;            ///< since then [m/s]
+    std::span<const std::int32_t> level;  ///< of each
+    std::span<const double> elapsed;      ///< since the node of each level [s]
+
+    /// Position of i at dt from now.
+    [[nodiscard]] double at(std::size_t i, double dt) const { return q[i] + (elapsed[level[i]] + dt) * v[i]; }
+};
+
 /// A system whose forces fall into parts, each of a few degrees of freedom: what local time steps need. A level is a rank:
 /// 0 has the longest steps. Each part goes with the finest level among those that it touches.
 template <class S>
-concept LocalSystem = System<S> && requires(S& system, std::span<const std::int32_t> level, std::span<const double> q,
+concept LocalSystem = System<S> && requires(S& system, std::span<const std::int32_t> level, const FreeFlight& flight,
                                             std::span<double> impulse, double t, double dt) {
-    system.set_levels(1, level);                  ///< how many there are, and that of each degree of freedom
-    system.add_impulse(0, q, q, t, dt, impulse);  ///< + integral of the parts of a level while q moves with velocity v [N s]
+    system.set_levels(1, level);                    ///< how many there are, and that of each degree of freedom
+    system.add_impulse(0, flight, t, dt, impulse);  ///< + integral of the parts of a level over dt from now, t [N s]
 };
 
 /// Arrays of shape (n, Dim) and arrays of n vectors are the same memory.

@@ -153,7 +153,9 @@ TEST_CASE("local steps: the bulk force of all levels together is that of one lev
     free.contact.reset();
     Solid<2> bulk(mesh, free);
     bulk.set_levels(n_levels, local.steps.level);
-    for (std::int32_t level = 0; level < n_levels; ++level) bulk.add_impulse(level, q, v, 0.0, dt, together);
+    const std::vector<double> elapsed(local.steps.parts.size(), 0.0);
+    for (std::int32_t level = 0; level < n_levels; ++level)
+        bulk.add_impulse(level, {q, v, local.steps.level, elapsed}, 0.0, dt, together);
     for (std::size_t i = 0; i < q.size(); ++i) middle[i] = q[i] + 0.5 * dt * v[i];
     bulk.force(middle, f);
     for (std::size_t i = 0; i < q.size(); ++i) REQUIRE(together[i] == Approx(dt * f[i]).margin(1e-13 * dt * largest(f)));
