@@ -116,14 +116,15 @@ SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const L
                                     std::to_string(options.contact_levels) +
                                     " more for contact are asked for; 1 to 20 and 0 to 10 are allowed.");
     Levels level = levels_of(local_growth(solid), options.most_levels);
+    const std::int32_t finest = *std::ranges::max_element(level);
+    const std::vector<std::int32_t> in_contact = solid.contact() ? contact_cells(solid) : std::vector<std::int32_t>{};
+    for (const std::int32_t c : in_contact) level[c] = finest;
     SolidLocalSteps local;
     local.omega_max = make_stable(solid, stable.dt, level);
     local.omega_max.push_back(stable.omega_max);
-    const auto finest = static_cast<std::int32_t>(local.omega_max.size()) - 1;
-    if (solid.contact() && options.contact_levels > 0) {
-        for (const std::int32_t c : contact_cells(solid)) level[c] = finest + options.contact_levels;
+    for (const std::int32_t c : in_contact) level[c] += options.contact_levels;
+    if (!in_contact.empty())
         local.omega_max.insert(local.omega_max.end(), static_cast<std::size_t>(options.contact_levels), stable.omega_max);
-    }
     local.dt = stable.dt * std::pow(2.0, finest);
     local.cells.assign(local.omega_max.size(), 0);
     for (std::size_t l = 0; l < local.omega_max.size(); ++l) local.steps.parts.push_back(std::int32_t{1} << l);
