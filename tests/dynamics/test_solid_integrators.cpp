@@ -1,5 +1,6 @@
 // The contact solid under every scheme that steps it.
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/bilbao.hpp"
@@ -130,6 +131,33 @@ TEST_CASE("Bilbao refuses a potential that changes with time, and a gauge that i
     options.obstacles[0].path = {};
     Solid<2> resting(mesh, options);
     CHECK_THROWS_WITH(dynamics::Bilbao(resting, zero, zero, 0.01, 0.0), Catch::Matchers::Contains("Raise the gauge"));
+}
+
+TEST_CASE(
+    "an outer solver dictates every step through an impact: less the jumps of restarts H~ is exact, and the bodies part "
+    "alike",
+    "[dynamics][integrators][contact]") {
+    const auto mesh = two_discs(0.8);
+    const auto dictated = [&](dynamics::StepChange change, const std::function<double(int)>& part) {
+        Solid<2> solid(mesh, bodies<2>(2));
+        const auto p = dynamics::uniform_momentum<2>(solid, disc_velocities);
+        const double stable = dynamics::stable_step(solid).dt;
+        dynamics::Memm memm(solid, std::vector<double>(solid.size(), 0.0), p, part(0) * stable);
+        dynamics::Ledger<2> ledger;
+        for (int i = 1; memm.time() < 8.0; ++i) {
+            memm.step(part(i) * stable, change);
+            ledger.record(dynamics::measure(memm, solid));
+        }
+        CHECK(solid.contact_report().events > 0);
+        CHECK(ledger.pseudo_energy_drift() < 1e-13 * ledger.largest_energy());
+        CHECK(ledger.energy_drift() < 0.05 * ledger.entries().front().kinetic);  // H itself, of so coarse a mesh
+        return dynamics::body_motions<2>(memm, solid)[0].velocity;
+    };
+    const auto even = dictated(dynamics::StepChange::keep, [](int) { return 0.5; });
+    const auto slowly = dictated(dynamics::StepChange::keep, [](int i) { return 0.5 + 0.3 * std::sin(0.02 * i); });
+    const auto abrupt = dictated(dynamics::StepChange::restart, [](int i) { return i % 3 == 0 ? 0.2 : 0.8; });
+    CHECK((slowly - even).norm() < 0.01 * 0.05);
+    CHECK((abrupt - even).norm() < 0.01 * 0.05);
 }
 
 TEST_CASE("a solid takes no quadrature but its own", "[dynamics][integrators][errors]") {
