@@ -328,10 +328,8 @@ TEMPLATE_TEST_CASE("every integrator reports by how much a restart with another 
     CHECK((coarse == 0.0 || coarse / fine == Approx(4.0).epsilon(0.25)));
 }
 
-TEMPLATE_TEST_CASE(
-    "kept steps a, b, a, b: two-step schemes solve with the acceleration times 4ab/(a+b)^2, others are right, restarted all "
-    "are",
-    "[dynamics][integrators]", ABUT_ALL_INTEGRATORS) {
+TEMPLATE_TEST_CASE("kept steps a, b, a, b: two-step schemes solve with the acceleration times 4ab/(a+b)^2, others are right",
+                   "[dynamics][integrators]", ABUT_ALL_INTEGRATORS) {
     const double a = 0.0005, b = 0.0015, time = 6.0;
     const auto position = [&](StepChange change) {
         Chain oscillator({1.0}, {{-1, 0, {.stiffness = 1.0}}});
