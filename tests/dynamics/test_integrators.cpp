@@ -368,3 +368,37 @@ TEMPLATE_TEST_CASE("every integrator refuses steps that are not positive and fin
     CHECK_THROWS_WITH(make(not_finite, held_p, 0.1), Catch::Matchers::Contains("position 2 is nan"));
     CHECK_THROWS_WITH(make(held_q, not_finite, 0.1), Catch::Matchers::Contains("momentum 2 is nan"));
 }
+
+TEST_CASE("slow and fast: half the springs 100 times stiffer, local steps of any ratio keep energy and order",
+          "[dynamics][integrators][async]") {
+    const std::int32_t ratio = GENERATE(2, 4, 5, 10);
+    CAPTURE(ratio);
+    const int n = 12;
+    std::vector<Bond<LineSpring>> bonds;
+    for (std::int32_t i = -1; i < n; ++i)
+        bonds.push_back({i, i == n - 1 ? -1 : i + 1, {.stiffness = i < n / 2 ? 1.0 : 100.0, .quartic = 0.5}});
+    Chain chain(Values(n, 1.0), bonds);
+    Values q(n), p(n, 0.0);
+    for (int i = 0; i < n; ++i) q[i] = 0.2 * std::sin(0.7 * (i + 1));
+    std::vector<std::int32_t> level(n, 0);
+    for (int i = n / 2; i < n; ++i) level[i] = 1;
+    const auto make = [&](double dt) { return dynamics::MemmAsync(chain, q, p, dt, {{1, ratio}, level}); };
+    const double dt = 0.05 * ratio;  // the fast half: omega dt = 20 x 0.05 = 1; the slow one 2 x 0.5 = 1 at most
+    auto run = make(dt);
+    const double start = run.pseudo_energy(), size = run.energy();
+    double drift = 0.0, error = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        run.step();
+        raise(drift, std::abs(run.pseudo_energy() - start) / size);
+        raise(error, std::abs(run.energy() - size) / size);
+    }
+    CHECK(drift < 1e-12);
+    CHECK(error < 0.05);
+    const Values exact = reference(chain, q, p, 2.0, 40000);
+    const auto distance_at = [&](int steps) {
+        auto integrator = make(2.0 / steps);
+        for (int i = 0; i < steps; ++i) integrator.step();
+        return distance(integrator.q(), exact);
+    };
+    CHECK(rate(distance_at, 40 * 10 / ratio) == Approx(2.0).margin(0.2));
+}
