@@ -28,6 +28,7 @@ struct Choices {
     double cfl = 0.9;
     int contact_levels = 0;
     int threads = 1;
+    int block = 20;
     std::string json;
 };
 
@@ -116,15 +117,16 @@ nlohmann::json compare(const Choices& choices) {
 
     Record<Dim> uniform_record{"memm"}, local_record{"memm_async"};
     const int parts = static_cast<int>(std::lround(local->dt / stable.dt));
-    const int steps = static_cast<int>(std::ceil((choices.time > 0.0 ? choices.time : scene.time) / async.dt()));
+    const double time = choices.time > 0.0 ? choices.time : scene.time;
+    const int steps = choices.block * static_cast<int>(std::ceil(time / (choices.block * async.dt())));
     fmt::print("{} cells, {} with dt, dt/2, ...; {} steps of {:.4g} s; sorting cells into levels took {:.2f} s\n",
                scene.mesh.n_cells(), fmt::join(local->cells, ", "), steps, async.dt(), setup);
     uniform_record.ledger.record(dynamics::measure(uniform, uniform_solid));
     local_record.ledger.record(dynamics::measure(async, local_solid));
     const std::int64_t evaluated = uniform_solid.evaluations();
-    for (int i = 0; i < steps; ++i) {
-        step<Dim>(uniform, uniform_solid, parts, clock, uniform_record);
-        step<Dim>(async, local_solid, 1, clock, local_record);
+    for (int i = 0; i < steps; i += choices.block) {
+        step<Dim>(uniform, uniform_solid, choices.block * parts, clock, uniform_record);
+        step<Dim>(async, local_solid, choices.block, clock, local_record);
     }
     close<Dim>(uniform, uniform_solid, uniform_record);
     close<Dim>(async, local_solid, local_record);
@@ -153,12 +155,16 @@ int run(int argc, char** argv) {
         ->check(CLI::NonNegativeNumber);
     app.add_option("--refine", cylinders.refine, "how many times smaller cells are where the bodies touch")
         ->check(CLI::Range(1.0, 1000.0));
+    app.add_option("--refine-over", cylinders.refine_over, "part of the radius over which they grow from there")
+        ->check(CLI::Range(0.01, 2.0));
     app.add_option("--time", choices.time, "to run [s]; 0: as long as rebounding_cylinders does")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--cfl", choices.cfl, "step over the stable step")->check(CLI::Range(0.01, 1.0));
     app.add_option("--contact-levels", choices.contact_levels, "levels that cells in contact are finer than all others")
         ->check(CLI::Range(0, 6));
     app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
+    app.add_option("--block", choices.block, "common steps of one scheme before it is the other's turn")
+        ->check(CLI::PositiveNumber);
     app.add_option("--json", choices.json, "file for the result");
     CLI11_PARSE(app, argc, argv);
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,

@@ -177,7 +177,9 @@ Region<Dim> Ccg<Dim>::region_of_faces(std::span<const std::int32_t> faces) const
 
 template <int Dim>
 Region<Dim> Ccg<Dim>::region_of_cells(std::span<const std::int32_t> cells) const {
-    return dynamics::region_of_cells(impl_->arrays, cells);
+    Region<Dim> region = dynamics::region_of_cells(impl_->arrays, cells);
+    impl_->sweeps.divide_into_chunks(region);
+    return region;
 }
 
 template <int Dim>

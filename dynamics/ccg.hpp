@@ -36,6 +36,10 @@ struct Region {
     std::vector<std::int32_t> gradient_cells;
     std::vector<std::int32_t> stress_cells;
     std::vector<std::int32_t> force_faces;
+    struct Offsets {  // into the lists
+        std::int32_t face, cell, reconstructed, reconstructed_boundary, gradient_cell, stress_cell, force_face;
+    };
+    std::vector<Offsets> chunks;  ///< where each chunk of the mesh begins, one more at the end; of `region_of_cells` alone
 };
 
 /// Cell-centred Galerkin operators of a mesh, without a matrix. docs/method.md, Space.

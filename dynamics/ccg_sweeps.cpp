@@ -39,7 +39,7 @@ LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<D
 // Displacements enter by their differences to that of a cell nearby: a translation of the body costs no accuracy.
 
 template <int Dim>
-inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(std::ptrdiff_t f) const {
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(std::ptrdiff_t f) const {
     const FaceStencil<Dim>& stencil = arrays_.stencils[f];
     const Lanes<Dim> origin = displacement(arrays_.sides[f][0]);
     Lanes<Dim> sum;
@@ -60,7 +60,7 @@ Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(std::ptrdiff_t b, const Bounda
 }
 
 template <int Dim>
-inline void CcgSweeps<Dim>::set_gradient(std::ptrdiff_t c) {
+[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_gradient(std::ptrdiff_t c) {
     const Lanes<Dim> u_c = displacement(c);
     const std::int32_t begin = arrays_.slot_offsets[c];
     const std::int32_t end = arrays_.slot_offsets[c + 1];
@@ -78,7 +78,7 @@ inline void CcgSweeps<Dim>::set_gradient(std::ptrdiff_t c) {
 }
 
 template <int Dim>
-inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
+[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
     LaneTensor<Dim> sum{};
     Lanes<Dim> direct;
     for (std::int32_t i = arrays_.slot_offsets[c]; i < arrays_.slot_offsets[c + 1]; ++i) {
@@ -96,7 +96,7 @@ inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
 }
 
 template <int Dim>
-inline Lanes<Dim> CcgSweeps<Dim>::interior_force(std::ptrdiff_t f) const {
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::interior_force(std::ptrdiff_t f) const {
     const auto [a, b] = arrays_.sides[f];
     LaneTensor<Dim> difference = load_tensor<Dim>(s_, a);
     const LaneTensor<Dim> other = load_tensor<Dim>(s_, b);
@@ -113,7 +113,7 @@ Lanes<Dim> CcgSweeps<Dim>::boundary_force(std::ptrdiff_t b, const BoundaryLoad<D
 }
 
 template <int Dim>
-inline Lanes<Dim> CcgSweeps<Dim>::cell_gradient(std::ptrdiff_t c) const {
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::cell_gradient(std::ptrdiff_t c) const {
     const auto& [offsets, rows, weights] = arrays_.of_cell;
     Lanes<Dim> sum = load<Dim>(direct_, c);
     for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i) sum += weights[i] * load<Dim>(y_, rows[i]);
@@ -343,18 +343,58 @@ void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const V
                                     const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
                                     std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
-    evaluate_to_stress(region, u, boundary_load);
-    for_all(region.force_faces, [&](std::int32_t f) { store(interior_force(f), y_, f); });
-    for_all(region.faces, [&](std::int32_t b) { store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]); });
-    parallel_each(
-        static_cast<std::ptrdiff_t>(region.cells.size()),
-        [&](std::ptrdiff_t i) {
-            const std::int32_t c = region.cells[i];
-            Lanes<Dim> sum = cell_gradient(c);
-            if (const std::int32_t place = arrays_.boundary_cell_place[c]; place >= 0) sum += boundary_cell_gradient(place);
-            result[i] = unload<Dim>(sum);
-        },
-        region_grain);
+    for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
+    schedule_.run([&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); });
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
+    region.chunks.clear();
+    for (const Chunk& chunk : chunks_) {
+        const auto place = [](const std::vector<std::int32_t>& list, std::int32_t first) {
+            return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
+        };
+        region.chunks.push_back({.face = place(region.faces, chunk.boundary),
+                                 .cell = place(region.cells, chunk.cell),
+                                 .reconstructed = place(region.reconstructed, chunk.face),
+                                 .reconstructed_boundary = place(region.reconstructed_boundary, chunk.boundary),
+                                 .gradient_cell = place(region.gradient_cells, chunk.cell),
+                                 .stress_cell = place(region.stress_cells, chunk.cell),
+                                 .force_face = place(region.force_faces, chunk.face)});
+    }
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
+                              std::span<Vector<Dim>> result) {
+    using Offsets = typename Region<Dim>::Offsets;
+    const auto each = [&](const std::vector<std::int32_t>& list, std::int32_t Offsets::*of, const auto& body) {
+        for (std::int32_t i = region.chunks[k].*of; i < region.chunks[k + 1].*of; ++i) body(list[i]);
+    };
+    switch (stage) {
+        case reconstruction:
+            each(region.reconstructed, &Offsets::reconstructed,
+                 [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
+            return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](std::int32_t b) {
+                store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+            });
+        case gradients:
+            return each(region.gradient_cells, &Offsets::gradient_cell, [&](std::int32_t c) { set_gradient(c); });
+        case stresses:
+            return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) { set_stress(c); });
+        case face_forces:
+            each(region.force_faces, &Offsets::force_face, [&](std::int32_t f) { store(interior_force(f), y_, f); });
+            return each(region.faces, &Offsets::face,
+                        [&](std::int32_t b) { store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]); });
+        default:
+            for (std::int32_t i = region.chunks[k].cell; i < region.chunks[k + 1].cell; ++i) {
+                const std::int32_t c = region.cells[i];
+                Lanes<Dim> sum = cell_gradient(c);
+                if (const std::int32_t place = arrays_.boundary_cell_place[c]; place >= 0)
+                    sum += boundary_cell_gradient(place);
+                result[i] = unload<Dim>(sum);
+            }
+    }
 }
 
 template class CcgSweeps<2>;

@@ -35,6 +35,8 @@ public:
                                        const FaceCorrections<Dim>& corrections);
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
+    /// Sets Region::chunks, which `evaluate_cells` needs.
+    void divide_into_chunks(Region<Dim>& region) const;
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force);
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
@@ -77,6 +79,8 @@ private:
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
 
     // A part of the mesh
+    void run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
+                  std::span<Vector<Dim>> result);
     void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                             const BoundaryLoad<Dim>& boundary_load);
 

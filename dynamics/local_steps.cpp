@@ -14,7 +14,8 @@ namespace {
 inline constexpr int probes = 3;              // random fields that the frequencies are estimated from
 inline constexpr int products = 3;            // with M^-1 K, of each
 inline constexpr double carries_mode = 0.01;  // of the largest kinetic energy of a cell in a mode: this cell carries it, too
-inline constexpr double worth_a_level = 0.02;  // of all cells
+inline constexpr double worth_a_level = 0.02;             // of all cells
+inline constexpr std::int32_t contact_margin_levels = 1;  // by which cells in contact are finer than they need to be alone
 inline constexpr int level_iterations = 20;
 
 /// Level of each cell.
@@ -118,13 +119,14 @@ SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const L
     Levels level = levels_of(local_growth(solid), options.most_levels);
     const std::int32_t finest = *std::ranges::max_element(level);
     const std::vector<std::int32_t> in_contact = solid.contact() ? contact_cells(solid) : std::vector<std::int32_t>{};
-    for (const std::int32_t c : in_contact) level[c] = finest;
+    for (const std::int32_t c : in_contact) level[c] = std::min(finest, level[c] + contact_margin_levels);
     SolidLocalSteps local;
     local.omega_max = make_stable(solid, stable.dt, level);
     local.omega_max.push_back(stable.omega_max);
-    for (const std::int32_t c : in_contact) level[c] += options.contact_levels;
-    if (!in_contact.empty())
+    if (!in_contact.empty() && options.contact_levels > 0) {
+        for (const std::int32_t c : in_contact) level[c] = finest + options.contact_levels;
         local.omega_max.insert(local.omega_max.end(), static_cast<std::size_t>(options.contact_levels), stable.omega_max);
+    }
     local.dt = stable.dt * std::pow(2.0, finest);
     local.cells.assign(local.omega_max.size(), 0);
     for (std::size_t l = 0; l < local.omega_max.size(); ++l) local.steps.parts.push_back(std::int32_t{1} << l);

@@ -22,8 +22,8 @@ struct SolidLocalSteps {
 
 /// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with
 /// M^-1 K. The power iteration then proves each level (and all that are coarser) stable with its step; cells that carry an
-/// unstable mode go to the next finer level, until none is left. Cells that contact may reach are on the finest level: left
-/// on their own, contact between cells of different steps can feed the parasitic mode (docs/integrators.md, Local steps).
+/// unstable mode go to the next finer level, until none is left. Cells that contact may reach are one level finer than they
+/// need to be alone, up to the finest: contact between cells of different steps would else feed the parasitic mode.
 /// Throws std::invalid_argument for options out of range.
 template <int Dim>
 [[nodiscard]] SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const LocalStepOptions& options = {});

@@ -17,8 +17,6 @@ namespace {
 /// After the first touch, in units of (R / sqrt(E / rho)) of the slower body: long enough for impact, slip and release.
 constexpr double default_crossings = 10.0;
 
-constexpr double refined_part = 0.8;  // of the radius
-
 const Choices<mesh::NonPlanarFaces> non_planar_faces = {{"fail", mesh::NonPlanarFaces::fail},
                                                         {"split", mesh::NonPlanarFaces::split}};
 
@@ -37,9 +35,12 @@ void add_body_options(CLI::App& app, CylinderOptions& options) {
                             {.unit = "m/s", .above = 0.0, .zero = true}));
     grouped(
         add_body_values(app, "--size", options.size, "edge length of the cells; by default R/10 in 2D, R/12 in 3D", length));
-    grouped(add_number(app, "--refine", options.refine,
-                       "how many times smaller cells are where the bodies meet first; their size grows over 0.8 R",
-                       {.above = 0.0}));
+    auto* refine = add_number(app, "--refine", options.refine,
+                              "how many times smaller cells are where the bodies meet first", {.above = 0.0});
+    grouped(refine);
+    auto* over = add_number(app, "--refine-over", options.refine_over,
+                            "part of the radius over which cells grow from there to their own size", {.above = 0.0});
+    grouped(over->needs(refine));
     grouped(add_body_values(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus",
                             {.unit = "Pa", .above = 0.0, .zero = true}));
 }
@@ -107,7 +108,7 @@ std::optional<mesh::Refinement<Dim>> refinement(const CylinderOptions& options, 
     const auto centre = centres(options);
     Vector<Dim> nearest = Vector<Dim>::Zero();
     nearest.template head<2>() = centre[body] + options.radius[body] * (centre[1 - body] - centre[body]).normalized();
-    return mesh::Refinement<Dim>{nearest, options.size[body] / options.refine, refined_part * options.radius[body]};
+    return mesh::Refinement<Dim>{nearest, options.size[body] / options.refine, options.refine_over * options.radius[body]};
 }
 
 template <int Dim>
@@ -181,7 +182,7 @@ nlohmann::ordered_json to_json(const CylinderOptions& options) {
         return json;
     }
     json.update({{"radius", options.radius}, {"size", options.size}, {"offset", options.offset}, {"gap", options.gap}});
-    if (options.refine != 1.0) json["refine"] = options.refine;
+    if (options.refine != 1.0) json.update({{"refine", options.refine}, {"refine_over", options.refine_over}});
     if (options.dim == 3) json["length"] = options.length;
     return json;
 }

@@ -21,6 +21,7 @@ struct CylinderOptions {
     BodyValues speed{0.05, 0.05};           ///< towards the other [m/s]
     BodyValues size{not_given, not_given};  ///< edge length of the cells [m]; not given: R/10 in 2D, R/12 in 3D
     double refine = 1.0;                    ///< how many times smaller cells are where the bodies meet first
+    double refine_over = 0.5;               ///< over which part of the radius cells grow to their own size from there
     BodyValues eta{0.0, 0.0};               ///< stabilisation of jumps [Pa]; 0: Young's modulus
     double offset = not_given;              ///< of the centres along y [m]
     double gap = 0.02;                      ///< between the surfaces at the start [m]

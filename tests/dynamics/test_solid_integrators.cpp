@@ -220,9 +220,25 @@ TEST_CASE("local steps: levels are stable by themselves, and fine where cells ar
         return nearest;
     };
     CHECK(cell_level(at({0.0, 0.0})) >= 2);
-    for (const std::int32_t face : mesh.boundary_faces)
-        REQUIRE(cell_level(mesh.face_cells[face][0]) + 1 == static_cast<std::int32_t>(local.cells.size()));
     CHECK(cell_level(at({-1.2, 0.0})) == 0);
+}
+
+TEST_CASE("local steps: cells that contact may reach are a level finer than the same cells without contact, or finest",
+          "[dynamics][async]") {
+    const auto mesh = refined_discs(0.4, 8.0);
+    Solid<2> solid(mesh, bodies<2>(2));
+    auto without = bodies<2>(2);
+    without.contact.reset();
+    Solid<2> alone(mesh, without);
+    // the same steps for both: the margin of contact is in the stable step
+    const auto stable = dynamics::stable_step(solid);
+    const auto touching = dynamics::local_steps(solid, stable), free = dynamics::local_steps(alone, stable);
+    REQUIRE(touching.cells.size() == free.cells.size());
+    const auto finest = static_cast<std::int32_t>(free.cells.size()) - 1;
+    for (const std::int32_t face : mesh.boundary_faces) {
+        const auto i = static_cast<std::size_t>(mesh.face_cells[face][0]) * 2;
+        REQUIRE(touching.steps.level[i] >= std::min(finest, free.steps.level[i] + 1));
+    }
 }
 
 TEST_CASE("local steps keep H~ and momentum through an impact, with contact events inside the steps", "[dynamics][async]") {

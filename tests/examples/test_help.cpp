@@ -61,6 +61,7 @@ TEST_CASE("--help explains every option in one line with unit and default", "[ex
                                                         "--contact-levels",
                                                         "--gauge",
                                                         "--refine",
+                                                        "--refine-over",
                                                         "--frames",
                                                         "--threads",
                                                         "--out",
