@@ -38,10 +38,7 @@ public:
 
     [[nodiscard]] double gauge() const { return gauge_; }
     /// psi - sqrt(2 (V + c)) half a step before the present node [J^(1/2)]: the hidden error of the scheme.
-    [[nodiscard]] double gauge_defect() {
-        add_scaled_velocity(this->q_, -0.5 * this->dt_, this->system_.inverse_mass(), this->p_before_, this->q_next_);
-        return psi_before_ - psi_of(this->q_next_);
-    }
+    [[nodiscard]] double gauge_defect() { return psi_before_ - psi_of(half_step_before()); }
 
 private:
     friend Integrator<Bilbao, S>;
@@ -49,10 +46,7 @@ private:
     void start(std::span<const double> p) {
         this->system_.force(this->q_, this->force_);
         add_scaled(p, -0.5 * this->dt_, this->force_, this->p_before_);
-        // Half a step back with the mean of p^{-1/2} and p^0.
-        add_scaled(p, -0.25 * this->dt_, this->force_, this->p_after_);
-        add_scaled_velocity(this->q_, -0.5 * this->dt_, this->system_.inverse_mass(), this->p_after_, this->q_next_);
-        psi_before_ = psi_of(this->q_next_);
+        psi_before_ = psi_of(half_step_before());
         kick();
     }
     void advance() {
@@ -71,6 +65,11 @@ private:
         const double gamma = 0.25 * dt * dt * this->mass_product(this->force_, this->force_);
         psi_after_ = ((1.0 - gamma) * psi_before_ + dt * this->mass_product(this->force_, this->p_before_)) / (1.0 + gamma);
         add_scaled(this->p_before_, -0.5 * dt * (psi_after_ + psi_before_), this->force_, this->p_after_);
+    }
+    /// q^n - dt/2 M^-1 p^{n-1/2}
+    [[nodiscard]] std::span<const double> half_step_before() {
+        add_scaled_velocity(this->q_, -0.5 * this->dt_, this->system_.inverse_mass(), this->p_before_, this->q_next_);
+        return this->q_next_;
     }
     [[nodiscard]] double psi_of(std::span<const double> q) {
         const double potential = this->system_.potential(q);

@@ -310,6 +310,18 @@ TEMPLATE_TEST_CASE("every integrator starts from q and p at one time", "[dynamic
     CHECK(error(1e-4) < 1e-11);
 }
 
+TEST_CASE("the hidden error of Bilbao is zero at the start, and of second order later", "[dynamics][integrators]") {
+    Chain chain = held_chain();
+    const auto defect_at = [&](double time, int steps) {
+        dynamics::Bilbao bilbao(chain, held_q, held_p, time / steps, 1.0);
+        CHECK(bilbao.gauge_defect() == 0.0);
+        for (int i = 0; i < steps; ++i) bilbao.step();
+        return std::abs(bilbao.gauge_defect());
+    };
+    CHECK(defect_at(4.0, 400) > 0.0);
+    CHECK(defect_at(4.0, 400) / defect_at(4.0, 800) == Approx(4.0).epsilon(0.1));
+}
+
 TEMPLATE_TEST_CASE("every integrator reports by how much a restart with another step changes its energy",
                    "[dynamics][integrators]", ABUT_ALL_INTEGRATORS) {
     Chain chain = held_chain();
