@@ -78,7 +78,7 @@ const std::vector<BadInput> bad_options = {
     {"--mesh nowhere.msh,right.msh --time 1", {"nowhere.msh", "no such file", "path"}},
 };
 
-const std::vector<BadInput> bad_options_of_the_bar = {
+const std::vector<BadInput> bad_options_of_the_strip = {
     {"--cells 3", {"--cells", "3", "at least 4"}},
     {"--filter weak", {"--filter", "weak", "none, neutral"}},
     {"--eta nan", {"--eta", "nan", "finite", "not below 0 Pa"}},
@@ -174,9 +174,9 @@ TEST_CASE("bad options end with one message that names them, and leave no result
     check_refused(bad, run_program("slipping_cylinders", bad.arguments, "bad_option"));
 }
 
-TEST_CASE("bad options of the bouncing bar end in the same way", "[examples]") {
-    const BadInput bad = GENERATE(from_range(bad_options_of_the_bar));
-    check_refused(bad, run_program("bouncing_bar", bad.arguments, "bad_bar_option"));
+TEST_CASE("bad options of the bouncing strip end in the same way", "[examples]") {
+    const BadInput bad = GENERATE(from_range(bad_options_of_the_strip));
+    check_refused(bad, run_program("bouncing_strip", bad.arguments, "bad_strip_option"));
 }
 
 TEST_CASE("a run that breaks off says at which step, and leaves no result", "[examples]") {
@@ -191,7 +191,7 @@ TEST_CASE("a run that breaks off says at which step, and leaves no result", "[ex
 }
 
 TEST_CASE("an output folder with a file in its place is refused before the run", "[examples]") {
-    const std::string program = GENERATE("slipping_cylinders", "bouncing_bar");
+    const std::string program = GENERATE("slipping_cylinders", "bouncing_strip");
     const Folder folder("in_the_way");
     const std::string file = (folder.path() / "results").string();
     std::ofstream(file) << "something\n";

@@ -70,7 +70,7 @@ TEST_CASE("--help explains every option in one line with unit and default", "[ex
                                                         "--allow-unstable",
                                                         "--compression-limit"}},
                                                       {"rebounding_cylinders", {"--dim", "--offset", "--out"}},
-                                                      {"bouncing_bar",
+                                                      {"bouncing_strip",
                                                        {"--cells", "--eta", "--steps", "--cfl", "--dt", "--filter",
                                                         "--compression-limit", "--out", "--interval", "--frames"}}}));
     const auto outcome = run_program(program, "--help", "");

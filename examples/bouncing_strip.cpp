@@ -1,4 +1,5 @@
-// An elastic bar bounces on a rigid wall, again and again: what an energy that is conserved does not tell.
+// An elastic bar, a strip of cells two across, bounces on a rigid wall: what an energy that is conserved does not tell.
+// bouncing_bar is the same bar as a chain, with all integrators.
 //
 // Length 10, E = 900, rho = 1, nu = 0, so c = 30; gravity 10 towards the wall, from rest 5 above it. It hits at t = 1 with
 // speed 10; a pressure wave takes 2L/c to run up and down, pressure 300 rising to 500: impulse 266.667 an impact.
@@ -21,10 +22,12 @@ const double impact_speed = std::sqrt(2.0 * gravity * height);
 const double exact_impulse =
     2.0 * density * bar_length * (impact_speed + gravity * crossing);  // an impact, per area of the bar
 
-const Program program{.name = "bouncing_bar",
-                      .purpose = "Bar that bounces on a rigid wall under gravity: pseudo-energy, energy and parasitic mode.",
-                      .series = "bar",
-                      .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2."};
+const Program program{
+    .name = "bouncing_strip",
+    .purpose =
+        "Bar, a strip of cells, that bounces on a rigid wall under gravity: pseudo-energy, energy and parasitic mode.",
+    .series = "strip",
+    .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2."};
 
 struct BarOptions {
     int cells = 100;
