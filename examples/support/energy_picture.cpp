@@ -1,36 +1,17 @@
 #include "support/energy_picture.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <string_view>
-#include <system_error>
 
-#include "support/files.hpp"
+#include "support/gnuplot.hpp"
 
 namespace abut::examples {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr std::string_view script = R"gp(# Energies of a run, from energy.csv beside this file: gnuplot energy.gp
-H0 = {:.17g}  # H~ at the start [J]
+constexpr std::string_view script = R"gp(H0 = {:.17g}  # H~ at the start [J]
 scale = {:.17g}  # what drifts are divided by [J]
-if (!exists("picture")) picture = "energy.png"
-set terminal pngcairo size 1200,1000 font "Sans,13" background "white"
-set output picture
-set datafile separator ","
 set multiplot
-set lmargin 12
-set rmargin 3
-set border 3 lc rgb "#404040"
-set tics nomirror
-set grid lc rgb "#e4e4e4" lt 1
 set key right center samplen 2.5 opaque
 set autoscale xfixmax
 set mytics 1
@@ -63,42 +44,13 @@ plot "energy.csv" using "time":(shown((column("energy")-column("pseudo_energy"))
 unset multiplot
 )gp";
 
-/// Exit code of gnuplot in a folder, its words thrown away; -1 if it is not there.
-int run_gnuplot(const fs::path& directory, const std::string& setting) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-    std::array<std::string, 4> words = {"gnuplot", "-e", setting, "energy.gp"};
-    std::array<char*, 5> arguments = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
-    pid_t process = 0;
-    const int error = posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) return -1;
-    int status = 0;
-    while (waitpid(process, &status, 0) < 0)
-        if (errno != EINTR) return 1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
-}
-
 }  // namespace
 
-std::string draw_energy(const fs::path& directory, const EnergyPicture& picture) {
-    write_whole(directory / "energy.gp",
-                fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, picture.title,
-                            picture.scale_name.substr(0, 1), picture.scale_name.substr(1)));
-    const fs::path partial = directory / "energy.partial.png";
-    const int code = run_gnuplot(directory, "picture='energy.partial.png'");
-    std::error_code error;
-    if (code == 0 && fs::exists(partial)) {
-        move_file(partial, directory / "energy.png");
-        return "";
-    }
-    fs::remove(partial, error);
-    if (code == -1)
-        return "gnuplot is not installed: install gnuplot-nox, then run gnuplot energy.gp in " + directory.string();
-    return fmt::format("gnuplot ended with code {}: run gnuplot energy.gp in {} to see why", code, directory.string());
+std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture) {
+    return draw(directory, {.name = "energy",
+                            .purpose = "Energies of a run, from energy.csv beside this file",
+                            .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, picture.title,
+                                                  picture.scale_name.substr(0, 1), picture.scale_name.substr(1))});
 }
 
 }  // namespace abut::examples

@@ -3,20 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace abut::examples {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array plain_results = {"summary.json", "summary.json.partial", "energy.csv", "energy.csv.partial",
-                                      "energy.png",   "energy.partial.png",   "energy.gp",  "energy.gp.partial"};
+const std::vector<std::string> plain_results = {"summary.json", "energy.csv", "energy.png", "energy.gp"};
 
 [[noreturn]] void refuse_directory(const fs::path& directory, const std::string& reason) {
     throw std::runtime_error(
@@ -71,10 +68,19 @@ void prepare_directory(const fs::path& directory) {
 }
 
 void remove_earlier_results(const fs::path& directory, const std::string& series) {
-    std::vector<fs::path> results(plain_results.begin(), plain_results.end());
+    remove_files(directory, plain_results);
+    std::vector<fs::path> frames;
     for (const auto& entry : fs::directory_iterator(directory))
-        if (belongs_to_series(entry.path().filename().string(), series)) results.push_back(entry.path().filename());
-    for (const auto& name : results) remove_result(directory / name);
+        if (belongs_to_series(entry.path().filename().string(), series)) frames.push_back(entry.path());
+    for (const auto& frame : frames) remove_result(frame);
+}
+
+void remove_files(const fs::path& directory, const std::vector<std::string>& names) {
+    for (const fs::path name : names) {
+        const std::string stem = name.stem().string(), extension = name.extension().string();
+        for (const std::string& present : {name.string(), name.string() + ".partial", stem + ".partial" + extension})
+            remove_result(directory / present);
+    }
 }
 
 void write_whole(const fs::path& path, const std::string& text) {

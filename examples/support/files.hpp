@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace abut::examples {
 
@@ -11,6 +12,9 @@ void prepare_directory(const std::filesystem::path& directory);
 /// Removes what an earlier run may have left: summary.json, energy.csv, its picture, and the lists and frames of `series`.
 /// Everything else stays. Throws std::runtime_error naming the file.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
+
+/// Removes files of these names, and what they are called while they are written. Throws std::runtime_error naming the file.
+void remove_files(const std::filesystem::path& directory, const std::vector<std::string>& names);
 
 /// Writes a file beside its place, then moves it there: it is never seen half-written. Throws std::runtime_error.
 void write_whole(const std::filesystem::path& path, const std::string& text);

@@ -7,6 +7,7 @@
 
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
+#include "support/finding.hpp"
 #include "support/program.hpp"
 #include "support/run_options.hpp"
 
@@ -16,13 +17,6 @@ namespace abut::examples {
 struct EnergyScale {
     std::string name = "K0";  ///< a letter and its index
     double value = 0.0;       ///< [J]; 0: the kinetic energy at the start
-};
-
-/// Something that a scene alone can tell about its run.
-struct Finding {
-    std::string key;   ///< in summary.json
-    std::string text;  ///< in the table, unit included
-    nlohmann::ordered_json value;
 };
 
 template <int Dim>

@@ -1,0 +1,19 @@
+#include "support/csv.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iterator>
+
+#include "support/files.hpp"
+
+namespace abut::examples {
+
+void write_csv(const std::filesystem::path& path, const Table& table) {
+    fmt::memory_buffer text;
+    fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(table.columns, ","));
+    for (const auto& row : table.rows) fmt::format_to(std::back_inserter(text), "{:.17g}\n", fmt::join(row, ","));
+    write_whole(path, fmt::to_string(text));
+}
+
+}  // namespace abut::examples
