@@ -235,7 +235,7 @@ void check(const WaveOptions& options) {
     const double slow = options.ratio * options.cfl * slow_speed / fast_speed;
     if (slow >= 1.0)
         throw std::invalid_argument(
-            fmt::format("--ratio: {} steps of a Courant number of {:g} make {:g} in the slow half, at most 1 is stable. "
+            fmt::format("--ratio: {} steps of a Courant number of {:g} make {:g} in the slow half, only below 1 is stable. "
                         "Lower --ratio or "
                         "--cfl.",
                         options.ratio, options.cfl, slow));

@@ -85,6 +85,16 @@ void throw_if_broken_off(const std::vector<SchemeRun>& runs) {
 
 }  // namespace
 
+double detail::clock_seconds() {
+    static const double seconds = [] {
+        constexpr int times = 10'000;
+        double sum = 0.0;
+        for (int i = 0; i < times; ++i) const dynamics::Stopwatch watch(sum);
+        return sum / times;
+    }();
+    return seconds;
+}
+
 void add_out_option(CLI::App& app, fs::path& out) {
     app.add_option("--out", out, "folder of all results; made if it is not there")
         ->type_name("DIR")

@@ -67,6 +67,10 @@ nlohmann::json read_summary(const Outcome& outcome) {
     return nlohmann::json::parse(read_text(outcome.directory / "summary.json"));
 }
 
+double figure(const Outcome& outcome, const std::string& scheme, const std::string& name) {
+    return read_summary(outcome).at("schemes").at(scheme).at(name).get<double>();
+}
+
 std::vector<std::string> files_in(const fs::path& directory) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());
@@ -81,8 +85,10 @@ std::vector<double> Table::column(const std::string& name) const {
     return values;
 }
 
-Table read_energies(const Outcome& outcome) {
-    std::istringstream text(read_text(outcome.directory / "energy.csv"));
+Table read_energies(const Outcome& outcome) { return read_table(outcome, "energy.csv"); }
+
+Table read_table(const Outcome& outcome, const std::string& file) {
+    std::istringstream text(read_text(outcome.directory / file));
     Table table;
     std::string line;
     std::getline(text, line);

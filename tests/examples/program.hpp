@@ -43,16 +43,20 @@ struct Outcome {
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 [[nodiscard]] nlohmann::json read_summary(const Outcome& outcome);
 
+/// A number that summary.json of a comparison holds of a scheme: figure(outcome, "memm", "seconds").
+[[nodiscard]] double figure(const Outcome& outcome, const std::string& scheme, const std::string& name);
+
 /// Names of all files in a folder, in order.
 [[nodiscard]] std::vector<std::string> files_in(const std::filesystem::path& directory);
 
-/// energy.csv: names of the columns and all rows.
+/// A file of results: names of the columns and all rows.
 struct Table {
     std::vector<std::string> columns;
     std::vector<std::vector<double>> rows;
     [[nodiscard]] std::vector<double> column(const std::string& name) const;
 };
-[[nodiscard]] Table read_energies(const Outcome& outcome);
+[[nodiscard]] Table read_table(const Outcome& outcome, const std::string& file);
+[[nodiscard]] Table read_energies(const Outcome& outcome);  ///< energy.csv
 
 /// Largest |H~ - H~0| over K0, or what else the run measures energies with.
 [[nodiscard]] double relative_drift(const Outcome& outcome);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "examples/program.hpp"
@@ -84,6 +85,34 @@ const std::vector<BadInput> bad_options_of_the_strip = {
     {"--eta nan", {"--eta", "nan", "finite", "not below 0 Pa"}},
     {"--dt 0.0024", {"--dt", "0.0024 s", "stable step of 0.0022", "--allow-unstable"}},
     {"--csv energy.csv", {"--csv", "--help"}},
+};
+
+const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons = {
+    {"fpu", {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
+    {"fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},
+    {"fpu", {"--dt 0", {"--dt", "0 s", "above 0 s"}}},
+    {"fpu", {"--dt 1e-300", {"steps of 1e-300 s", "1 to 1e+15 are allowed"}}},
+    {"fpu", {"--gauge 1 --integrator memm", {"--gauge", "memm does not know it", "--integrator bilbao"}}},
+    {"fpu", {"--mean 2 --integrator leapfrog", {"--mean", "leapfrog does not know it", "memm or energy_momentum"}}},
+    {"fpu", {"--fast 7", {"--fast", "7 masses", "there are 6"}}},
+    {"fpu", {"--parts 0", {"--parts", "'0'", "at least 1"}}},
+    {"fpu", {"--start half --integrator energy_momentum", {"--start", "energy_momentum does not know it"}}},
+    {"fpu", {"--omega nan", {"--omega", "nan", "finite"}}},
+    {"slow_fast_wave", {"--integrator bilbao", {"--integrator", "bilbao", "all, memm, memm_async, leapfrog"}}},
+    {"slow_fast_wave", {"--time 0.6", {"--time", "0.6 s", "not above 0.5 s"}}},
+    {"slow_fast_wave", {"--cells 1001 --refinements 0", {"--cells", "1001", "even", "interface"}}},
+    {"slow_fast_wave", {"--cells 1002", {"--cells", "1002 halved 2 times", "multiple of 16", "--refinements"}}},
+    {"slow_fast_wave", {"--cfl 1.01", {"--cfl", "1.01", "not above 1", "unstable"}}},
+    {"slow_fast_wave", {"--ratio 20", {"--ratio", "20 steps", "below 1 is stable", "--cfl"}}},
+    {"slow_fast_wave", {"--ratio 5 --integrator memm", {"--ratio", "memm does not know it"}}},
+    {"bouncing_bar", {"--gravity 5", {"--gravity", "5", "0, 10"}}},
+    {"bouncing_bar", {"--cells 3", {"--cells", "3", "at least 4"}}},
+    {"bouncing_bar", {"--cfl 2", {"--cfl", "2", "not above 1"}}},
+    {"bouncing_bar", {"--filter weak", {"--filter", "weak", "none, neutral"}}},
+    {"bouncing_bar", {"--filter neutral --integrator leapfrog", {"--filter", "leapfrog does not know it"}}},
+    {"bouncing_bar", {"--patch 1", {"--patch", "'1'", "at least 2"}}},
+    {"bouncing_bar", {"--cells 10 --patch 11", {"--patch", "11 masses", "the bar has 10"}}},
+    {"bouncing_bar", {"--gauge 0", {"Bilbao scheme", "Raise the gauge"}}},
 };
 
 void check_no_result(const fs::path& directory) {
@@ -179,6 +208,11 @@ TEST_CASE("bad options of the bouncing strip end in the same way", "[examples]")
     check_refused(bad, run_program("bouncing_strip", bad.arguments, "bad_strip_option"));
 }
 
+TEST_CASE("bad options of the programs that compare integrators end in the same way", "[examples]") {
+    const auto [program, bad] = GENERATE(from_range(bad_options_of_comparisons));
+    check_refused(bad, run_program(program, bad.arguments, "bad_comparison_option"));
+}
+
 TEST_CASE("a run that breaks off says at which step, and leaves no result", "[examples]") {
     const BadInput bad = GENERATE(BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
                                            {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "energy.csv.partial"}},
@@ -191,7 +225,7 @@ TEST_CASE("a run that breaks off says at which step, and leaves no result", "[ex
 }
 
 TEST_CASE("an output folder with a file in its place is refused before the run", "[examples]") {
-    const std::string program = GENERATE("slipping_cylinders", "bouncing_strip");
+    const std::string program = GENERATE("slipping_cylinders", "bouncing_strip", "bouncing_bar", "fpu", "slow_fast_wave");
     const Folder folder("in_the_way");
     const std::string file = (folder.path() / "results").string();
     std::ofstream(file) << "something\n";
