@@ -246,18 +246,15 @@ Picture picture(const std::vector<SchemeRun>& runs, double end) {
     const std::string script = fmt::format(
         "H0 = {:.17g}\n"
         "shown(x) = x < 1e-17 ? 1e-17 : x  # an exact zero has no logarithm\n"
-        "set multiplot layout 4,1 margins 0.1,0.97,0.05,0.97 spacing 0,0.025\n"
-        "set key outside top center horizontal maxcols 6 width -3 samplen 1.5 noenhanced\nset autoscale xfix\nset format x "
-        "\"\"\n"
-        "set ylabel \"lower end [m]\"\nset xrange [0:{}]\nset yrange [-0.3:*]\n"
+        "set multiplot\nset autoscale xfix\nset key outside top center horizontal maxcols 6 font \",10\" samplen 1.2 "
+        "noenhanced\n"
+        "set origin 0,0.73\nset size 1,0.27\nset ylabel \"lower end [m]\"\nset xrange [0:{}]\nset yrange [-0.3:*]\n"
         "plot \"{}.csv\" using \"time\":\"foot_exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\", \\\n     {}\n"
-        "unset key\nset xrange [0:*]\nset yrange [*:*]\nset ylabel \"H / H0\"\nplot {}\n"
-        "set logscale y\nunset mytics\nset format y \"10^{{%L}}\"\nset yrange [1e-8:10]\nset ytics 1e-8,1e2,10\nset ylabel "
-        "\"(H − H̃) / "
-        "H0\"\n"
-        "plot {}\n"
-        "set yrange [1e-17:10]\nset ytics 1e-16,1e4,1\nset ylabel \"drift of its own energy / H0\"\nset format x "
-        "\"%g\"\nset xlabel \"time [s]\"\nplot {}\n"
+        "set origin 0,0.49\nset size 1,0.24\nunset key\nset xrange [0:*]\nset yrange [*:*]\nset ylabel \"H / H0\"\nplot {}\n"
+        "set origin 0,0.26\nset logscale y\nset format y \"10^{{%L}}\"\nset ylabel \"(H − H̃) / H0\"\n"
+        "set yrange [1e-8:10]\nset ytics 1e-8,1e2,10\nunset mytics\nplot {}\n"
+        "set origin 0,0\nset size 1,0.26\nset ylabel \"drift of its own energy / H0\"\nset xlabel \"time [s]\"\n"
+        "set yrange [1e-17:10]\nset ytics 1e-16,1e4,1\nplot {}\n"
         "unset multiplot\n",
         impact_energy, std::min(end, 3.0 * period), runs.front().name, lines("column(\"foot\")", "lines lw 1.5"),
         lines("column(\"energy\")/H0", "lines lw 1.5"), lines("shown(column(\"excess\")/H0)", "lines lw 1.5"),

@@ -204,20 +204,19 @@ Table profile(const Mesh& mesh, const std::vector<SchemeRun>& runs, double time)
 
 /// The profiles, and what is wrong with them.
 Picture picture(const std::vector<SchemeRun>& runs, double time) {
-    constexpr std::array colours = {"#2a78d6", "#eb6834", "#1f9e6e"};
+    constexpr std::array styles = {"lw 3 lc rgb \"#2a78d6\"", "lw 1.8 lc rgb \"#eb6834\"", "lw 1.8 dt 3 lc rgb \"#1b1b1a\""};
     std::string above = "\"profile.csv\" using \"x\":\"exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\"", below;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const std::string style = fmt::format("with lines lw {} dt {} lc rgb \"{}\" title \"{}\"",
-                                              2.2 - 0.5 * static_cast<double>(i), i + 1, colours[i], runs[i].name);
+        const std::string style = fmt::format("with lines {} title \"{}\"", styles[i], runs[i].name);
         above += fmt::format(", \\\n     \"\" using \"x\":\"{}\" {}", runs[i].name, style);
-        below += fmt::format("{}\"profile.csv\" using \"x\":(column(\"{}\")-column(\"exact\")) {}",
+        below += fmt::format("{}\"profile.csv\" using \"x\":(1e3*(column(\"{}\")-column(\"exact\"))) {}",
                              i == 0 ? "" : ", \\\n     ", runs[i].name, style);
     }
     const std::string script = fmt::format(
         "set multiplot layout 2,1 margins 0.09,0.97,0.07,0.95 spacing 0,0.06\nset key top center noenhanced\n"
         "set xrange [0:1]\nset format x \"\"\nset title \"t = {:g} s; c = 10 m/s left of 1/2, 1 m/s right of it\"\n"
         "set ylabel \"displacement [m]\"\nplot {}\n"
-        "unset title\nset format x \"%g\"\nset xlabel \"x [m]\"\nunset key\nset ylabel \"error [m]\"\nplot {}\nunset "
+        "unset title\nset format x \"%g\"\nset xlabel \"x [m]\"\nunset key\nset ylabel \"error [mm]\"\nplot {}\nunset "
         "multiplot\n",
         time, above, below);
     return {
@@ -236,8 +235,7 @@ void check(const WaveOptions& options) {
     if (slow >= 1.0)
         throw std::invalid_argument(
             fmt::format("--ratio: {} steps of a Courant number of {:g} make {:g} in the slow half, only below 1 is stable. "
-                        "Lower --ratio or "
-                        "--cfl.",
+                        "Lower --ratio or --cfl.",
                         options.ratio, options.cfl, slow));
 }
 
