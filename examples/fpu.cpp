@@ -73,7 +73,7 @@ public:
         }
         if (node.time == 0.0) start_ = total();
         if (!overtaken_ && energy_[1] > energy_[0]) overtaken_ = node.time;
-        detail::raise(deviation_, std::abs(total() - start_));
+        deviation_ = std::max(deviation_, std::abs(total() - start_));
     }
     std::vector<std::string> columns() const override { return {"I1", "I2", "I3", "I"}; }
     std::vector<double> row() const override { return {energy_[0], energy_[1], energy_[2], total()}; }

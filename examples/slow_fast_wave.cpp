@@ -18,6 +18,7 @@ namespace abut::examples {
 namespace {
 
 using Chain = dynamics::Particles<dynamics::LineSpring>;
+using Json = nlohmann::ordered_json;
 
 constexpr double fast_speed = 10.0, slow_speed = 1.0;  // [m/s]
 constexpr double interface = 0.5;                      // [m]
@@ -158,23 +159,22 @@ double fitted_order(const std::vector<std::pair<int, double>>& errors) {
     return -(n * xy - x * y) / (n * xx - x * x);
 }
 
-/// On all meshes; the run on the finest one.
+/// On all meshes; the run on the finest one, or the first that breaks off.
 SchemeRun run_refined(Scheme scheme, const WaveOptions& options) {
     std::vector<std::pair<int, double>> refined;
     SchemeRun run;
     Errors last;
-    for (int k = options.refinements; k >= 0; --k) {
+    for (int k = options.refinements; k >= 0 && !run.broken_off; --k) {
         const Mesh mesh(options.cells >> k);
         run = run_on(mesh, scheme, options);
         last = errors(mesh, run.q, options.time);
         refined.emplace_back(mesh.cells, last.l2);
-        if (run.broken_off) break;
     }
-    const bool fitted = refined.size() > 1 && !run.broken_off;
-    run.findings = {{"error_l2", "error in L2, relative", last.l2},
-                    {"error_max", "largest error / largest |u|", last.largest},
-                    {"order", fmt::format("order in L2 over {} meshes", refined.size()),
-                     fitted ? nlohmann::ordered_json(fitted_order(refined)) : nlohmann::ordered_json()}};
+    const auto known = [&](bool is, double value) { return is && !run.broken_off ? Json(value) : Json(); };
+    run.findings = {{"error_l2", "error in L2, relative", known(true, last.l2)},
+                    {"error_max", "largest error / largest |u|", known(true, last.largest)},
+                    {"order", fmt::format("order in L2 over {} meshes", options.refinements + 1),
+                     known(refined.size() > 1, fitted_order(refined))}};
     return run;
 }
 
@@ -184,12 +184,17 @@ std::vector<Finding> ratios(const std::vector<SchemeRun>& runs) {
         return std::ranges::find_if(runs, [&](const SchemeRun& run) { return run.name == name_of(scheme); });
     };
     const auto fine = find(Scheme::memm), local = find(Scheme::memm_async);
-    if (fine == runs.end() || local == runs.end()) return {};
+    if (fine == runs.end() || local == runs.end() || fine->broken_off || local->broken_off) return {};
     const double error = local->findings[0].value.get<double>() / fine->findings[0].value.get<double>();
     const double work = static_cast<double>(local->evaluations) / static_cast<double>(fine->evaluations);
     return {{"error_ratio", "memm_async / memm: error in L2", error},
             {"evaluation_ratio", "memm_async / memm: bonds evaluated", work},
             {"seconds_ratio", "memm_async / memm: time of the steps", local->seconds / fine->seconds}};
+}
+
+std::vector<SchemeRun> complete(std::vector<SchemeRun> runs) {
+    std::erase_if(runs, [](const SchemeRun& run) { return run.broken_off.has_value(); });
+    return runs;
 }
 
 Table profile(const Mesh& mesh, const std::vector<SchemeRun>& runs, double time) {
@@ -205,12 +210,13 @@ Table profile(const Mesh& mesh, const std::vector<SchemeRun>& runs, double time)
 /// The profiles, and what is wrong with them.
 Picture picture(const std::vector<SchemeRun>& runs, double time) {
     constexpr std::array styles = {"lw 3 lc rgb \"#2a78d6\"", "lw 1.8 lc rgb \"#eb6834\"", "lw 1.8 dt 3 lc rgb \"#1b1b1a\""};
-    std::string above = "\"profile.csv\" using \"x\":\"exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\"", below;
+    std::string above = "\"profile.csv\" using \"x\":\"exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\"",
+                below = "0 with lines lc rgb \"#b9b8b4\" notitle";
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::string style = fmt::format("with lines {} title \"{}\"", styles[i], runs[i].name);
         above += fmt::format(", \\\n     \"\" using \"x\":\"{}\" {}", runs[i].name, style);
-        below += fmt::format("{}\"profile.csv\" using \"x\":(1e3*(column(\"{}\")-column(\"exact\"))) {}",
-                             i == 0 ? "" : ", \\\n     ", runs[i].name, style);
+        below += fmt::format(", \\\n     \"profile.csv\" using \"x\":(1e3*(column(\"{}\")-column(\"exact\"))) {}",
+                             runs[i].name, style);
     }
     const std::string script = fmt::format(
         "set multiplot layout 2,1 margins 0.09,0.97,0.07,0.95 spacing 0,0.06\nset key top center noenhanced\n"
@@ -239,12 +245,12 @@ void check(const WaveOptions& options) {
                         options.ratio, options.cfl, slow));
 }
 
-nlohmann::ordered_json to_json(const WaveOptions& options) {
-    nlohmann::ordered_json json = {{"cells", options.cells},
-                                   {"time", options.time},
-                                   {"cfl", options.cfl},
-                                   {"ratio", options.ratio},
-                                   {"refinements", options.refinements}};
+Json to_json(const WaveOptions& options) {
+    Json json = {{"cells", options.cells},
+                 {"time", options.time},
+                 {"cfl", options.cfl},
+                 {"ratio", options.ratio},
+                 {"refinements", options.refinements}};
     json.update(examples::to_json(options.schemes));
     json["out"] = options.out.string();
     return json;
@@ -260,8 +266,9 @@ void run(const WaveOptions& options) {
     comparison.title = fmt::format("{} cells, fine steps of {:.4g} s (c dt/h = {:.4g} and {:.4g})", options.cells, fine,
                                    fine * fast_speed * options.cells, fine * slow_speed * options.cells);
     comparison.findings = ratios(comparison.runs);
-    write_csv(options.out / "profile.csv", profile(Mesh(options.cells), comparison.runs, options.time));
-    comparison.picture = picture(comparison.runs, options.time);
+    const auto shown = complete(comparison.runs);
+    write_csv(options.out / "profile.csv", profile(Mesh(options.cells), shown, options.time));
+    comparison.picture = picture(shown, options.time);
     report(program, options.out, comparison);
 }
 
