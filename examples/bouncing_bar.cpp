@@ -59,7 +59,8 @@ void add_options(CLI::App& app, BarOptions& options) {
     auto* filter = add_choice(app, "--filter", options.filter,
                               "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
                               Choices<bool>{{"none", false}, {"neutral", true}});
-    auto* patch = add_count(app, "--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2);
+    auto* patch = add_count(app, "--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2)
+                      ->needs(filter);
     for (auto* option : {filter, patch}) restrict_to(option->group("Schemes"), options.schemes, {Scheme::memm});
     add_out_option(app, options.out);
     add_interval_option(app, options.interval);
@@ -250,13 +251,14 @@ Picture picture(const std::vector<SchemeRun>& runs, double end) {
         "noenhanced\n"
         "set origin 0,0.73\nset size 1,0.27\nset ylabel \"lower end [m]\"\nset xrange [0:{}]\nset yrange [-0.3:*]\n"
         "plot \"{}.csv\" using \"time\":\"foot_exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\", \\\n     {}\n"
-        "set origin 0,0.49\nset size 1,0.24\nunset key\nset xrange [0:*]\nset yrange [*:*]\nset ylabel \"H / H0\"\nplot {}\n"
+        "set origin 0,0.49\nset size 1,0.24\nunset key\nset xrange [0:{}]\nset yrange [*:*]\nset ylabel \"H / H0\"\nplot "
+        "{}\n"
         "set origin 0,0.26\nset logscale y\nset format y \"10^{{%L}}\"\nset ylabel \"(H − H̃) / H0\"\n"
-        "set yrange [1e-8:10]\nset ytics 1e-8,1e2,10\nunset mytics\nplot {}\n"
+        "set yrange [1e-8:1e4]\nset ytics 1e-8,1e3,1e4\nunset mytics\nplot {}\n"
         "set origin 0,0\nset size 1,0.26\nset ylabel \"drift of its own energy / H0\"\nset xlabel \"time [s]\"\n"
         "set yrange [1e-17:10]\nset ytics 1e-16,1e4,1\nplot {}\n"
         "unset multiplot\n",
-        impact_energy, std::min(end, 3.0 * period), runs.front().name, lines("column(\"foot\")", "lines lw 1.5"),
+        impact_energy, std::min(end, 3.0 * period), runs.front().name, lines("column(\"foot\")", "lines lw 1.5"), end,
         lines("column(\"energy\")/H0", "lines lw 1.5"), lines("shown(column(\"excess\")/H0)", "lines lw 1.5"),
         lines("shown(abs(column(\"drift\"))/H0)", "points pt 7 ps 0.3"));
     return {

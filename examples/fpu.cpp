@@ -99,14 +99,14 @@ private:
 };
 
 /// One panel an integrator.
-Picture picture(const std::vector<SchemeRun>& runs) {
+Picture picture(const std::vector<SchemeRun>& runs, double time) {
     const int n = static_cast<int>(runs.size());
     const double height = 100.0 + 210.0 * n;  // [pixels]
     std::string script = fmt::format(
         "set multiplot layout {},1 margins 0.07,0.98,{},{} spacing 0,{}\n"
         "set key top right horizontal samplen 1.5\nset yrange [0:1.4]\nset ytics 0.5\n"
-        "set ylabel \"energy [J]\"\nset format x \"\"\n",
-        n, 65.0 / height, 1.0 - 35.0 / height, 30.0 / height);
+        "set ylabel \"energy [J]\"\nset xrange [0:{}]\nset format x \"\"\n",
+        n, 65.0 / height, 1.0 - 35.0 / height, 30.0 / height, time);
     for (const SchemeRun& run : runs) {
         const char* title = &run == &runs.front() ? "title" : "notitle";
         if (&run == &runs.back()) script += "set xlabel \"time [s]\"\nset format x \"%g\"\n";
@@ -150,7 +150,7 @@ void run(const FpuOptions& options) {
         Oscillators oscillators(omega);
         comparison.runs.push_back(follow(scheme, system, start, options.schemes, schedule, oscillators));
     }
-    comparison.picture = picture(comparison.runs);
+    comparison.picture = picture(comparison.runs, options.time);
     report(program, options.out, comparison);
 }
 

@@ -80,7 +80,7 @@ void throw_if_broken_off(const std::vector<SchemeRun>& runs) {
             broken.push_back(fmt::format("{} breaks off at step {}, t = {:.4g} s (steps of {:.4g} s): {}", run.name,
                                          run.broken_off->step, run.broken_off->time, run.dt, run.broken_off->why));
     if (!broken.empty())
-        throw std::runtime_error(fmt::format("{} Its figures are those until then.", fmt::join(broken, " ")));
+        throw std::runtime_error(fmt::format("{} The figures are those until then.", fmt::join(broken, " ")));
 }
 
 }  // namespace

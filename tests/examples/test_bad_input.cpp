@@ -110,8 +110,9 @@ const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons =
     {"bouncing_bar", {"--cfl 2", {"--cfl", "2", "not above 1"}}},
     {"bouncing_bar", {"--filter weak", {"--filter", "weak", "none, neutral"}}},
     {"bouncing_bar", {"--filter neutral --integrator leapfrog", {"--filter", "leapfrog does not know it"}}},
-    {"bouncing_bar", {"--patch 1", {"--patch", "'1'", "at least 2"}}},
-    {"bouncing_bar", {"--cells 10 --patch 11", {"--patch", "11 masses", "the bar has 10"}}},
+    {"bouncing_bar", {"--filter neutral --patch 1", {"--patch", "'1'", "at least 2"}}},
+    {"bouncing_bar", {"--patch 3", {"--patch", "--filter"}}},
+    {"bouncing_bar", {"--cells 10 --filter neutral --patch 11", {"--patch", "11 masses", "the bar has 10"}}},
     {"bouncing_bar", {"--gauge 0", {"Bilbao scheme", "Raise the gauge"}}},
 };
 
