@@ -1,10 +1,10 @@
 // An elastic bar in one dimension bounces on a rigid wall: impact, contact and release under all integrators.
 //
-// Length 10, E = 900, rho = 1, so c = 30: masses rho h at the centres of cells, springs E/h between them, and a spring 2E/h,
-// half a cell, that acts between the lowest mass and the wall where it is pressed. From rest 5 above the wall under gravity 10
-// it hits at t = 1 with speed 10; contact lasts 2L/c = 2/3, the pressure rises from 300 to 500, impulse 266.667, and the motion
-// has the period 16/3: two impacts. Without gravity (--gravity 0, at 10 towards the wall 5 away) contact lasts from 0.5 to
-// 1.16667 at the pressure 300, and the bar rebounds at 10. With --steps 1000000 it is a test of stability: docs/filter.md.
+// Length 10, E = 900, rho = 1, so c = 30: masses rho h at the centres of cells, springs E/h between them, and a spring
+// 2E/h, half a cell, between the lowest mass and the wall where it is pressed. From rest 5 above the wall under gravity 10
+// it hits at t = 1 with speed 10; contact lasts 2L/c = 2/3, the pressure rises from 300 to 500, impulse 266.667, and the
+// motion has the period 16/3: two impacts. Without gravity (--gravity 0, at 10 towards the wall 5 away) contact lasts from
+// 0.5 to 1.16667 at the pressure 300, and the bar rebounds at 10. --steps 1000000 tests stability: docs/filter.md.
 #include <fmt/format.h>
 
 #include <array>
@@ -81,8 +81,8 @@ Chain chain(const BarOptions& options) {
 bool touches(double q) { return q + height < 0.0; }
 
 /// Takes the alternating mode of MEMM out of the masses next to the wall without touching H~. docs/method.md, Time:
-///     p^{n+3/2} -= e - alpha M v,   alpha = v . e / (v . M v)   over the patch, v = M^-1 p^{n+1/2}, e the parasitic momentum
-/// The patch rests on the wall, so that rigid parts stay in e and v. Of one mass it would take nothing.
+///     p^{n+3/2} -= e - alpha M v,   alpha = v . e / (v . M v)
+/// over the patch; v = M^-1 p^{n+1/2}, e is the parasitic momentum. The patch rests on the wall, so that rigid parts stay in e and v. Of one mass it would take nothing.
 class PatchFilter {
 public:
     PatchFilter(Chain& chain, int masses) : chain_(chain), masses_(static_cast<std::size_t>(masses)), e_(chain.size()) {}

@@ -4,7 +4,7 @@
 // (Hairer, Lubich and Wanner, Geometric Numerical Integration, I.5.1). Only the first stiff spring vibrates at the start:
 // H0 = 2.00120008. I_i = 1/2 (y_i'^2 + omega^2 y_i^2), y_i = (q_2i - q_2i-1)/sqrt2, wander from spring to spring; their sum
 // I stays near 1. Expect max |H - H0|/H0 of 1.67 % (leapfrog), 1.68 % (memm) at dt = 0.01, and that memm keeps its own
-// energy to 3e-13. omega dt < 2 is the limit of the explicit ones but bilbao: 0.039 runs, 0.041 explodes, and H~ does not tell.
+// energy to 3e-13. omega dt < 2 is the limit of memm and leapfrog: 0.039 runs, 0.041 explodes, and H~ does not tell.
 // memm_async with finer steps for the first two masses alone tunes their spring apart from the others, by (omega dt)^2/24 of
 // its frequency: exchange needs resonance and all but stops at dt = 0.01.
 #include <fmt/format.h>

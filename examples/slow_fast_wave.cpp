@@ -1,7 +1,7 @@
 // A wave that runs through two media, fast in one and slow in the other: what steps of different length are for.
 //
 // u_tt = (c^2 u_x)_x on [0, 1], c = 10 left of 1/2 and 1 right of it, u = 0 at both ends; a pulse 0.01 exp(-(20(x - 0.2))^2)
-// starts to the right. The exact solution follows from reflections, until T = 0.5, when the first wave is near the right end.
+// starts to the right. The exact solution follows from reflections, until T = 0.5, when a wave is near the right end.
 // Linear elements with lumped masses, a node on the interface: chain of masses h and springs c^2/h. Expect second order, and
 // from memm_async, whose slow half takes a tenth of the steps, at most 1.2 times the error of memm with the fine step
 // everywhere, for 0.55 of its force evaluations: one half of the bonds every step, the other every tenth.

@@ -162,7 +162,8 @@ private:
 
 }  // namespace detail
 
-/// Runs a scheme on a system. A run that explodes, or that its scheme cannot go on with, breaks off: an outcome, not an error.
+/// Runs a scheme on a system. A run that explodes, or that its scheme refuses to go on with, breaks off: an outcome, no
+/// error.
 /// `prepare`, called with the integrator, may change it before the first step.
 template <class S, class Prepare>
 SchemeRun follow(Scheme scheme, S& system, const Start& start, const SchemeOptions& options, const Schedule& schedule,

@@ -63,7 +63,7 @@ struct Start {
     dynamics::LocalSteps local_steps;  ///< of memm_async
 };
 
-/// Calls body(integrator). This is the one place that knows all schemes. The first step has to be step(dt, StepChange::keep):
+/// Calls body(integrator). This is the one place that knows all schemes. The first step must be step(dt, StepChange::keep):
 /// an integrator that starts naively was made for a step of nearly nothing, so that both of its half-step momenta are p^0.
 template <class S, class Body>
 void with_integrator(Scheme scheme, S& system, const Start& start, const SchemeOptions& options, const Body& body) {

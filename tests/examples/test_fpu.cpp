@@ -47,8 +47,8 @@ TEST_CASE("the energies of the Fermi-Pasta-Ulam chain err under leapfrog and MEM
 
 TEST_CASE("the true energy of the Bilbao scheme errs on the chain by what the method note says, but for its start",
           "[examples]") {
-    // The figures of the note belong to psi^{-1/2} at q^0 - dt/2 M^-1 p^{-1/2}. Ours is taken at q(-dt/2) to third order, which
-    // changes them by 3 to 4 %; at dt = 0.02 either figure is one of many that the chaotic motion may give.
+    // The figures of the note belong to psi^{-1/2} at q^0 - dt/2 M^-1 p^{-1/2}. Ours is taken at q(-dt/2) to third order,
+    // which changes them by 3 to 4 %; at dt = 0.02 either figure is one of many that the chaotic motion may give.
     const auto [dt, error] = GENERATE(table<std::string, double>({{"1e-3", 1.67e-4}, {"1e-2", 1.74e-2}}));
     const auto outcome = fpu("--integrator bilbao --gauge 10 --dt " + dt, "fpu_bilbao");
     CHECK(figure(outcome, "bilbao", "energy_error_relative") == Approx(error).epsilon(0.05));
