@@ -153,9 +153,8 @@ public:
     void add_impulse(std::int32_t level, const FreeFlight& flight, double, double dt, std::span<double> impulse) {
         for (const std::int32_t b : by_level_[level]) {
             const Bond<Law>& bond = bonds_[b];
-            const auto now = [&](std::size_t i) { return flight.at(i, 0.0); };
-            const auto then = [&](std::size_t i) { return flight.at(i, dt); };
-            const V r_0 = difference(bond, now) + bond.offset, r_1 = difference(bond, then) + bond.offset;
+            const V r_0 = difference(bond, [&](std::size_t i) { return flight.at(i, 0.0); }) + bond.offset;
+            const V r_1 = r_0 + dt * difference(bond, [&](std::size_t i) { return flight.v[i]; });
             events_ += bond.law.begins_or_ends(r_0, r_1) ? 1 : 0;
             add(bond, dt * bond.law.mean_tension(r_0, r_1), impulse);
         }
