@@ -14,8 +14,7 @@ namespace {
 inline constexpr int probes = 3;              // random fields that the frequencies are estimated from
 inline constexpr int products = 3;            // with M^-1 K, of each
 inline constexpr double carries_mode = 0.01;  // of the largest kinetic energy of a cell in a mode: this cell carries it, too
-inline constexpr double worth_a_level = 0.02;             // of all cells
-inline constexpr std::int32_t contact_margin_levels = 1;  // by which cells in contact are finer than they need to be alone
+inline constexpr double worth_a_level = 0.02;  // of all cells
 inline constexpr int level_iterations = 20;
 
 /// Level of each cell.
@@ -112,20 +111,21 @@ std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
 
 template <int Dim>
 SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const LocalStepOptions& options) {
-    if (options.most_levels < 1 || options.most_levels > 20 || options.contact_levels < 0 || options.contact_levels > 10)
-        throw std::invalid_argument("local steps: " + std::to_string(options.most_levels) + " levels and " +
-                                    std::to_string(options.contact_levels) +
-                                    " more for contact are asked for; 1 to 20 and 0 to 10 are allowed.");
-    Levels level = levels_of(local_growth(solid), options.most_levels);
+    const auto& [most_levels, contact_margin, contact_levels] = options;
+    if (most_levels < 1 || most_levels > 20 || contact_margin < 0 || contact_levels < 0 || contact_levels > 10)
+        throw std::invalid_argument("local steps: " + std::to_string(most_levels) + " levels, a margin of " +
+                                    std::to_string(contact_margin) + " and " + std::to_string(contact_levels) +
+                                    " more for contact are asked for; 1 to 20, at least 0 and 0 to 10 are allowed.");
+    Levels level = levels_of(local_growth(solid), most_levels);
     const std::int32_t finest = *std::ranges::max_element(level);
     const std::vector<std::int32_t> in_contact = solid.contact() ? contact_cells(solid) : std::vector<std::int32_t>{};
-    for (const std::int32_t c : in_contact) level[c] = std::min(finest, level[c] + contact_margin_levels);
+    for (const std::int32_t c : in_contact) level[c] = std::min(finest, level[c] + contact_margin);
     SolidLocalSteps local;
     local.omega_max = make_stable(solid, stable.dt, level);
     local.omega_max.push_back(stable.omega_max);
-    if (!in_contact.empty() && options.contact_levels > 0) {
-        for (const std::int32_t c : in_contact) level[c] = finest + options.contact_levels;
-        local.omega_max.insert(local.omega_max.end(), static_cast<std::size_t>(options.contact_levels), stable.omega_max);
+    if (!in_contact.empty() && contact_levels > 0) {
+        for (const std::int32_t c : in_contact) level[c] = finest + contact_levels;
+        local.omega_max.insert(local.omega_max.end(), static_cast<std::size_t>(contact_levels), stable.omega_max);
     }
     local.dt = stable.dt * std::pow(2.0, finest);
     local.cells.assign(local.omega_max.size(), 0);

@@ -9,7 +9,8 @@ namespace abut::dynamics {
 
 struct LocalStepOptions {
     int most_levels = 8;     ///< steps differ by up to 2^(most_levels - 1)
-    int contact_levels = 0;  ///< cells that contact may reach step that many levels finer than the finest of the others
+    int contact_margin = 1;  ///< levels that cells in contact are finer than they need to be alone, up to the finest
+    int contact_levels = 0;  ///< if > 0: levels that cells in contact are finer than the finest of the others
 };
 
 /// Local time steps of a solid: each level takes steps half as long as the one before.
@@ -22,9 +23,8 @@ struct SolidLocalSteps {
 
 /// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with
 /// M^-1 K. The power iteration then proves each level (and all that are coarser) stable with its step; cells that carry an
-/// unstable mode go to the next finer level, until none is left. Cells that contact may reach are one level finer than they
-/// need to be alone, up to the finest: contact between cells of different steps would else feed the parasitic mode.
-/// Throws std::invalid_argument for options out of range.
+/// unstable mode go to the next finer level, until none is left. Without a margin for cells that contact may reach, contact
+/// between cells of different steps can feed the parasitic mode. Throws std::invalid_argument for options out of range.
 template <int Dim>
 [[nodiscard]] SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const LocalStepOptions& options = {});
 

@@ -107,6 +107,7 @@ private:
     void set_local_steps(const RunOptions& options) {
         auto local = dynamics::local_steps(solid, result.stable,
                                            {.most_levels = options.levels == 0 ? default_levels : options.levels,
+                                            .contact_margin = options.contact_margin,
                                             .contact_levels = options.contact_levels});
         local_steps = std::move(local.steps);
         result.level_cells = std::move(local.cells);
@@ -230,10 +231,14 @@ void check(const RunOptions& options) {
         throw std::invalid_argument(
             fmt::format("--filter neutral: the filter is made for memm, and {} was chosen. Take --filter none.",
                         name_of(options.integrator)));
-    if ((options.levels != 0 || options.contact_levels != 0) && options.integrator != SolidIntegrator::memm_async)
-        throw std::invalid_argument(fmt::format(
-            "--levels, --contact-levels: {} takes one step for all cells. Take --integrator memm_async, or leave them out.",
-            name_of(options.integrator)));
+    const RunOptions by_default;
+    if (options.integrator != SolidIntegrator::memm_async &&
+        (options.levels != by_default.levels || options.contact_margin != by_default.contact_margin ||
+         options.contact_levels != by_default.contact_levels))
+        throw std::invalid_argument(
+            fmt::format("--levels, --contact-margin, --contact-levels: {} takes one step for all cells. Take --integrator "
+                        "memm_async, or leave them out.",
+                        name_of(options.integrator)));
     if (!std::isnan(options.gauge) && options.integrator != SolidIntegrator::bilbao)
         throw std::invalid_argument(fmt::format("--gauge: {} has no gauge. Take --integrator bilbao, or leave --gauge out.",
                                                 name_of(options.integrator)));

@@ -57,8 +57,12 @@ void add_time_options(CLI::App& app, RunOptions& options, const std::string& def
     add_choice(app, "--integrator", options.integrator, "scheme in time (docs/integrators.md)", integrators)->group("Time");
     add_count(app, "--levels", options.levels, "of memm_async: different steps at most, each half the one before; 0: 8", 0)
         ->group("Time");
+    add_count(app, "--contact-margin", options.contact_margin,
+              "of memm_async: how often the steps of cells in contact are halved more than they need, down to the shortest",
+              0)
+        ->group("Time");
     add_count(app, "--contact-levels", options.contact_levels,
-              "of memm_async: how often the steps of cells in contact are halved beyond that", 0)
+              "of memm_async: how often the steps of cells in contact are halved beyond the shortest of the others", 0)
         ->group("Time");
     add_number(app, "--gauge", options.gauge, "c of the Bilbao scheme; by default the energy at the start",
                {.unit = "J", .above = 0.0})
@@ -117,7 +121,9 @@ nlohmann::ordered_json to_json(const RunOptions& options) {
         json = {{"dt", options.dt}, {"allow_unstable", options.allow_unstable}};
     json["integrator"] = name_of(options.integrator);
     if (options.integrator == SolidIntegrator::memm_async)
-        json.update({{"levels", options.levels}, {"contact_levels", options.contact_levels}});
+        json.update({{"levels", options.levels},
+                     {"contact_margin", options.contact_margin},
+                     {"contact_levels", options.contact_levels}});
     if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge)) json["gauge"] = options.gauge;
     json.update({{"filter", name_of(filters, options.filter)},
                  {"broad_phase", name_of(broad_phases, contact.broad_phase)},

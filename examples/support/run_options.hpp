@@ -27,6 +27,7 @@ struct RunOptions {
     dynamics::Neumann neumann = dynamics::Neumann::local_equilibrium;
     SolidIntegrator integrator = SolidIntegrator::memm;
     int levels = 0;            ///< of memm_async, at most; 0: 8
+    int contact_margin = 1;    ///< of memm_async: levels that cells in contact are finer than they need to be alone
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
     bool filter = false;       ///< energy-neutral filter of the parasitic mode

@@ -58,6 +58,7 @@ TEST_CASE("--help explains every option in one line with unit and default", "[ex
            "--filter",
            "--integrator",
            "--levels",
+           "--contact-margin",
            "--contact-levels",
            "--gauge",
            "--refine",
