@@ -13,7 +13,7 @@ namespace abut::contact {
 struct ContactReport {
     std::int64_t candidates = 0;  ///< pairs in the current list
     std::int64_t candidates_max = 0;
-    std::int64_t active_pairs = 0;  ///< pairs active in the last step
+    std::int64_t active_pairs = 0;  ///< pairs active in the last step; here and below a part of a step counts as one
     std::int64_t active_pairs_max = 0;
     std::int64_t events = 0;            ///< openings, closings and changes of overlap inside steps, all steps
     std::int64_t rebuilds = 0;          ///< candidate lists made

@@ -1,5 +1,7 @@
 #include "abut/dynamics/bilbao.hpp"
 
+#include <stdexcept>
+
 #include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics::detail {

@@ -1,8 +1,6 @@
 #pragma once
 #include <cmath>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -26,6 +24,9 @@ namespace detail {
 template <System S>
 class Bilbao : public Integrator<Bilbao<S>, S> {
 public:
+    static constexpr bool has_half_steps = true;
+    static constexpr bool takes_after_step = false;
+
     /// Starts from q and p at the same time. The gauge c [J] keeps V + c positive: a scene with free flight needs c > 0. The
     /// system must outlive the integrator. Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a
     /// value is not finite or V depends on time; std::runtime_error, also from `step`, where V + c is not > 0.
@@ -37,7 +38,8 @@ public:
     }
 
     [[nodiscard]] double gauge() const { return gauge_; }
-    /// psi - sqrt(2 (V + c)) half a step before the present node [J^(1/2)]: the hidden error of the scheme.
+    /// psi - sqrt(2 (V + c)) half a step before the present node [J^(1/2)]: the hidden error of the scheme. Evaluates V
+    /// there, as a restart does: a solid with contact needs a skin that reaches so far.
     [[nodiscard]] double gauge_defect() { return psi_before_ - psi_of(half_step_before()); }
 
 private:
@@ -73,7 +75,7 @@ private:
     }
     [[nodiscard]] double psi_of(std::span<const double> q) {
         const double potential = this->system_.potential(q);
-        if (potential + gauge_ <= 0.0) detail::refuse_gauge(potential, gauge_);
+        if (!(potential + gauge_ > 0.0)) detail::refuse_gauge(potential, gauge_);
         return std::sqrt(2.0 * (potential + gauge_));
     }
     [[nodiscard]] double conserved_energy(double) const {

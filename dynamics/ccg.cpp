@@ -15,7 +15,6 @@
 namespace abut::dynamics {
 namespace {
 
-/// The largest stretch of a vector.
 template <int Dim>
 std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());

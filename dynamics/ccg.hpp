@@ -29,7 +29,7 @@ struct FaceCorrections {
 template <int Dim>
 struct Region {
     std::vector<std::int32_t> faces;         ///< boundary faces whose û and y are wanted, as places in Mesh::boundary_faces
-    std::vector<std::int32_t> cells;         ///< cells whose force is wanted
+    std::vector<std::int32_t> cells;         ///< cells whose force is wanted, increasing
     std::vector<std::int32_t> loaded_cells;  ///< all below: what is evaluated on the way, increasing
     std::vector<std::int32_t> reconstructed;
     std::vector<std::int32_t> reconstructed_boundary;
@@ -39,7 +39,8 @@ struct Region {
     struct Offsets {  // into the lists
         std::int32_t face, cell, reconstructed, reconstructed_boundary, gradient_cell, stress_cell, force_face;
     };
-    std::vector<Offsets> chunks;  ///< where each chunk of the mesh begins, one more at the end; of `region_of_cells` alone
+    /// Of `region_of_cells`: where each chunk of the mesh begins, one more at the end; two for a small region as a whole.
+    std::vector<Offsets> chunks;
 };
 
 /// Cell-centred Galerkin operators of a mesh, without a matrix. docs/method.md, Space.
@@ -88,7 +89,7 @@ public:
 
     /// What `evaluate_faces` needs for these boundary faces (places in Mesh::boundary_faces).
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const std::int32_t> faces) const;
-    /// What `evaluate_cells` needs for these cells.
+    /// What `evaluate_cells` needs for these cells, increasing.
     [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
     /// û and y - |f| t of the region's faces, without contact.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,

@@ -10,6 +10,9 @@ namespace {
 /// Cells a chunk: its work arrays fit the second-level cache several times.
 inline constexpr std::int32_t chunk_size = 512;
 
+/// Cells of a region that are worth the schedule of the whole mesh.
+inline constexpr std::size_t one_chunk = 1024;
+
 /// Elements of a region that are worth a task of their own.
 inline constexpr std::ptrdiff_t region_grain = 256;
 
@@ -344,12 +347,21 @@ void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const V
                                     std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
-    schedule_.run([&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); });
+    const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); };
+    if (region.chunks.size() == chunks_.size()) return schedule_.run(task);
+    for (int stage = 0; stage < n_stages; ++stage) task(stage, 0);
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
     region.chunks.clear();
+    if (region.cells.size() < one_chunk) {  // all in one: it costs no more than its cells
+        const auto n = [](const auto& list) { return static_cast<std::int32_t>(list.size()); };
+        region.chunks = {{},
+                         {n(region.faces), n(region.cells), n(region.reconstructed), n(region.reconstructed_boundary),
+                          n(region.gradient_cells), n(region.stress_cells), n(region.force_faces)}};
+        return;
+    }
     for (const Chunk& chunk : chunks_) {
         const auto place = [](const std::vector<std::int32_t>& list, std::int32_t first) {
             return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());

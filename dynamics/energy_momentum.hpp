@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -23,9 +24,12 @@ namespace abut::dynamics {
 template <StiffnessSystem S>
 requires(!FollowedSystem<S>) class EnergyMomentum : public Integrator<EnergyMomentum<S>, S> {
 public:
+    static constexpr bool has_half_steps = false;
+    static constexpr bool takes_after_step = false;
+
     /// Starts from q and p at the same time. The system must outlive the integrator. Throws std::invalid_argument if dt is
     /// not > 0 and finite, the sizes disagree, a value is not finite, or the system does not allow this mean. `step` throws
-    /// std::runtime_error if Newton's method does not converge, and leaves the state as it was.
+    /// std::runtime_error if Newton's method does not converge; q and p are then those before it.
     EnergyMomentum(S& system, std::vector<double> q, std::span<const double> p, double dt, PathMean mean = PathMean::system)
         : Integrator<EnergyMomentum, S>(system, std::move(q), dt),
           mean_force_(system, mean),
@@ -36,7 +40,6 @@ public:
 
     /// Of all steps so far.
     [[nodiscard]] std::int64_t newton_iterations() const { return iterations_; }
-    void parasitic_momentum(std::span<double> e) const { std::fill(e.begin(), e.end(), 0.0); }
 
 private:
     friend Integrator<EnergyMomentum, S>;
@@ -68,7 +71,7 @@ private:
             const double size = std::max(largest(q_0), largest(q_1));
             const double change = largest(change_) / (size > 0.0 ? size : 1.0);
             if (change == 0.0 || (change < first_convergence && change > 0.1 * last)) break;
-            if (!(i < most_iterations) || !std::isfinite(change)) detail::refuse_newton(i + 1, change, dt);
+            if (i + 1 == most_iterations || !std::isfinite(change)) detail::refuse_newton(i + 1, change, dt);
             last = change;
         }
         mean_force_(q_0, q_1, this->time_, dt, this->force_);
@@ -89,9 +92,9 @@ private:
     }
 
     static double largest(std::span<const double> values) {
-        double size = 0.0;
+        double size = 0.0;  // NaN stays
         for (const double value : values)
-            if (!(std::abs(value) <= size)) size = std::abs(value);
+            if (!std::isnan(size) && !(std::abs(value) <= size)) size = std::abs(value);
         return size;
     }
     [[nodiscard]] double conserved_energy(double potential) const { return this->staggered_kinetic_energy() + potential; }

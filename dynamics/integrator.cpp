@@ -1,5 +1,6 @@
 #include "abut/dynamics/integrator.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>

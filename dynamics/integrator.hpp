@@ -12,9 +12,9 @@ namespace abut::dynamics {
 
 /// What a new time step does to the half-step momenta. docs/integrators.md, Variable steps.
 enum class StepChange {
-    /// They stay: what the scheme conserves stays exact, but they are then not centred about their node. Only for slow and
-    /// smooth changes: alternating or irregular steps solve another equation, and in MEMM they feed the parasitic mode,
-    /// which then grows exponentially at any size of step, and H~ does not notice.
+    /// They stay: what the scheme conserves stays exact, but they are then not centred about their node. With MEMM, and with
+    /// local steps, only for slow and smooth changes: alternating or irregular steps solve another equation and feed the
+    /// parasitic mode, which then grows exponentially at any size of step, and H~ does not notice.
     keep,
     restart,  ///< they are made anew from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
 };
@@ -31,14 +31,17 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     void start(span p)                  sets p_before_ and p_after_ (and what else it keeps) from p^n at q_, for dt_
 ///     void advance()                      from q_ at time_ to the next node
 ///     double conserved_energy(double V)   the energy that it conserves, V being V(q_) [J]
-/// Calls to it are resolved when it is compiled.
+///     has_half_steps, takes_after_step    whether its momenta are at half steps; whether `set_after_step` is offered
+/// Calls to it are resolved when it is compiled. After an exception from `step` other than of its arguments a run is over,
+/// unless the scheme says more.
 template <class Scheme, System S>
 class Integrator {
 public:
     /// Called at the end of each step with p^{n+1/2} and p^{n+3/2} at q^{n+1}; may change the latter (a filter).
     using AfterStep = std::function<void(std::span<const double> q, double dt, std::span<const double> p_before,
                                          std::span<double> p_after)>;
-    void set_after_step(AfterStep after_step) { after_step_ = std::move(after_step); }
+    /// For schemes that take such a change as it is: of others what they keep besides would no longer fit.
+    void set_after_step(AfterStep after_step) requires(Scheme::takes_after_step) { after_step_ = std::move(after_step); }
 
     /// One step of the present dt.
     void step() {
@@ -92,6 +95,7 @@ public:
     /// e^n = p^{n+1/2} - p^{n-1/2} - dt F(q^n) [N s]: the alternating mode that a two-step scheme may carry undamped. Zero
     /// for schemes without half-step momenta.
     void parasitic_momentum(std::span<double> e) {
+        if constexpr (!Scheme::has_half_steps) return std::fill(e.begin(), e.end(), 0.0);
         system_.force(q_, e);
         add_scaled(p_after_, -1.0, p_before_, scratch_);
         for (std::size_t i = 0; i < q_.size(); ++i) e[i] = scratch_[i] - step_of(i) * e[i];

@@ -17,6 +17,9 @@ namespace abut::dynamics {
 template <System S>
 class Leapfrog : public Integrator<Leapfrog<S>, S> {
 public:
+    static constexpr bool has_half_steps = true;
+    static constexpr bool takes_after_step = true;
+
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
     /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree or a value is not finite.
     Leapfrog(S& system, std::vector<double> q, std::span<const double> p, double dt)

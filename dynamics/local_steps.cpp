@@ -76,6 +76,10 @@ std::vector<double> make_stable(Solid<Dim>& solid, double finest_step, Levels& l
         const HighestMode mode = highest_mode(
             solid, {.least = level_iterations, .enough = std::pow(allowed / lower_bound_margin, 2), .mask = mask});
         const double omega = lower_bound_margin * std::sqrt(mode.quotient);
+        if (!(mode.quotient > 0.0) || (omega <= allowed && !(mode.change <= settled_change)))
+            throw std::runtime_error("local steps: the power iteration of level " + std::to_string(l) +
+                                     " has not settled after " + std::to_string(mode.iterations) +
+                                     " iterations. Check the mesh for slivers and the material for extreme values.");
         if (omega <= allowed) {
             omega_max.push_back(omega);
             ++l;
@@ -91,7 +95,7 @@ std::vector<double> make_stable(Solid<Dim>& solid, double finest_step, Levels& l
     return omega_max;
 }
 
-/// Cells on which displacement or force of a face that contact may reach depend.
+/// Cells of the faces that contact may reach, and those that their displacement depends on.
 template <int Dim>
 std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
     std::vector<std::int32_t> faces;

@@ -24,7 +24,8 @@ struct SolidLocalSteps {
 /// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with
 /// M^-1 K. The power iteration then proves each level (and all that are coarser) stable with its step; cells that carry an
 /// unstable mode go to the next finer level, until none is left. Without a margin for cells that contact may reach, contact
-/// between cells of different steps can feed the parasitic mode. Throws std::invalid_argument for options out of range.
+/// between cells of different steps can feed the parasitic mode. Throws std::invalid_argument for options out of range,
+/// std::runtime_error if the iteration does not settle.
 template <int Dim>
 [[nodiscard]] SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const LocalStepOptions& options = {});
 

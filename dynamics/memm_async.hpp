@@ -33,6 +33,9 @@ template <LocalSystem S>
 requires std::convertible_to<decltype(std::declval<S&>().inverse_mass()), std::span<const double>>
 class MemmAsync : public Integrator<MemmAsync<S>, S> {
 public:
+    static constexpr bool has_half_steps = true;
+    static constexpr bool takes_after_step = false;
+
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt_i/2 F(q). The system must outlive the integrator.
     /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local steps
     /// do not fit.
@@ -80,9 +83,9 @@ private:
         return k % (steps_.parts.back() / steps_.parts[level]) == 0;
     }
     void reach_node(std::size_t level) {
-        const double dt = step_of_level(level);
+        const double flown = elapsed_[level] + step_of_level(dofs_.size() - 1);  // as FreeFlight::at has it, to the last bit
         for (const std::size_t i : dofs_[level]) {
-            this->q_[i] += dt * velocity_[i];
+            this->q_[i] += flown * velocity_[i];
             const double p = this->p_before_[i] + 2.0 * impulse_[i];
             this->p_before_[i] = this->p_after_[i];
             this->p_after_[i] = p;

@@ -4,6 +4,7 @@
 #include <Eigen/SparseLU>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "abut/geometry/messages.hpp"
 

@@ -38,12 +38,12 @@ struct LineSpring {
         if (one_sided && r[0] >= 0.0) return Matrix<1>::Zero();
         return Matrix<1>(stiffness + 3.0 * quartic * r[0] * r[0]);
     }
+
+private:
     /// Whether the formula of the tension changes on the way.
     [[nodiscard]] bool begins_or_ends(const Vector<1>& r_0, const Vector<1>& r_1) const {
         return one_sided && (r_0[0] < 0.0) != (r_1[0] < 0.0);
     }
-
-private:
     [[nodiscard]] double acting(double x) const { return one_sided ? std::min(x, 0.0) : x; }
 };
 
@@ -69,7 +69,6 @@ struct StringSegment {
         const Vector<2> n = r / distance;
         return stiffness * ((1.0 - length / distance) * Matrix<2>::Identity() + (length / distance) * n * n.transpose());
     }
-    [[nodiscard]] bool begins_or_ends(const Vector<2>&, const Vector<2>&) const { return false; }
 };
 
 /// Two particles and what acts between them; a bond to `fixed` holds a particle to where it began.
@@ -115,11 +114,7 @@ public:
         evaluate(force, [&](const Bond<Law>& bond) { return bond.law.tension(way(bond, q)); });
     }
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> force) {
-        evaluate(force, [&](const Bond<Law>& bond) {
-            const V r_0 = way(bond, q_0), r_1 = way(bond, q_1);
-            events_ += bond.law.begins_or_ends(r_0, r_1) ? 1 : 0;
-            return bond.law.mean_tension(r_0, r_1);
-        });
+        evaluate(force, [&](const Bond<Law>& bond) { return bond.law.mean_tension(way(bond, q_0), way(bond, q_1)); });
     }
     [[nodiscard]] double potential(std::span<const double> q) const {
         double energy = 0.0;
@@ -140,11 +135,16 @@ public:
         }
     }
 
-    /// A bond goes with the higher level of its two particles. Levels of degrees of freedom; those of one particle agree.
+    /// A bond goes with the higher level of its two particles. Levels of degrees of freedom: throws std::invalid_argument if
+    /// those of a particle disagree.
     void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
         const auto level_of = [&](std::int32_t particle) {
             return particle == Bond<Law>::fixed ? 0 : level[particle * dim];
         };
+        for (std::size_t i = 0; i < level.size(); ++i)
+            if (level[i] != level[i - i % dim])
+                throw std::invalid_argument("particles: the components of particle " + std::to_string(i / dim) +
+                                            " are on different levels. A particle takes its steps as a whole.");
         by_level_.assign(static_cast<std::size_t>(n_levels), {});
         for (std::int32_t b = 0; b < static_cast<std::int32_t>(bonds_.size()); ++b)
             by_level_[std::max(level_of(bonds_[b].first), level_of(bonds_[b].second))].push_back(b);
@@ -155,7 +155,6 @@ public:
             const Bond<Law>& bond = bonds_[b];
             const V r_0 = difference(bond, [&](std::size_t i) { return flight.at(i, 0.0); }) + bond.offset;
             const V r_1 = r_0 + dt * difference(bond, [&](std::size_t i) { return flight.v[i]; });
-            events_ += bond.law.begins_or_ends(r_0, r_1) ? 1 : 0;
             add(bond, dt * bond.law.mean_tension(r_0, r_1), impulse);
         }
         evaluations_ += static_cast<std::int64_t>(by_level_[level].size());
@@ -165,8 +164,6 @@ public:
 
     /// Bonds evaluated so far, for forces and means.
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
-    /// One-sided bonds that have begun or ended to act, counted along the ways of mean forces.
-    [[nodiscard]] std::int64_t events() const { return events_; }
 
 private:
     /// q_second - q_first, q being a function of the degree of freedom.
@@ -210,7 +207,6 @@ private:
     std::vector<std::int32_t> level_;
     std::vector<std::vector<std::int32_t>> by_level_;
     std::int64_t evaluations_ = 0;
-    std::int64_t events_ = 0;
 };
 
 }  // namespace abut::dynamics

@@ -214,6 +214,9 @@ bool Solid<Dim>::is_autonomous() const {
 
 template <int Dim>
 void Solid<Dim>::require_start(double time, double dt) const {
+    if (unfinished_)
+        throw std::logic_error(
+            "solid: the last step ended with an error, and its loads and work are half done: make a Solid for every run.");
     if (!(std::abs(time - time_) <= same_time * dt) && (contact_ || ccg_.load_varies()))
         throw std::logic_error("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
                                exact_number(time_) +
@@ -227,6 +230,11 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
                                     ": a boundary condition has a history, and local time steps do not follow it. Take one "
                                     "step for all cells.");
     const std::int32_t n_cells = mesh_.n_cells();
+    for (std::size_t i = 0; i < level.size(); ++i)
+        if (level[i] != level[i - i % Dim])
+            throw std::invalid_argument(mesh_.name + ": the components of cell " +
+                                        std::to_string(mesh_.cell_label[i / Dim]) +
+                                        " are on different levels. A cell takes its steps as a whole.");
     std::vector<std::int32_t> evaluated(static_cast<std::size_t>(n_cells), 0);  // level of each cell's force
     for (std::int32_t l = 1; l < n_levels; ++l) {
         std::vector<std::int32_t> as_fine;
@@ -254,6 +262,10 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
 template <int Dim>
 void Solid<Dim>::add_impulse(std::int32_t level, const FreeFlight& flight, double time, double dt,
                              std::span<double> impulse) {
+    if (level == 0) {
+        local_step_ = dt;
+        mean_obstacle_force_.assign(options_.obstacles.size(), Vector<Dim>::Zero());
+    }
     add_bulk_impulse(level, flight, dt, as_vectors<Dim>(impulse));
     if (static_cast<std::size_t>(level) + 1 < level_regions_.size()) return;
     require_start(time, dt);
@@ -266,6 +278,7 @@ template <int Dim>
 void Solid<Dim>::add_bulk_impulse(std::int32_t level, const FreeFlight& flight, double dt, std::span<Vector<Dim>> impulse) {
     const Stopwatch watch(times_.bulk);
     const Region<Dim>& region = level_regions_[level];
+    if (region.cells.empty()) return;
     place<Dim>(flight, 0.5 * dt, region.loaded_cells, moved_);
     ccg_.evaluate_cells(region, moved_, load_, {}, gradient_);
     const bool loaded = !body_force_.empty();
@@ -283,6 +296,8 @@ void Solid<Dim>::add_contact_impulse(const FreeFlight& flight, double time, doub
     follow_flight(flight, time, dt);
     integrate_contact();
     add_obstacle_work(1.0);
+    for (std::size_t i = 0; i < obstacle_force_.size(); ++i)
+        mean_obstacle_force_[i] += (dt / local_step_) * obstacle_force_[i];
     if (active_pairs_.empty()) return;
     const Stopwatch watch(times_.contact);
     for (const std::int32_t c : contact_region_.loaded_cells) moved_[c].setZero();
@@ -294,7 +309,8 @@ void Solid<Dim>::add_contact_impulse(const FreeFlight& flight, double time, doub
 template <int Dim>
 void Solid<Dim>::follow_flight(const FreeFlight& flight, double time, double dt) {
     place<Dim>(flight, dt, surface_cells_, moved_);
-    if (has_stepped_ && list_reaches(moved_, time + dt)) {
+    const bool reaches = list_reaches(moved_, time + dt);
+    if (reaches && has_stepped_) {
         place<Dim>(flight, dt, region_.loaded_cells, moved_);
         return move_faces(moved_, time + dt);
     }
@@ -312,6 +328,7 @@ void Solid<Dim>::end_step(double time) {
     std::swap(y_0_, y_1_);
     time_ = time;
     has_stepped_ = true;
+    unfinished_ = false;
 }
 
 /// Tractions are constant within a step: where one changes, the jump of the potential is work from outside.
@@ -326,6 +343,7 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
         if (contact_) evaluate_faces(q_0, load_, time, u_0_, y_0_);
         work_ += potential(q) - before;
     }
+    unfinished_ = true;
     load_start_ = load_;
     load_ = ccg_.load_at(time + dt, time);
 }
@@ -496,7 +514,7 @@ void Solid<Dim>::add_obstacle_work(double share) {
 
 template <int Dim>
 Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const {
-    return obstacle_force_.at(obstacle);
+    return level_regions_.empty() ? obstacle_force_.at(obstacle) : mean_obstacle_force_.at(obstacle);
 }
 
 template <int Dim>

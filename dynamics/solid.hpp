@@ -25,7 +25,7 @@ struct SolidOptions {
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
 };
 
-/// Where the time of all calls of `Solid::mean_force` went [s].
+/// Where the time of all steps of a Solid went [s].
 struct SolidTimes {
     double bulk = 0.0;
     double contact = 0.0;
@@ -59,20 +59,21 @@ public:
     /// run has diverged or a pair is pressed in deeper than `compression_limit`.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force);
-    /// F(q_1) after the straight way from q_0: for schemes that take no mean. Loads, candidates and admission follow the step as
-    /// in `mean_force`; contacts that open and close again inside it go unnoticed. Work from outside is taken by the
-    /// trapezoidal rule. Throws as `mean_force`.
+    /// F(q_1) after the straight way from q_0: for schemes that take no mean. Loads, candidates and admission follow the step
+    /// as in `mean_force`: tractions are those at its start. Contacts that open and close again inside it go unnoticed. Work
+    /// from outside is taken by the trapezoidal rule. Throws as `mean_force`.
     void end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                    std::span<double> force);
     /// Whether V depends on q alone: no condition has a history and no obstacle a path.
     [[nodiscard]] bool is_autonomous() const;
     /// Local time steps: each cell on the level of its degrees of freedom, with their force evaluated as often as the finest
-    /// level among the cells that it depends on. Throws std::invalid_argument if a boundary condition has a history.
+    /// level among the cells that it depends on. Throws std::invalid_argument if a boundary condition has a history or the
+    /// components of a cell disagree.
     void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level);
-    /// Adds to the impulse [N s] what acts during dt on the cells whose force is evaluated at this level. Contact, with its events, belongs to the finest level, whose calls lead the run as those
-    /// of `mean_force` do. Throws as `mean_force`.
+    /// Adds to the impulse [N s] what acts during dt on the cells whose force is evaluated at this level. Contact, with its
+    /// events, belongs to the finest level, whose calls lead the run as those of `mean_force` do. Throws as `mean_force`.
     void add_impulse(std::int32_t level, const FreeFlight& flight, double time, double dt, std::span<double> impulse);
-    /// Forces of cells that the steps have evaluated so far.
+    /// Forces of cells that the steps have evaluated in the bulk so far.
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
 
     /// Elastic and stabilisation energy of the state with its contact corrections, less the work of the loads [J].
@@ -96,7 +97,7 @@ public:
     };
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
 
-    /// Mean force of the last step on an obstacle, after `end_force` that at its end [N].
+    /// Mean force of the last step on an obstacle, after `end_force` that at its end [N]. With local steps: of the common step.
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
@@ -144,8 +145,9 @@ private:
     std::vector<double> inverse_mass_;
     std::vector<Vector<Dim>> body_force_;  // by cell; empty without loads
     double work_ = 0.0;
-    double time_ = 0.0;  // of the last state that `mean_force` ended in
+    double time_ = 0.0;  // of the state that the last step ended in
     bool has_stepped_ = false;
+    bool unfinished_ = false;       // a step with loads that vary has begun and not ended
     BoundaryLoad<Dim> load_;        // at that state
     BoundaryLoad<Dim> load_start_;  // at the start of the current step
 
@@ -169,11 +171,13 @@ private:
     Region<Dim> patch_region_;
     std::vector<Region<Dim>> level_regions_;  // cells evaluated at each level; empty: no local steps
     // Of local steps.
-    Region<Dim> contact_region_;               // cells that feel the faces in the candidate list
-    std::vector<std::int32_t> surface_cells_;  // cells that some boundary face depends on
-    std::vector<Vector<Dim>> start_;           // work arrays: all cells at the start of a part of a step,
-    std::vector<Vector<Dim>> moved_;           // those that are looked at, at another time of it,
-    std::vector<Vector<Dim>> gradient_;        // and those of a region
+    Region<Dim> contact_region_;                    // cells that feel the faces in the candidate list
+    std::vector<std::int32_t> surface_cells_;       // cells that some boundary face depends on
+    std::vector<Vector<Dim>> start_;                // work arrays: all cells at the start of a part of a step,
+    std::vector<Vector<Dim>> moved_;                // those that are looked at, at another time of it,
+    std::vector<Vector<Dim>> gradient_;             // and those of a region
+    std::vector<Vector<Dim>> mean_obstacle_force_;  // of the common step so far,
+    double local_step_ = 0.0;                       // which is that long
     std::int64_t evaluations_ = 0;
     SolidTimes times_;
 };

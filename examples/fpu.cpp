@@ -9,8 +9,10 @@
 // its frequency: exchange needs resonance and all but stops at dt = 0.01.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "abut/dynamics/particles.hpp"
 #include "support/choices.hpp"

@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double fast_speed = 10.0, slow_speed = 1.0;  // [m/s]
 constexpr double interface = 0.5;                      // [m]
-constexpr double longest = 0.5;                        // [s], the front reaches x = 1 soon after
+constexpr int most_refinements = 20;
+constexpr double longest = 0.5;  // [s], the front reaches x = 1 soon after
 
 const Program program{.name = "slow_fast_wave",
                       .purpose = "Wave in a fast and a slow medium: local steps against fine ones everywhere.",
@@ -231,6 +232,9 @@ Picture picture(const std::vector<SchemeRun>& runs, double time) {
 
 void check(const WaveOptions& options) {
     check(options.schemes);
+    if (options.refinements > most_refinements)
+        throw std::invalid_argument(
+            fmt::format("--refinements: {}, at most {} are allowed. Take fewer.", options.refinements, most_refinements));
     const int coarsest = options.cells >> options.refinements;
     if (options.cells % 2 != 0 || coarsest % 2 != 0 || coarsest < 4 || coarsest << options.refinements != options.cells)
         throw std::invalid_argument(fmt::format(

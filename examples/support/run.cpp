@@ -120,7 +120,7 @@ private:
 template <int Dim>
 double gauge(const Scene<Dim>& scene, const RunOptions& options, const Start<Dim>& start) {
     if (!std::isnan(options.gauge)) return options.gauge;
-    if (scene.energy_scale.value > 0.0) return scene.energy_scale.value;
+    if (scene.energy_scale.value > 0.0) return 2.0 * scene.energy_scale.value;  // V may sink by that scale
     return 0.5 * dynamics::mass_product(start.momentum, start.solid.inverse_mass(), start.momentum);
 }
 
@@ -136,9 +136,10 @@ public:
           filter_(solid_),
           integrator_(std::move(integrator)),
           times_of_setup_(solid_.times()) {
-        if (options.filter)
-            integrator_.set_after_step(
-                [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+        if constexpr (Integrator::takes_after_step)
+            if (options.filter)
+                integrator_.set_after_step(
+                    [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
     }
 
     void run(const std::string& series) {
@@ -296,8 +297,9 @@ void log_start(const Scene<Dim>& scene, const RunResult<Dim>& result) {
 template <int Dim>
 void log_end(const RunResult<Dim>& result) {
     if (result.contact.compressed_steps > 0)
-        spdlog::warn("strongly compressed in {} of {} steps, at most {:.2g} of the skin D", result.contact.compressed_steps,
-                     result.steps, result.contact.compression_max);
+        spdlog::warn("strongly compressed in {} of {:.0f} steps, at most {:.2g} of the skin D",
+                     result.contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
+                     result.contact.compression_max);
     if (result.not_admitted_max > 0)
         spdlog::info("up to {} pairs of faces overlap without being contacts: far sides of bodies", result.not_admitted_max);
     if (result.contact.lost_contacts > 0)

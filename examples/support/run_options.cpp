@@ -64,7 +64,8 @@ void add_time_options(CLI::App& app, RunOptions& options, const std::string& def
     add_count(app, "--contact-levels", options.contact_levels,
               "of memm_async: how often the steps of cells in contact are halved beyond the shortest of the others", 0)
         ->group("Time");
-    add_number(app, "--gauge", options.gauge, "c of the Bilbao scheme; by default the energy at the start",
+    add_number(app, "--gauge", options.gauge,
+               "c of the Bilbao scheme; by default the energy at the start, from rest twice that of the fall",
                {.unit = "J", .above = 0.0})
         ->group("Time");
     add_choice(app, "--filter", options.filter, "energy-neutral filter of the parasitic mode, after each step in contact",

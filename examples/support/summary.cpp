@@ -195,8 +195,9 @@ Json summary(const Program& program, const Scene<Dim>& scene, const RunOptions& 
 
 template <int Dim>
 void print_table(const Program& program, const Scene<Dim>& scene, const RunOptions& options, const RunResult<Dim>& result) {
-    fmt::print("{}: {} cells, {} steps of {:.4g} s ({:.3g} of the stable step)\n", program.name, scene.mesh.n_cells(),
-               result.steps, result.dt, result.finest_dt / result.stable.dt);
+    fmt::print("{}: {} cells, {} steps of {:.4g} s, {}{:.3g} of the stable step\n", program.name, scene.mesh.n_cells(),
+               result.steps, result.dt, result.level_cells.empty() ? "" : "the finest ",
+               result.finest_dt / result.stable.dt);
     if (!result.level_cells.empty())
         print_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
     print_energies(result);
