@@ -94,7 +94,7 @@ public:
     [[nodiscard]] double pseudo_energy_drift() const { return pseudo_energy_drift_; }
     /// max |H - H0 - work| [J]: the true error
     [[nodiscard]] double energy_drift() const { return energy_drift_; }
-    /// max (H - H~) [J]
+    /// max (H - H~), H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double energy_excess() const { return energy_excess_; }
     [[nodiscard]] double parasitic() const { return parasitic_; }
     [[nodiscard]] double momentum_drift() const { return momentum_drift_; }

@@ -37,8 +37,8 @@ public:
     static constexpr bool takes_after_step = false;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt_i/2 F(q). The system must outlive the integrator.
-    /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local steps
-    /// do not fit.
+    /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local
+    /// steps do not fit. After an error in `step` q and p are of different times: the run is over.
     MemmAsync(S& system, std::vector<double> q, std::span<const double> p, double dt, LocalSteps steps)
         : Integrator<MemmAsync, S>(system, std::move(q), dt), steps_(std::move(steps)) {
         detail::check_local_steps(steps_, system.size());

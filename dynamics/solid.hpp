@@ -56,12 +56,13 @@ public:
     void force(std::span<const double> q, std::span<double> force);
     /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way (docs/method.md, Time).
     /// Throws std::logic_error where the step should begin when the last one ended but does not, std::runtime_error when the
-    /// run has diverged or a pair is pressed in deeper than `compression_limit`.
+    /// run has diverged or a pair is pressed in deeper than `compression_limit`. After such an error a run with loads that
+    /// vary is over; another may try a shorter step.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force);
-    /// F(q_1) after the straight way from q_0: for schemes that take no mean. Loads, candidates and admission follow the step
-    /// as in `mean_force`: tractions are those at its start. Contacts that open and close again inside it go unnoticed. Work
-    /// from outside is taken by the trapezoidal rule. Throws as `mean_force`.
+    /// F(q_1) after the straight way from q_0: for schemes that take no mean. Loads, candidates and admission follow the
+    /// step as in `mean_force`: tractions are those at its start. Contacts that open and close again inside it go unnoticed.
+    /// Work from outside is taken by the trapezoidal rule. Throws as `mean_force`.
     void end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                    std::span<double> force);
     /// Whether V depends on q alone: no condition has a history and no obstacle a path.
@@ -97,7 +98,8 @@ public:
     };
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
 
-    /// Mean force of the last step on an obstacle, after `end_force` that at its end [N]. With local steps: of the common step.
+    /// Mean force of the last step on an obstacle, with local steps of the common one; after `end_force` that at its end
+    /// [N].
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }

@@ -82,7 +82,8 @@ bool touches(double q) { return q + height < 0.0; }
 
 /// Takes the alternating mode of MEMM out of the masses next to the wall without touching H~. docs/method.md, Time:
 ///     p^{n+3/2} -= e - alpha M v,   alpha = v . e / (v . M v)
-/// over the patch; v = M^-1 p^{n+1/2}, e is the parasitic momentum. The patch rests on the wall, so that rigid parts stay in e and v. Of one mass it would take nothing.
+/// over the patch; v = M^-1 p^{n+1/2}, e is the parasitic momentum. The patch rests on the wall, so that rigid parts stay in
+/// e and v. Of one mass it would take nothing.
 class PatchFilter {
 public:
     PatchFilter(Chain& chain, int masses) : chain_(chain), masses_(static_cast<std::size_t>(masses)), e_(chain.size()) {}

@@ -16,7 +16,7 @@ Outcome bar(const std::string& arguments, const std::string& folder) {
     return run_well("bouncing_bar", arguments, folder, "PATH=/nowhere");
 }
 
-// What a prototype of the method note gave for the single impact under MEMM; the pressure is that of the middle 80 %.
+// What a prototype in another language gave for the single impact under MEMM; the pressure is that of the middle 80 %.
 struct Reference {
     int cells;
     double pressure, rms;  // [Pa]
@@ -29,7 +29,7 @@ const std::vector<Reference> references = {{100, 299.9, 13.1, 1.1717, 9.882, 1.0
 
 }  // namespace
 
-TEST_CASE("the chain that hits a wall once does so as the method note says", "[examples]") {
+TEST_CASE("the chain that hits a wall once does so as a prototype in another language found", "[examples]") {
     const Reference& reference = GENERATE(from_range(references));
     const auto outcome = bar(fmt::format("--gravity 0 --integrator memm --cells {}", reference.cells), "bar_impact");
     const auto of = [&](const char* name) { return figure(outcome, "memm", name); };

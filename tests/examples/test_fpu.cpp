@@ -17,7 +17,7 @@ Outcome fpu(const std::string& arguments, const std::string& folder) {
     return run_well("fpu", arguments, folder, "PATH=/nowhere");
 }
 
-// What a prototype of the method note gave over T = 200, relative to H0.
+// What a prototype in another language gave over T = 200, relative to H0.
 struct Reference {
     const char* dt;
     double leapfrog;    // max |H - H0|
@@ -32,7 +32,7 @@ constexpr double digits = 0.02;
 
 }  // namespace
 
-TEST_CASE("the energies of the Fermi-Pasta-Ulam chain err as the method note says", "[examples]") {
+TEST_CASE("the energies of the Fermi-Pasta-Ulam chain err as a prototype in another language found", "[examples]") {
     const Reference& reference = GENERATE(from_range(references));
     const std::string dt = fmt::format("--dt {} --integrator ", reference.dt);
     CAPTURE(reference.dt);
