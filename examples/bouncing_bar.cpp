@@ -286,8 +286,9 @@ SchemeRun run_scheme(Scheme scheme, const BarOptions& options, const Start& star
     Chain bar = chain(options);
     Impacts impacts(options.gravity);
     const bool filtered = options.filter && scheme == Scheme::memm;
-    return follow(scheme, bar, start, options.schemes, schedule, impacts, [&](auto& integrator) {
-        if (filtered) integrator.set_after_step(PatchFilter(bar, options.patch));
+    return follow(scheme, bar, start, options.schemes, schedule, impacts, [&]<class Integrator>(Integrator& integrator) {
+        if constexpr (Integrator::takes_after_step)
+            if (filtered) integrator.set_after_step(PatchFilter(bar, options.patch));
     });
 }
 
