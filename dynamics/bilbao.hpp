@@ -37,7 +37,6 @@ public:
         this->begin(p);
     }
 
-    [[nodiscard]] double gauge() const { return gauge_; }
     /// psi - sqrt(2 (V + c)) half a step before the present node [J^(1/2)]: the hidden error of the scheme. Evaluates V
     /// there, as a restart does: a solid with contact needs a skin that reaches so far.
     [[nodiscard]] double gauge_defect() { return psi_before_ - psi_of(half_step_before()); }

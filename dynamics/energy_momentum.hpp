@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -38,9 +37,6 @@ public:
         this->begin(p);
     }
 
-    /// Of all steps so far.
-    [[nodiscard]] std::int64_t newton_iterations() const { return iterations_; }
-
 private:
     friend Integrator<EnergyMomentum, S>;
     static constexpr int most_iterations = 50;
@@ -52,32 +48,39 @@ private:
     }
 
     void advance() {
-        const std::span<const double> q_0 = this->q_;
-        std::vector<double>& q_1 = this->q_next_;
-        const double dt = this->dt_;
-        add_scaled_velocity(q_0, dt, this->system_.inverse_mass(), this->p_after_, q_1);
+        add_scaled_velocity(this->q_, this->dt_, this->system_.inverse_mass(), this->p_after_, this->q_next_);
+        iterate();
+        mean_force_(this->q_, this->q_next_, this->time_, this->dt_, this->force_);
+        std::swap(this->q_, this->q_next_);
+        add_scaled(this->p_after_, this->dt_, this->force_, this->p_after_);
+        this->p_before_ = this->p_after_;
+    }
+
+    /// Newton's method for q^{n+1}, until it has converged and rounding stops it.
+    void iterate() {
         double last = std::numeric_limits<double>::infinity();
-        for (int i = 0;; ++i) {
-            // M (q_1 - q_0) - dt p_0 - dt^2/2 mean F = 0
-            mean_force_(q_0, q_1, this->time_, dt, this->force_);
-            add_scaled(q_1, -1.0, q_0, change_);
-            matrix_.multiply_mass(change_, residual_);
-            for (std::size_t k = 0; k < residual_.size(); ++k)
-                residual_[k] -= dt * (this->p_after_[k] + 0.5 * dt * this->force_[k]);
-            if (last > first_convergence) factorise(q_0, q_1);
-            matrix_.solve(residual_, change_);
-            add_scaled(q_1, -1.0, change_, q_1);
-            ++iterations_;
-            const double size = std::max(largest(q_0), largest(q_1));
-            const double change = largest(change_) / (size > 0.0 ? size : 1.0);
-            if (change == 0.0 || (change < first_convergence && change > 0.1 * last)) break;
-            if (i + 1 == most_iterations || !std::isfinite(change)) detail::refuse_newton(i + 1, change, dt);
+        for (int i = 1;; ++i) {
+            const double change = correct(last > first_convergence);
+            if (change == 0.0 || (change < first_convergence && change > 0.1 * last)) return;
+            if (i == most_iterations || !std::isfinite(change)) detail::refuse_newton(i, change, this->dt_);
             last = change;
         }
-        mean_force_(q_0, q_1, this->time_, dt, this->force_);
-        std::swap(this->q_, this->q_next_);
-        add_scaled(this->p_after_, dt, this->force_, this->p_after_);
-        this->p_before_ = this->p_after_;
+    }
+
+    /// One iteration for M (q^{n+1} - q^n) - dt p^n - dt^2/2 mean F = 0. The largest change of q over the largest |q|.
+    double correct(bool with_new_matrix) {
+        const double dt = this->dt_;
+        std::vector<double>& q_1 = this->q_next_;
+        mean_force_(this->q_, q_1, this->time_, dt, this->force_);
+        add_scaled(q_1, -1.0, this->q_, change_);
+        matrix_.multiply_mass(change_, residual_);
+        for (std::size_t k = 0; k < residual_.size(); ++k)
+            residual_[k] -= dt * (this->p_after_[k] + 0.5 * dt * this->force_[k]);
+        if (with_new_matrix) factorise(this->q_, q_1);
+        matrix_.solve(residual_, change_);
+        add_scaled(q_1, -1.0, change_, q_1);
+        const double size = std::max(largest(this->q_), largest(q_1));
+        return largest(change_) / (size > 0.0 ? size : 1.0);
     }
 
     /// dt^2/2 times the derivative of the mean force at the end of the way: - integral of tau K(q_0 + tau (q_1 - q_0)).
@@ -105,7 +108,6 @@ private:
     std::vector<double> residual_;
     std::vector<double> change_;
     std::vector<double> q_way_;
-    std::int64_t iterations_ = 0;
 };
 
 }  // namespace abut::dynamics

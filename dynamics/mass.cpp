@@ -1,36 +1,26 @@
 #include "abut/dynamics/mass.hpp"
 
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "abut/dynamics/parallel.hpp"
+#include "abut/dynamics/sparse.hpp"
 #include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<double>;
-using ConstMap = Eigen::Map<const Eigen::VectorXd>;
-
 inline constexpr double symmetry_tolerance = 1e-12;  // of the largest entry
 
-Sparse assembled(std::size_t n, std::span<const MatrixEntry> entries) {
-    std::vector<Eigen::Triplet<double>> triplets;
-    for (const auto& [row, column, value] : entries) {
-        const auto inside = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < n; };
+void check(std::size_t n, std::span<const MatrixEntry> mass) {
+    const auto inside = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < n; };
+    for (const auto& [row, column, value] : mass)
         if (!inside(row) || !inside(column) || !std::isfinite(value))
             throw std::invalid_argument("mass: entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is " +
                                         number(value) + "; a finite number within " + std::to_string(n) + " rows and " +
                                         "columns is allowed.");
-        triplets.emplace_back(row, column, value);
-    }
-    const auto size = static_cast<Eigen::Index>(n);
-    Sparse matrix(size, size);
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    return matrix;
 }
 
 double largest_entry(const Sparse& matrix) { return matrix.nonZeros() == 0 ? 0.0 : matrix.coeffs().abs().maxCoeff(); }
@@ -43,6 +33,7 @@ struct InverseMass::Impl {
 };
 
 InverseMass::InverseMass(std::size_t n, std::span<const MatrixEntry> mass) : impl_(std::make_unique<Impl>()) {
+    check(n, mass);
     impl_->matrix = assembled(n, mass);
     const double asymmetry = largest_entry(Sparse(impl_->matrix - Sparse(impl_->matrix.transpose())));
     if (asymmetry > symmetry_tolerance * largest_entry(impl_->matrix))
@@ -60,10 +51,7 @@ InverseMass& InverseMass::operator=(InverseMass&&) noexcept = default;
 
 std::size_t InverseMass::size() const { return static_cast<std::size_t>(impl_->matrix.rows()); }
 
-void InverseMass::apply(std::span<const double> p, std::span<double> v) const {
-    const auto n = static_cast<Eigen::Index>(p.size());
-    Eigen::Map<Eigen::VectorXd>(v.data(), n) = impl_->factors.solve(ConstMap(p.data(), n));
-}
+void InverseMass::apply(std::span<const double> p, std::span<double> v) const { dense(v) = impl_->factors.solve(dense(p)); }
 
 std::vector<MatrixEntry> InverseMass::mass() const {
     std::vector<MatrixEntry> entries;

@@ -51,7 +51,6 @@ public:
         this->begin(p);
     }
 
-    [[nodiscard]] const LocalSteps& local_steps() const { return steps_; }
     /// Of the degree of freedom i [s].
     [[nodiscard]] double local_step(std::size_t i) const { return step_of_level(steps_.level[i]); }
 

@@ -1,35 +1,13 @@
 #include "abut/dynamics/newton.hpp"
 
-#include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
+#include "abut/dynamics/sparse.hpp"
 #include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
-namespace {
-
-using Sparse = Eigen::SparseMatrix<double>;
-using ConstMap = Eigen::Map<const Eigen::VectorXd>;
-
-Sparse assembled(std::size_t n, std::span<const MatrixEntry> entries) {
-    std::vector<Eigen::Triplet<double>> triplets;
-    triplets.reserve(entries.size());
-    for (const auto& [row, column, value] : entries) triplets.emplace_back(row, column, value);
-    Sparse matrix(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    return matrix;
-}
-
-ConstMap vector(std::span<const double> values) { return {values.data(), static_cast<Eigen::Index>(values.size())}; }
-Eigen::Map<Eigen::VectorXd> vector(std::span<double> values) {
-    return {values.data(), static_cast<Eigen::Index>(values.size())};
-}
-
-}  // namespace
-
 struct NewtonMatrix::Impl {
     std::size_t n;
     Sparse mass;
@@ -53,12 +31,10 @@ void NewtonMatrix::factorise(std::span<const MatrixEntry> stiffness) {
                                  impl_->factors.lastErrorMessage() + "). Take a smaller time step.");
 }
 
-void NewtonMatrix::solve(std::span<const double> b, std::span<double> x) const {
-    vector(x) = impl_->factors.solve(vector(b));
-}
+void NewtonMatrix::solve(std::span<const double> b, std::span<double> x) const { dense(x) = impl_->factors.solve(dense(b)); }
 
 void NewtonMatrix::multiply_mass(std::span<const double> a, std::span<double> product) const {
-    vector(product) = impl_->mass * vector(a);
+    dense(product) = impl_->mass * dense(a);
 }
 
 void detail::refuse_newton(int iterations, double change, double dt) {

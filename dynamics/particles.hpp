@@ -108,7 +108,6 @@ public:
 
     [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
     [[nodiscard]] const Mass& inverse_mass() const { return inverse_mass_; }
-    [[nodiscard]] const std::vector<Bond<Law>>& bonds() const { return bonds_; }
 
     void force(std::span<const double> q, std::span<double> force) {
         evaluate(force, [&](const Bond<Law>& bond) { return bond.law.tension(way(bond, q)); });

@@ -30,14 +30,18 @@ public:
             throw std::invalid_argument(
                 "integrator: the system must be led along every step. Take PathMean::system; contact has its own quadrature "
                 "in ContactOptions.");
-        if (mean != PathMean::system) q_.resize(system.size());
-        if (mean != PathMean::system) force_.resize(system.size());
+        if (mean == PathMean::system) return;
+        q_.resize(system.size());
+        force_.resize(system.size());
     }
 
     void operator()(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force) {
         if constexpr (PathMeanSystem<S>)
-            if (mean_ == PathMean::system) return static_cast<void>(system_.mean_force(q_0, q_1, time, dt, force));
+            if (mean_ == PathMean::system) {
+                system_.mean_force(q_0, q_1, time, dt, force);
+                return;
+            }
         const geometry::Quadrature rule = geometry::gauss_legendre(static_cast<int>(mean_));
         std::fill(force.begin(), force.end(), 0.0);
         for (int k = 0; k < rule.size; ++k) {

@@ -309,16 +309,18 @@ void Solid<Dim>::add_contact_impulse(const FreeFlight& flight, double time, doub
 template <int Dim>
 void Solid<Dim>::follow_flight(const FreeFlight& flight, double time, double dt) {
     place<Dim>(flight, dt, surface_cells_, moved_);
-    const bool reaches = list_reaches(moved_, time + dt);
-    if (reaches && has_stepped_) {
-        place<Dim>(flight, dt, region_.loaded_cells, moved_);
-        return move_faces(moved_, time + dt);
+    if (!list_reaches(moved_, time + dt)) {
+        std::vector<std::int32_t> all(static_cast<std::size_t>(mesh_.n_cells()));
+        std::iota(all.begin(), all.end(), 0);
+        place<Dim>(flight, 0.0, all, start_);
+        place<Dim>(flight, dt, all, moved_);
+        search(start_, moved_, time, dt);
+    } else if (!has_stepped_) {
+        place<Dim>(flight, 0.0, region_.loaded_cells, start_);
+        evaluate_faces(start_, load_start_, time, u_0_, y_0_);
     }
-    std::vector<std::int32_t> all(static_cast<std::size_t>(mesh_.n_cells()));
-    std::iota(all.begin(), all.end(), 0);
-    place<Dim>(flight, 0.0, all, start_);
-    place<Dim>(flight, dt, all, moved_);
-    follow_faces(start_, moved_, time, dt);
+    place<Dim>(flight, dt, region_.loaded_cells, moved_);
+    move_faces(moved_, time + dt);
 }
 
 /// The next step begins where this one ends.
@@ -358,8 +360,10 @@ void Solid<Dim>::integrate_contact() {
 /// The path of the listed faces, with the list made anew where it no longer reaches.
 template <int Dim>
 void Solid<Dim>::follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
-    if (!list_reaches(q_1, time + dt)) search(q_0, q_1, time, dt);
-    if (!has_stepped_) evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
+    if (!list_reaches(q_1, time + dt))
+        search(q_0, q_1, time, dt);
+    else if (!has_stepped_)
+        evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
     move_faces(q_1, time + dt);
 }
 

@@ -61,7 +61,7 @@ Json run_json(const RunResult<Dim>& result) {
     return {{"steps", result.steps},
             {"dt", result.dt},
             {"stable_dt", result.stable.dt},
-            {"dt_over_stable_dt", result.finest_dt / result.stable.dt},
+            {"dt_over_stable_dt", result.dt / result.stable.dt},
             {"finest_dt", result.finest_dt},
             {"level_cells", result.level_cells},
             {"force_evaluations", result.evaluations},

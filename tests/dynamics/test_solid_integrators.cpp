@@ -1,7 +1,6 @@
 // The contact solid under every scheme that steps it.
 #include <catch2/catch.hpp>
 #include <functional>
-#include <memory>
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/bilbao.hpp"
@@ -53,6 +52,7 @@ const auto memm = [](auto& solid, auto q, const auto& p, const auto& stable) {
 };
 const auto memm_async = [](auto& solid, auto q, const auto& p, const auto& stable) {
     auto local = dynamics::local_steps(solid, stable);
+    CHECK(local.cells.size() >= 3);
     return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
 };
 
@@ -151,15 +151,13 @@ FallResult fall(const Falling& scene, double time, const Make& make) {
     auto integrator = make(solid, std::vector<double>(solid.size(), 0.0), p, dynamics::stable_step(solid));
     dynamics::Ledger<2> ledger;
     ledger.record(dynamics::measure(integrator, solid));
-    double impulse = 0.0, first = 0.0;
+    double impulse = 0.0;
     while (integrator.time() < time) {
         integrator.step();
-        // a kick at the node: its force enters p^{n+1/2} with dt, that of the last step, in mean
         impulse -= solid.obstacle_force(0).y() * integrator.dt();
-        if (first == 0.0 && solid.obstacle_force(0).y() != 0.0) first = integrator.time();
         ledger.record(dynamics::measure(integrator, solid));
     }
-    CHECK(first > 0.0);
+    CHECK(impulse > 0.0);
     CHECK(solid.contact_report().active_pairs == 0);  // it has bounced off
     const auto& start = ledger.entries().front();
     const auto& end = ledger.entries().back();
@@ -371,9 +369,6 @@ TEST_CASE("local steps keep H~ and momentum through an impact, with contact even
     CHECK(local.pseudo_energy_drift() < 1e-12 * k_0);
     CHECK(local.momentum_drift() < 1e-14);
     CHECK(local.entries().back().events > 0);
-    CHECK(dynamics::local_steps(*std::make_unique<Solid<2>>(mesh, bodies<2>(2)),
-                                dynamics::stable_step(*std::make_unique<Solid<2>>(mesh, bodies<2>(2))))
-              .cells.size() >= 3);
     CHECK(local.energy_excess() < 0.05 * k_0);
 }
 
