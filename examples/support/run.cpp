@@ -309,7 +309,8 @@ void log_end(const RunResult<Dim>& result) {
 template <int Dim>
 void draw(const std::string& program, const Scene<Dim>& scene, const RunOptions& options, RunResult<Dim>& result) {
     const Stopwatch watch(result.seconds.output);
-    const std::string title = fmt::format("{}, {}D, {} cells, {} steps", program, Dim, scene.mesh.n_cells(), result.steps);
+    const std::string title = fmt::format("{}, {}D, {}, {} cells, {} steps", program, Dim, name_of(options.integrator),
+                                          scene.mesh.n_cells(), result.steps);
     result.without_picture = draw_energy(
         options.out, {title, result.ledger.entries().front().pseudo_energy, result.scale.value, result.scale.name});
 }
