@@ -17,39 +17,14 @@ const ContactOptions& checked(const ContactOptions& options) {
     if (options.quadrature < 0 || options.quadrature > 3)
         refuse("quadrature is " + std::to_string(options.quadrature) +
                "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
-    if (!(options.facing_cosine > -1.0 && options.facing_cosine < 0.0))
-        refuse("facing_cosine is " + number(options.facing_cosine) + "; it must lie between -1 and 0. -0.5 is the default.");
-    if (!(options.skin >= 0.0) || !std::isfinite(options.skin))
-        refuse("skin is " + number(options.skin) + " m; it must be finite and >= 0. Give 0 to let the library choose.");
+    if (!(options.search.facing_cosine < 0.0))
+        refuse("facing_cosine is " + number(options.search.facing_cosine) +
+               "; contact needs one between -1 and 0. -0.5 is the default.");
     if (!(options.compression_warning > 0.0))
         refuse("compression_warning is " + number(options.compression_warning) + "; it must be > 0. 0.3 is the default.");
     if (!(options.compression_limit > 0.0))
         refuse("compression_limit is " + number(options.compression_limit) + "; it must be > 0. 2 is the default.");
     return options;
-}
-
-/// The mean size of the deformable faces: of the slipping cylinders this skin costs least (docs/performance.md).
-template <int Dim>
-double default_skin(const SurfaceView<Dim>& surface) {
-    double size = 0.0;
-    std::int32_t n = 0;
-    for (std::int32_t face = 0; face < surface.size(); ++face) {
-        if (surface.is_rigid(face)) continue;
-        size += Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
-        ++n;
-    }
-    return n > 0 ? size / n : 0.0;
-}
-
-template <int Dim>
-void require_finite(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement) {
-    if (displacement.size() != static_cast<std::size_t>(surface.size()))
-        throw std::invalid_argument("contact: " + std::to_string(displacement.size()) + " displacements are given for " +
-                                    std::to_string(surface.size()) + " faces of the surface; give one each.");
-    for (std::int32_t face = 0; face < surface.size(); ++face)
-        if (!displacement[face].allFinite())
-            throw std::runtime_error("contact: the displacement of " + face_name(surface, face) +
-                                     " is not finite: the run has diverged. Take a smaller time step.");
 }
 
 template <int Dim>
@@ -99,20 +74,17 @@ template <int Dim>
 Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
     : surface_(surface),
       options_(checked<Dim>(options)),
+      candidates_(surface, options.search),
       local_face_(static_cast<std::size_t>(surface.size()), -1),
-      integral_(options) {
-    check(surface_);
-    skin_ = options.skin > 0.0 ? options.skin : default_skin(surface_);
-}
+      integral_(options) {}
 
 template <int Dim>
 void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
                           const CouplingOf& coupling_of) {
-    require_finite(surface_, u_0);
-    require_finite(surface_, u_1);
     list_holds_ = false;
+    candidates_.search(u_0, u_1);
     const std::vector<ContactPair<Dim>> known(pairs_.pairs().begin(), pairs_.pairs().end());
-    std::vector<geometry::IndexPair> found = find_candidates(surface_, u_0, u_1, options_, skin_);
+    std::vector<geometry::IndexPair> found(candidates_.candidates().begin(), candidates_.candidates().end());
     // A pair in contact stays in the list however deep it is.
     for (const ContactPair<Dim>& pair : known) {
         if (!pair.admitted) continue;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/candidates.hpp"
+#include "abut/contact/candidate_search.hpp"
 #include "abut/contact/path_integral.hpp"
 
 namespace abut::contact {
@@ -40,11 +40,10 @@ public:
 
     /// Whether the candidate list is still a superset of all that can touch, when no face has moved by more than `motion`
     /// [m] since `search`.
-    [[nodiscard]] bool covers(double motion) const { return list_holds_ && motion <= 0.5 * skin_; }
+    [[nodiscard]] bool covers(double motion) const { return list_holds_ && candidates_.covers(motion); }
 
-    /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws std::runtime_error naming the face
-    /// if a displacement is not finite, std::invalid_argument for arrays of the wrong size or a coupling out of range; no
-    /// list holds then until a search ends well.
+    /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws what CandidateSearch::search throws,
+    /// and std::invalid_argument for a coupling out of range; no list holds then until a search ends well.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.
@@ -66,7 +65,8 @@ public:
     [[nodiscard]] const PairList<Dim>& pairs() const { return pairs_; }
     [[nodiscard]] const SurfaceView<Dim>& surface() const { return surface_; }
     [[nodiscard]] const ContactReport& report() const { return report_; }
-    [[nodiscard]] double skin() const { return skin_; }
+    [[nodiscard]] double skin() const { return candidates_.skin(); }
+    [[nodiscard]] const CandidateReport& search_report() const { return candidates_.report(); }
     /// Place of a face of the surface in `faces()`, -1 if it is not there.
     [[nodiscard]] std::int32_t local(std::int32_t face) const { return local_face_[face]; }
     [[nodiscard]] const FaceCoupling<Dim>& coupling() const { return coupling_; }
@@ -80,7 +80,7 @@ private:
 
     SurfaceView<Dim> surface_;
     ContactOptions options_;
-    double skin_;
+    CandidateSearch<Dim> candidates_;
     bool searched_ = false;    // once at least: the run has begun
     bool list_holds_ = false;  // the last search came to its end
     PairList<Dim> pairs_;

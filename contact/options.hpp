@@ -16,20 +16,32 @@ enum class OverlapMode {
     frozen,  ///< it is taken at the start of the step: cheaper, but the energy jumps at each update
 };
 
+/// Which pairs of faces a search for candidates lists, and what it may take.
+struct CandidateOptions {
+    geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic;
+    double facing_cosine = -0.5;  ///< n_1 . n_2 below this: the faces look at each other. From above -1 to 1; 1: all do
+    /// [m] >= 0: gaps up to this count besides contact. Contact itself needs 0
+    double distance = 0.0;
+    /// [m] how far faces may move, together, before the list is made anew; 0: chosen from the number of faces and pairs and
+    /// from the motion, so that making lists costs as much as the pairs that the skin adds (docs/detection.md)
+    double skin = 0.0;
+    bool self_contact = false;  ///< also pairs of faces of one body
+    /// Faces of one body are no candidates within so many steps from face to face over common corners (corners at exactly
+    /// the same place are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each other.
+    int self_contact_rings = 1;
+    /// A face that moves farther within a step has diverged; times the extent of all surfaces together
+    double largest_motion = 1.0;
+    geometry::SearchLimits limits;
+};
+
 /// Every choice that trades cost for accuracy. The defaults are the exact ones.
 struct ContactOptions {
-    geometry::BroadPhase broad_phase = geometry::BroadPhase::embree;
+    CandidateOptions search;
     geometry::AreaMethod area = geometry::AreaMethod::fast;
     OverlapMode overlap = OverlapMode::moving;
     Weights weights = Weights::stiffness;
-    bool events = true;           ///< cut the step where a pair opens, closes or changes its overlap formula
-    int quadrature = 0;           ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
-    double facing_cosine = -0.5;  ///< n_1 . n_2 below this: the faces look at each other. Between -1 and 0
-    /// [m] how far faces may move, together, before the candidate list is made anew; 0: the mean face size
-    double skin = 0.0;
-    /// Also pairs of faces of one body. Both sides of an edge sharper than `facing_cosine` says face each other, too (below
-    /// 60 degrees by default), and touch from the start: lower facing_cosine for a body with such edges.
-    bool self_contact = false;
+    bool events = true;                ///< cut the step where a pair opens, closes or changes its overlap formula
+    int quadrature = 0;                ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
 };

@@ -9,7 +9,7 @@
 #include "abut/dynamics/ccg_region.hpp"
 #include "abut/dynamics/ccg_sweeps.hpp"
 #include "abut/dynamics/motion_bound.hpp"
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 #include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {

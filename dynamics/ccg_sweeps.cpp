@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {

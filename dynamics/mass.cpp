@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 #include "abut/dynamics/sparse.hpp"
 #include "abut/geometry/messages.hpp"
 

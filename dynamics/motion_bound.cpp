@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 #include "abut/geometry/sort_unique.hpp"
 
 namespace abut::dynamics {

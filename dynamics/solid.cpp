@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "abut/dynamics/parallel.hpp"
-#include "abut/dynamics/stopwatch.hpp"
+#include "abut/geometry/parallel.hpp"
+#include "abut/geometry/stopwatch.hpp"
 #include "abut/geometry/messages.hpp"
 #include "abut/geometry/sort_unique.hpp"
 
@@ -407,7 +407,7 @@ void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
             "solid: faces may be " + number(motion) + " m away from where contacts were last searched, half the skin of " +
             number(contact_->skin()) +
             " m is allowed in a state that no step has reached. Step there, make a Solid for every run, or "
-            "raise ContactOptions::skin.");
+            "raise CandidateOptions::skin.");
     if (!has_stepped_) contact_.emplace(surface_.view(), *options_.contact);
     search(q, q, time_, 0.0);
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <tuple>
 
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {

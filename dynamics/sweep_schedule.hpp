@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "abut/dynamics/parallel.hpp"
+#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 

@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     // An impact at a third of the wave speed: the foot gives way by up to twice its cell, and more when vibration adds up.
     options.run.contact.compression_limit = 10.0;
     // Only the foot of the bar faces the wall: a thick skin costs nothing and lasts long.
-    options.run.contact.skin = 0.1 * bar_length;
+    options.run.contact.search.skin = 0.1 * bar_length;
     Impacts impacts;
     return run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); },

@@ -4,7 +4,6 @@
 #else
 #include <embree3/rtcore.h>
 #endif
-#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <array>
@@ -133,48 +132,42 @@ Scene scene_of(FloatBoxes& boxes) {
 }
 
 // rtcCollide reports from several threads at once, whole leaves without a test of each pair, and both orders (with
-// every box against itself) when a scene meets itself.
+// every box against itself) when a scene meets itself. It cannot be stopped: pairs beyond the limit are dropped.
 struct Collector {
     Boxes boxes_1, boxes_2;
     bool within_one_set;
-    tbb::enumerable_thread_specific<std::vector<IndexPair>> found;
+    FoundPairs& found;
 
     static void report(void* user, RTCCollision* collisions, unsigned count) {
         auto& self = *static_cast<Collector*>(user);
-        std::vector<IndexPair>& pairs = self.found.local();
+        FoundPairs::Local& mine = self.found.local();
         for (const RTCCollision& collision : std::span(collisions, count)) {
             const IndexPair pair{static_cast<std::int32_t>(collision.primID0), static_cast<std::int32_t>(collision.primID1)};
             if (self.within_one_set && pair.first >= pair.second) continue;
-            if (self.boxes_1[pair.first].overlaps(self.boxes_2[pair.second])) pairs.push_back(pair);
+            if (self.boxes_1[pair.first].overlaps(self.boxes_2[pair.second])) mine.add(pair.first, pair.second);
         }
-    }
-    std::vector<IndexPair> all() const {
-        std::vector<IndexPair> pairs;
-        for (const std::vector<IndexPair>& part : found) pairs.insert(pairs.end(), part.begin(), part.end());
-        return pairs;
     }
 };
 
-std::vector<IndexPair> collide(RTCScene scene_1, RTCScene scene_2, Collector& collector) {
+void collide(RTCScene scene_1, RTCScene scene_2, Collector& collector) {
     rtcCollide(scene_1, scene_2, Collector::report, &collector);
     check_device();
-    return collector.all();
 }
 
 }  // namespace
 
-std::vector<IndexPair> embree_pairs(Boxes boxes_1, Boxes boxes_2) {
+void find_by_embree(Boxes boxes_1, Boxes boxes_2, FoundPairs& found) {
     std::vector<FloatBoxes> images = float_boxes(std::array{boxes_1, boxes_2});
     const Scene scene_1 = scene_of(images[0]), scene_2 = scene_of(images[1]);
-    Collector collector{boxes_1, boxes_2, false, {}};
-    return collide(scene_1.get(), scene_2.get(), collector);
+    Collector collector{boxes_1, boxes_2, false, found};
+    collide(scene_1.get(), scene_2.get(), collector);
 }
 
-std::vector<IndexPair> embree_pairs(Boxes boxes) {
+void find_by_embree(Boxes boxes, FoundPairs& found) {
     std::vector<FloatBoxes> images = float_boxes(std::array{boxes});
     const Scene scene = scene_of(images[0]);
-    Collector collector{boxes, boxes, true, {}};
-    return collide(scene.get(), scene.get(), collector);
+    Collector collector{boxes, boxes, true, found};
+    collide(scene.get(), scene.get(), collector);
 }
 
 }  // namespace abut::geometry::backend

@@ -60,10 +60,10 @@ void push_children_of_same(const Node* node, std::vector<NodePair>& stack) {
 }
 
 template <class Report>
-void for_each_overlap(const NodePair& roots, const Report& report) {
+void for_each_overlap(const NodePair& roots, const FoundPairs::Local& found, const Report& report) {
     std::vector<NodePair> stack;
     if (overlap(roots)) stack.push_back(roots);
-    while (!stack.empty()) {
+    while (!stack.empty() && !found.too_many()) {
         const NodePair pair = stack.back();
         stack.pop_back();
         if (pair.node_1 == pair.node_2)
@@ -77,26 +77,23 @@ void for_each_overlap(const NodePair& roots, const Report& report) {
 
 }  // namespace
 
-std::vector<IndexPair> fcl_pairs(Boxes boxes_1, Boxes boxes_2) {
+void find_by_fcl(Boxes boxes_1, Boxes boxes_2, FoundPairs& found) {
     Tree tree_1(leaves_joined_bottom_up), tree_2(leaves_joined_bottom_up);
     build(boxes_1, tree_1);
     build(boxes_2, tree_2);
-    std::vector<IndexPair> pairs;
-    for_each_overlap({tree_1.getRoot(), tree_2.getRoot()}, [&](const Node* a, const Node* b) {
-        pairs.push_back({index_of(a, boxes_1), index_of(b, boxes_2)});
-    });
-    return pairs;
+    FoundPairs::Local& mine = found.local();
+    for_each_overlap({tree_1.getRoot(), tree_2.getRoot()}, mine,
+                     [&](const Node* a, const Node* b) { mine.add(index_of(a, boxes_1), index_of(b, boxes_2)); });
 }
 
-std::vector<IndexPair> fcl_pairs(Boxes boxes) {
+void find_by_fcl(Boxes boxes, FoundPairs& found) {
     Tree tree(leaves_joined_bottom_up);
     build(boxes, tree);
-    std::vector<IndexPair> pairs;
-    for_each_overlap({tree.getRoot(), tree.getRoot()}, [&](const Node* a, const Node* b) {
+    FoundPairs::Local& mine = found.local();
+    for_each_overlap({tree.getRoot(), tree.getRoot()}, mine, [&](const Node* a, const Node* b) {
         const std::int32_t i = index_of(a, boxes), j = index_of(b, boxes);
-        pairs.push_back({std::min(i, j), std::max(i, j)});
+        mine.add(std::min(i, j), std::max(i, j));
     });
-    return pairs;
 }
 
 }  // namespace abut::geometry::backend

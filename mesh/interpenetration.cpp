@@ -101,7 +101,7 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
             const auto& part_1 = bodies[static_cast<std::size_t>(body_1)];
             const auto& part_2 = bodies[static_cast<std::size_t>(body_2)];
             if (!geometry::bounding_box<Dim>(part_1.boxes).overlaps(geometry::bounding_box<Dim>(part_2.boxes))) continue;
-            for (const auto& [i, k] : geometry::overlapping_pairs<Dim>(broad_phase, part_1.boxes, part_2.boxes)) {
+            for (const auto& [i, k] : geometry::overlapping_pairs<Dim>({broad_phase}, part_1.boxes, part_2.boxes)) {
                 const std::array cells{part_1.cells[static_cast<std::size_t>(i)], part_2.cells[static_cast<std::size_t>(k)]};
                 if (const auto depth = overlap_depth(mesh, cells[0], cells[1]))
                     found.push_back({{body_1, body_2}, cells, *depth});

@@ -25,12 +25,12 @@ struct Interpenetration {
 /// The depth is that of two cells: bodies that are far inside each other have to be moved further.
 template <int Dim>
 [[nodiscard]] std::vector<Interpenetration> find_interpenetrations(
-    const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase = geometry::BroadPhase::embree);
+    const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic);
 
 /// Throws MeshError if there are any, naming the bodies, how many pairs of cells, and which are the deepest; `remedy` ends
 /// the message. To be called before a run: contact takes what overlaps at the start for pressed together.
 template <int Dim>
 void check_apart(const Mesh<Dim>& mesh, const std::string& remedy = "Move the bodies apart.",
-                 geometry::BroadPhase broad_phase = geometry::BroadPhase::embree);
+                 geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic);
 
 }  // namespace abut::mesh

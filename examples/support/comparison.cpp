@@ -89,7 +89,7 @@ double detail::clock_seconds() {
     static const double seconds = [] {
         constexpr int times = 10'000;
         double sum = 0.0;
-        for (int i = 0; i < times; ++i) const dynamics::Stopwatch watch(sum);
+        for (int i = 0; i < times; ++i) const Stopwatch watch(sum);
         return sum / times;
     }();
     return seconds;

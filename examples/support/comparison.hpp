@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/dynamics/stopwatch.hpp"
+#include "abut/geometry/stopwatch.hpp"
 #include "support/csv.hpp"
 #include "support/finding.hpp"
 #include "support/gnuplot.hpp"
@@ -114,7 +114,7 @@ private:
     void advance(double dt) {
         const std::int64_t before = system_.evaluations();
         try {
-            const dynamics::Stopwatch watch(run_.seconds);
+            const Stopwatch watch(run_.seconds);
             integrator_.step(dt, dynamics::StepChange::keep);
         } catch (const std::runtime_error& error) {
             break_off(error.what());

@@ -16,7 +16,7 @@
 #include "abut/dynamics/local_steps.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/parasitic_filter.hpp"
-#include "abut/dynamics/stopwatch.hpp"
+#include "abut/geometry/stopwatch.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "support/energy_file.hpp"
 #include "support/energy_picture.hpp"
@@ -28,7 +28,6 @@
 namespace abut::examples {
 namespace {
 
-using dynamics::Stopwatch;
 using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
@@ -349,7 +348,7 @@ void run(const Program& program, const RunOptions& given, const std::function<Sc
         scene = timed_scene(make_scene, seconds.mesh);
         {
             const Stopwatch watch(seconds.setup);
-            mesh::check_apart(scene->mesh, scene->remedy_if_overlapping, options.contact.broad_phase);
+            mesh::check_apart(scene->mesh, scene->remedy_if_overlapping, options.contact.search.broad_phase);
             start.emplace(*scene, options);
         }
         log_start(*scene, start->result);

@@ -14,8 +14,11 @@ using dynamics::Neumann;
 using geometry::AreaMethod;
 using geometry::BroadPhase;
 
-const Choices<BroadPhase> broad_phases = {
-    {"embree", BroadPhase::embree}, {"fcl", BroadPhase::fcl}, {"brute_force", BroadPhase::brute_force}};
+const Choices<BroadPhase> broad_phases = [] {
+    Choices<BroadPhase> choices;
+    for (const BroadPhase method : geometry::broad_phases) choices.emplace_back(geometry::name(method), method);
+    return choices;
+}();
 const Choices<OverlapMode> overlap_modes = {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}};
 const Choices<Weights> weights = {{"half", Weights::half}, {"stiffness", Weights::stiffness}};
 const Choices<AreaMethod> areas = {{"fast", AreaMethod::fast}, {"exact", AreaMethod::exact}};
@@ -76,8 +79,8 @@ void add_time_options(CLI::App& app, RunOptions& options, const std::string& def
 void add_contact_options(CLI::App& app, RunOptions& options) {
     auto& contact = options.contact;
     const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
-    grouped(add_choice(app, "--broad-phase", contact.broad_phase, "what finds faces that are near; all give the same bits",
-                       broad_phases));
+    grouped(add_choice(app, "--broad-phase", contact.search.broad_phase,
+                       "what finds faces that are near; all give the same bits", broad_phases));
     grouped(add_choice(app, "--overlap", contact.overlap,
                        "area that follows the motion in a step (energy exact) or is frozen (cheaper)", overlap_modes));
     grouped(add_choice(app, "--weights", contact.weights,
@@ -88,8 +91,9 @@ void add_contact_options(CLI::App& app, RunOptions& options) {
                        "cut steps where a pair opens, closes or changes its overlap (energy exact)", switches));
     grouped(add_choice(app, "--quadrature", contact.quadrature,
                        "Gauss points on each part of a step; by default the exact number: 2 in 2D, 3 in 3D", quadratures));
-    grouped(add_number(app, "--skin", contact.skin,
-                       "how far faces move before the list of near faces is made anew; 0: the mean face size",
+    grouped(add_number(app, "--skin", contact.search.skin,
+                       "how far faces move before the list of near faces is made anew; 0: chosen from the number of faces "
+                       "and pairs and the motion",
                        {.unit = "m", .above = 0.0, .zero = true}));
     grouped(add_choice(app, "--neumann", options.neumann,
                        "displacement of free faces; extrapolate and adjacent are there for comparison", neumanns));
@@ -127,7 +131,7 @@ nlohmann::ordered_json to_json(const RunOptions& options) {
                      {"contact_levels", options.contact_levels}});
     if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge)) json["gauge"] = options.gauge;
     json.update({{"filter", name_of(filters, options.filter)},
-                 {"broad_phase", name_of(broad_phases, contact.broad_phase)},
+                 {"broad_phase", name_of(broad_phases, contact.search.broad_phase)},
                  {"overlap", name_of(overlap_modes, contact.overlap)},
                  {"weights", name_of(weights, contact.weights)},
                  {"area", name_of(areas, contact.area)},

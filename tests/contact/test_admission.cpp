@@ -26,7 +26,7 @@ std::vector<Vector<Dim>> at(double gap, double shift) {
 
 contact::ContactOptions wide_skin() {
     contact::ContactOptions options;
-    options.skin = 10.0;  // one list for all the moves below
+    options.search.skin = 10.0;  // one list for all the moves below
     options.compression_limit = 100.0;
     return options;
 }
@@ -70,7 +70,7 @@ TEMPLATE_TEST_CASE_SIG("the far side of a body is no contact of its near side", 
     slab.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), depth, 1.0, 0);
     slab.append(tile<Dim>(-up<Dim>(), -up<Dim>(), 0.5), depth, 1.0, 0);
     contact::ContactOptions options = wide_skin();
-    options.self_contact = true;
+    options.search.self_contact = true;
     Mover<Dim> mover(slab, options);
     mover.search(at_rest(slab));
     REQUIRE(mover.contact.report().candidates == 1);
@@ -84,11 +84,12 @@ TEMPLATE_TEST_CASE_SIG("a body does not touch itself unless self-contact is aske
     auto surface = two_tiles<Dim>();
     surface.body[1] = 0;
     contact::ContactOptions options = wide_skin();
-    options.self_contact = GENERATE(false, true);
+    options.search.self_contact = GENERATE(false, true);
+    options.search.self_contact_rings = 0;  // the two share their corners
     Mover<Dim> mover(surface, options);
     mover.search(at<Dim>(-0.1, 0.0));
-    CHECK((mover.contact.report().candidates == 1) == options.self_contact);
-    CHECK(mover.move_to(at<Dim>(-0.1, 0.0)) == options.self_contact);
+    CHECK((mover.contact.report().candidates == 1) == options.search.self_contact);
+    CHECK(mover.move_to(at<Dim>(-0.1, 0.0)) == options.search.self_contact);
 }
 
 TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge and comes back is the same contact", "[contact][admission]",
@@ -138,7 +139,7 @@ TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pres
 TEMPLATE_TEST_CASE_SIG("an admitted pair stays in the list where its boxes no longer meet", "[contact][admission]",
                        ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();
-    options.skin = 0.01;
+    options.search.skin = 0.01;
     Mover<Dim> mover(two_tiles<Dim>(), options);
     mover.search(at<Dim>(-0.5, 0.0));
     CHECK(mover.move_to(at<Dim>(-3.0, 0.0)));
@@ -159,7 +160,7 @@ TEMPLATE_TEST_CASE_SIG("a refused pair stays refused through rebuilds of the lis
 TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted as lost and not admitted",
                        "[contact][admission]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();
-    options.skin = 0.01;
+    options.search.skin = 0.01;
     Mover<Dim> mover(two_tiles<Dim>(), options);
     mover.search(at<Dim>(5.0, 0.0));
     REQUIRE(mover.contact.report().candidates == 0);
@@ -174,7 +175,7 @@ TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted 
 TEMPLATE_TEST_CASE_SIG("a pair that is first seen beside its partner, below the plane, may become a contact",
                        "[contact][admission]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();
-    options.skin = 0.5;
+    options.search.skin = 0.5;
     Mover<Dim> mover(two_tiles<Dim>(), options);
     mover.search(at<Dim>(5.0, 0.0));
     mover.search(at<Dim>(-0.1, 1.1));  // A = 0

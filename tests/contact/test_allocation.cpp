@@ -38,7 +38,7 @@ TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work array
     std::mt19937 random(21);
     const auto surface = random_surface<Dim>(random, 30);
     contact::ContactOptions options;
-    options.skin = 5.0;
+    options.search.skin = 5.0;
     options.compression_limit = 1e9;
     contact::Contact<Dim> contact(surface.view(), options);
     std::vector<std::vector<Vector<Dim>>> states;

@@ -164,27 +164,27 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
         says = "quadrature";
     }
     SECTION("facing away") {
-        options.facing_cosine = 0.0;
+        options.search.facing_cosine = 0.0;
         says = "facing_cosine";
     }
     SECTION("no angle") {
-        options.facing_cosine = -1.0;  // nothing would ever be below
+        options.search.facing_cosine = -1.0;  // nothing would ever be below
         says = "facing_cosine";
     }
     SECTION("angle not a number") {
-        options.facing_cosine = not_a_number;
+        options.search.facing_cosine = not_a_number;
         says = "facing_cosine";
     }
     SECTION("negative skin") {
-        options.skin = -0.1;
+        options.search.skin = -0.1;
         says = "skin";
     }
     SECTION("skin not a number") {
-        options.skin = not_a_number;
+        options.search.skin = not_a_number;
         says = "skin";
     }
     SECTION("endless skin") {
-        options.skin = std::numeric_limits<double>::infinity();
+        options.search.skin = std::numeric_limits<double>::infinity();
         says = "skin";
     }
     SECTION("warning not a number") {
@@ -204,7 +204,7 @@ TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused wi
                        "[contact][errors]", ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>();
     contact::ContactOptions options;
-    options.skin = 10.0;
+    options.search.skin = 10.0;
     Mover<Dim> mover(surface, options);
     auto u = at_rest(surface);
     mover.search(u);
@@ -221,7 +221,7 @@ TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused wi
 TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next one makes it", "[contact][errors]",
                        ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>();
-    contact::Contact<Dim> contact(surface.view(), {.skin = 1.0});
+    contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
     const auto u = at_rest(surface);
     CHECK_THROWS_WITH(contact.integrate({u, u, u, u}), Contains("no candidate list"));
     const auto good = [](std::span<const std::int32_t> faces) {

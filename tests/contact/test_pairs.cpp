@@ -106,8 +106,10 @@ TEMPLATE_TEST_CASE_SIG("faces look at each other from 120 degrees between their 
     contact::Surface<Dim> surface;
     surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.1, 1.0, 0);
     surface.append(tile<Dim>(up<Dim>(), std::cos(angle) * up<Dim>() + std::sin(angle) * axis<Dim>(0), 0.5), 0.1, 1.0, 1);
-    CHECK(contact::are_facing<Dim>(surface.view(), 0, 1, contact::ContactOptions{}.facing_cosine) == (degrees > 120.0));
-    CHECK(contact::are_facing<Dim>(surface.view(), 1, 0, contact::ContactOptions{}.facing_cosine) == (degrees > 120.0));
+    CHECK(contact::are_facing<Dim>(surface.view(), 0, 1, contact::ContactOptions{}.search.facing_cosine) ==
+          (degrees > 120.0));
+    CHECK(contact::are_facing<Dim>(surface.view(), 1, 0, contact::ContactOptions{}.search.facing_cosine) ==
+          (degrees > 120.0));
 }
 
 TEMPLATE_TEST_CASE_SIG("a gap is what lies between the centroids along the normal, at rest and displaced",

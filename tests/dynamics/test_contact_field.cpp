@@ -111,7 +111,7 @@ TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was look
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = flat_bodies<Dim>();
     auto options = bodies<Dim>(2);
-    options.contact->skin = 0.2;
+    options.contact->search.skin = 0.2;
     const auto pressed = upper_moved(mesh, -0.03);
     dynamics::Solid<Dim> fresh(mesh, options);
     const double energy = fresh.potential(pressed);
@@ -138,7 +138,7 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
     scene->run(10);
     CHECK_THROWS_AS(scene->solid.potential(upper_moved(scene->mesh, 1.0)), std::logic_error);
     CHECK_THROWS_WITH(scene->solid.contact_field(upper_moved(scene->mesh, 1.0)),
-                      Catch::Matchers::Contains("half the skin") && Catch::Matchers::Contains("ContactOptions::skin"));
+                      Catch::Matchers::Contains("half the skin") && Catch::Matchers::Contains("CandidateOptions::skin"));
     const std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end()), zero(q.size(), 0.0);
     dynamics::Memm<dynamics::Solid<Dim>> again(scene->solid, q, zero, scene->memm.dt());
     CHECK_THROWS_WITH(again.step(), Catch::Matchers::Contains("make a Solid for every run"));
@@ -149,7 +149,7 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
 
 TEST_CASE("a state that a long step has reached is within the list, however thin the skin", "[dynamics][contact]") {
     auto options = bodies<2>(2);
-    options.contact->skin = 1e-6;
+    options.contact->search.skin = 1e-6;
     Scene<2> scene(two_discs(0.8, 0.3), options, disc_velocities);
     scene.run(80);  // a record after every step asks for the potential
     CHECK(scene.solid.contact_report().rebuilds >= 80);

@@ -135,7 +135,7 @@ TEST_CASE("the momentum that a body loses is the mean force on the obstacle time
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body with its face, edge or corner",
                        "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions narrow;
-    narrow.facing_cosine = -0.9;  // the sides of the box are no partners of the round face in front of it
+    narrow.search.facing_cosine = -0.9;  // the sides of the box are no partners of the round face in front of it
     auto options = bodies<Dim>(1, narrow);
     const mesh::CellShape shape = Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron;
     // Of two cells each way, left of the body; shifted across so that an edge or a corner comes first on some of its faces.

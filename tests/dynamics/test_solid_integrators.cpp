@@ -130,7 +130,7 @@ struct Falling {
     dynamics::SolidOptions<2> options = bodies<2>(1);
 
     explicit Falling(double wall_speed, double skin = 0.0) {
-        options.contact->skin = skin;
+        options.contact->search.skin = skin;
         options.acceleration = {Vector<2>(0.0, -0.02)};
         options.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 10.0)};
         if (wall_speed != 0.0) options.obstacles[0].path = [wall_speed](double t) { return Vector<2>(0.0, wall_speed * t); };

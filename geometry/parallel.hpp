@@ -1,5 +1,5 @@
 #pragma once
-// Private to the sources of this layer.
+// Private to the sources of the layers.
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace abut::dynamics {
+namespace abut {
 
 inline constexpr std::ptrdiff_t parallel_grain = 1024;
 
@@ -84,4 +84,4 @@ double largest(std::ptrdiff_t n, const Value& value) {
     return n <= 2 * parallel_grain ? in_range(all, 0.0) : oneapi::tbb::parallel_reduce(all, 0.0, in_range, larger);
 }
 
-}  // namespace abut::dynamics
+}  // namespace abut

@@ -1,7 +1,7 @@
 #pragma once
 #include <chrono>
 
-namespace abut::dynamics {
+namespace abut {
 
 /// Adds the time of its life to a sum [s].
 class Stopwatch {
@@ -17,4 +17,4 @@ private:
     Clock::time_point start_;
 };
 
-}  // namespace abut::dynamics
+}  // namespace abut

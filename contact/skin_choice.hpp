@@ -1,0 +1,32 @@
+#pragma once
+// Private to the layer.
+#include <cstdint>
+
+namespace abut::contact {
+
+/// The skin that costs least. A list with the skin s lives for s/(2 v) steps when faces move by v a step, and holds N(s)
+/// pairs. With the cost of making it, f a face and p a pair in units of what a pair costs in a step, n faces cost a step
+///
+///     2 v/s (f n + p N(s)) + N(s).
+///
+/// Around a face lie as many others as fit into its reach: N is taken for the power Dim - 1 of a linear function, given by
+/// the numbers of pairs with the last skin and with half of it. These and v are counted at each search: no clock takes
+/// part, so that a run gives the same lists every time.
+class SkinChoice {
+public:
+    /// `fixed` > 0: always that. `face_size`: the mean size of the faces, the skin of the first list [m].
+    SkinChoice(int dim, double fixed, double face_size);
+
+    [[nodiscard]] double skin() const { return skin_; }
+    /// What the last list was like: pairs with this skin and with half of it, faces, and the largest motion of a face in a
+    /// step.
+    void learn(std::int64_t pairs, std::int64_t pairs_at_half, std::int64_t faces, double motion);
+
+private:
+    int dim_;
+    bool is_fixed_;
+    double face_size_;
+    double skin_;
+};
+
+}  // namespace abut::contact
