@@ -68,12 +68,12 @@ std::string vertices_and_faces(const std::string& contents, std::int32_t& n_igno
 
 bool read_obj(const std::string& contents, PolygonSoup& soup, std::int32_t& n_ignored) {
     auto stream = stream_of(vertices_and_faces(contents, n_ignored));
-    return CGAL::IO::read_OBJ(stream, soup.points, soup.polygons);
+    return CGAL::IO::read_OBJ(stream, soup.points, soup.polygons, CGAL::parameters::verbose(false));
 }
 
 bool read_ply(const std::string& contents, PolygonSoup& soup) {
     auto stream = stream_of(contents);
-    return CGAL::IO::read_PLY(stream, soup.points, soup.polygons);
+    return CGAL::IO::read_PLY(stream, soup.points, soup.polygons, CGAL::parameters::verbose(false));
 }
 
 constexpr std::size_t stl_head = 84, stl_triangle = 50;  ///< bytes of a binary STL file
@@ -125,7 +125,7 @@ void read_binary_stl(const std::string& name, const std::string& contents, Surfa
 
 bool read_ascii_stl(const std::string& contents, PolygonSoup& soup) {
     auto stream = stream_of(contents);
-    return CGAL::IO::read_STL(stream, soup.points, soup.polygons);
+    return CGAL::IO::read_STL(stream, soup.points, soup.polygons, CGAL::parameters::verbose(false));
 }
 
 bool read_with_cgal(const std::string& name, const std::string& extension, const std::string& contents, PolygonSoup& soup,
