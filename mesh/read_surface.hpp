@@ -25,8 +25,8 @@ struct SurfaceOptions {
 /// reads, and it refuses bad cells).
 ///
 /// Faces are kept as they are, however bad; the exceptions are CGAL's: an .obj or .off file with a vertex index out of range
-/// or a coordinate that is no number is an error, and an ASCII .stl file is welded in any case. Bodies: the cell array "body"
-/// of .vtp and .vtu ("body_<value>"); the physical groups of .msh; else one, called like the file.
+/// or a coordinate that is no number is an error, and an ASCII .stl file is welded in any case. Bodies: the cell array
+/// "body" of .vtp and .vtu ("body_<value>"); the physical groups of .msh; else one, called like the file.
 ///
 /// Throws MeshError with the file, the reason and the remedy: missing, empty, truncated, garbage, no face, an unknown
 /// extension, a displacement that is not finite or has not three components.

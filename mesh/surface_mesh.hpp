@@ -10,8 +10,8 @@
 
 namespace abut::mesh {
 
-/// Faces in space without cells behind them, of one or several bodies: what a surface file holds, however bad. Whether it can
-/// be used, geometry::examine(mesh.soup()) says; `clean` leaves what can be.
+/// Faces in space without cells behind them, of one or several bodies: what a surface file holds, however bad. Whether it
+/// can be used, geometry::examine(mesh.soup()) says; `clean` leaves what can be.
 struct SurfaceMesh {
     std::string name;                      ///< what error messages call it (a file name, for example)
     std::vector<Vector<3>> vertices;       ///< [m]
@@ -35,7 +35,7 @@ struct SurfaceMesh {
 std::int32_t weld(SurfaceMesh& mesh);
 
 /// Makes every part that hangs together through vertices at exactly one place a body of its own: "body_1", "body_2", ... in
-/// the order of their first faces. Faces with a vertex out of range make one more body if there are any.
+/// the order of their first faces. Faces all of whose vertices are out of range hang together, too.
 void name_connected_bodies(SurfaceMesh& mesh);
 
 /// All faces of several surfaces; vertices stay apart. Bodies get "<name>." in front where two would clash otherwise, and a

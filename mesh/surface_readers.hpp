@@ -1,6 +1,6 @@
 #pragma once
-// Private to the layer; not installed. What read_surface is made of: each fills vertices, faces and, where the file has them,
-// labels, bodies and displacement. Errors: see read_surface.
+// Private to the layer; not installed. What read_surface is made of: each fills vertices, faces and, where the file has
+// them, labels, bodies and displacement. Errors: see read_surface.
 #include <filesystem>
 
 #include "abut/mesh/read_surface.hpp"

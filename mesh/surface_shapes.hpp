@@ -87,7 +87,8 @@ struct RandomTrianglesOptions {
     double size = 0.05;     ///< side of the cube around its centre in which the corners of a triangle lie [m]
     std::string name = "random triangles";
 };
-/// Triangles that share no vertex, corners evenly distributed. The same bits for a seed everywhere (a splitmix64 of our own).
+/// Triangles that share no vertex, corners evenly distributed. The same bits for a seed everywhere (a splitmix64 of our
+/// own).
 [[nodiscard]] SurfaceMesh random_triangles(const RandomTrianglesOptions& options);
 
 }  // namespace abut::mesh
