@@ -3,34 +3,14 @@
 #include <algorithm>
 #include <numeric>
 
+#include "abut/geometry/places.hpp"
 #include "abut/geometry/sort_unique.hpp"
 
 namespace abut::contact {
-namespace {
-
-/// A number for each vertex, the same for vertices at the same place.
-template <int Dim>
-std::vector<std::int32_t> place_numbers(std::span<const Vector<Dim>> vertices) {
-    std::vector<std::int32_t> order(vertices.size()), numbers(vertices.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto before = [&](std::int32_t a, std::int32_t b) {
-        return std::lexicographical_compare(vertices[a].begin(), vertices[a].end(), vertices[b].begin(), vertices[b].end());
-    };
-    std::sort(order.begin(), order.end(), before);
-    std::int32_t number = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && before(order[i - 1], order[i])) ++number;
-        numbers[static_cast<std::size_t>(order[i])] = number;
-    }
-    return numbers;
-}
-
-}  // namespace
-
 template <int Dim>
 Neighbours::Neighbours(const SurfaceView<Dim>& surface, int rings)
     : rings_(rings), face_offsets_(surface.face_offsets.begin(), surface.face_offsets.end()) {
-    const std::vector<std::int32_t> place = place_numbers<Dim>(surface.vertices);
+    const std::vector<std::int32_t> place = geometry::first_at_same_place<Dim>(surface.vertices);
     corners_.reserve(surface.face_vertices.size());
     for (const std::int32_t v : surface.face_vertices) corners_.push_back(place[static_cast<std::size_t>(v)]);
     corner_offsets_.assign(surface.vertices.size() + 1, 0);

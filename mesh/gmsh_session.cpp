@@ -172,20 +172,21 @@ void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumb
     }
 }
 
+/// Elements of `dimension`: Dim, or those of a surface in space.
 template <int Dim>
-void read_cells(CellSoup<Dim>& soup, const NodeNumbers& number) {
+void read_cells(CellSoup<Dim>& soup, const NodeNumbers& number, int dimension = Dim) {
     gmsh::vectorpair groups, entities;
-    gmsh::model::getPhysicalGroups(groups, Dim);
+    gmsh::model::getPhysicalGroups(groups, dimension);
     std::vector<int> tags;
-    for (const auto& [dimension, tag] : groups) {
+    for (const auto& [group_dimension, tag] : groups) {
         tags.push_back(tag);
-        soup.body_names.push_back(group_name(Dim, tag));
+        soup.body_names.push_back(group_name(dimension, tag));
     }
-    gmsh::model::getEntities(entities, Dim);
-    for (const auto& [dimension, entity] : entities) {
-        const auto blocks = element_blocks(Dim, entity);
+    gmsh::model::getEntities(entities, dimension);
+    for (const auto& [entity_dimension, entity] : entities) {
+        const auto blocks = element_blocks(dimension, entity);
         if (blocks.empty()) continue;
-        const std::int32_t body = body_of_entity(soup.name, Dim, entity, tags);
+        const std::int32_t body = body_of_entity(soup.name, dimension, entity, tags);
         for (const auto& block : blocks) append_cells(soup, block, number, body);
     }
 }
@@ -305,6 +306,17 @@ CellSoup<Dim> soup_of_gmsh_model(const std::string& name) {
     soup.n_ignored_elements = n_ignored_elements<Dim>();
     return soup;
 }
+
+CellSoup<3> surface_of_gmsh_model(const std::string& name) {
+    CellSoup<3> soup;
+    soup.name = name;
+    const NodeNumbers number(read_nodes(soup));
+    read_cells(soup, number, 2);
+    soup.n_ignored_elements = n_elements(0) + n_elements(1);
+    return soup;
+}
+
+bool has_gmsh_elements(int dimension) { return has_elements(dimension); }
 
 template CellSoup<2> soup_of_gmsh_model<2>(const std::string&);
 template CellSoup<3> soup_of_gmsh_model<3>(const std::string&);

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -35,5 +36,16 @@ private:
 /// a name is called "physical_<tag>". Labels are Gmsh's element and node tags. Throws MeshError: see read_gmsh.
 template <int Dim>
 [[nodiscard]] CellSoup<Dim> soup_of_gmsh_model(const std::string& name);
+
+/// The triangles and quadrangles of Gmsh's current model, in space. A body is a physical group of dimension 2; elements
+/// outside any group have the body -1. Empty if there are none. Throws MeshError: see read_gmsh.
+[[nodiscard]] CellSoup<3> surface_of_gmsh_model(const std::string& name);
+
+/// Whether Gmsh's current model has elements of that dimension.
+[[nodiscard]] bool has_gmsh_elements(int dimension);
+
+/// Opens a .msh file in a session and, when all is there that its head promises, calls `read`. Throws MeshError: see
+/// read_gmsh.
+void in_gmsh_file(const std::filesystem::path& path, const std::function<void()>& read);
 
 }  // namespace abut::mesh

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -77,8 +78,7 @@ void check_number_of_elements(const std::string& name, std::uint64_t promised) {
 
 }  // namespace
 
-template <int Dim>
-Mesh<Dim> read_gmsh(const std::filesystem::path& path, const MeshOptions& options) {
+void in_gmsh_file(const std::filesystem::path& path, const std::function<void()>& read) {
     const std::string name = path.string();
     std::uint64_t promised = 0;
     {
@@ -87,13 +87,20 @@ Mesh<Dim> read_gmsh(const std::filesystem::path& path, const MeshOptions& option
         section_start(name, contents, "Nodes");
         promised = promised_elements(header, contents, section_start(name, contents, "Elements"));
     }
-    CellSoup<Dim> soup;
     const GmshSession session;
     session.run(name, "cannot be read", "Write the mesh again.", [&] {
         gmsh::merge(name);
         if (!GmshSession::errors().empty()) throw std::runtime_error("errors, logged");
         check_number_of_elements(name, promised);
-        soup = soup_of_gmsh_model<Dim>(name);
+        read();
+    });
+}
+
+template <int Dim>
+Mesh<Dim> read_gmsh(const std::filesystem::path& path, const MeshOptions& options) {
+    CellSoup<Dim> soup;
+    in_gmsh_file(path, [&] {
+        soup = soup_of_gmsh_model<Dim>(path.string());
         soup.warnings = GmshSession::warnings();
     });
     return build_mesh(std::move(soup), options);

@@ -1,18 +1,14 @@
 #include "abut/mesh/read_vtu.hpp"
 
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkDataArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,37 +16,13 @@
 #include <Eigen/Geometry>
 
 #include "abut/geometry/box.hpp"
-#include "abut/geometry/messages.hpp"
-#include "abut/geometry/sort_unique.hpp"
 #include "abut/mesh/connected_bodies.hpp"
-#include "abut/mesh/file.hpp"
 #include "abut/mesh/plane_input.hpp"
 #include "abut/mesh/quality.hpp"
-#include "abut/mesh/vtk_messages.hpp"
+#include "abut/mesh/vtk_input.hpp"
 
 namespace abut::mesh {
 namespace {
-
-void check_is_whole_vtu(const std::string& name, const std::string& contents) {
-    const std::string head = contents.substr(0, 1024);
-    if (head.find("<VTKFile") == std::string::npos || head.find("UnstructuredGrid") == std::string::npos)
-        throw MeshError(name +
-                        ": is not a VTK unstructured grid: '<VTKFile type=\"UnstructuredGrid\"' is missing in its first "
-                        "lines. Save it as .vtu.");
-    if (contents.find("</VTKFile>", contents.size() - std::min<std::size_t>(contents.size(), 64)) == std::string::npos)
-        throw MeshError(name + ": the file is truncated: '</VTKFile>' is missing after " + std::to_string(contents.size()) +
-                        " bytes. Write the mesh again.");
-}
-
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string& name) {
-    const VtkMessages messages;
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
-    reader->SetFileName(name.c_str());
-    reader->Update();
-    if (const std::string said = messages.all(); !said.empty())
-        throw MeshError(name + ": cannot be read: VTK says: " + said + ". Write the mesh again.");
-    return reader->GetOutput();
-}
 
 struct VtkShape {
     CellShape shape;
@@ -126,20 +98,6 @@ void append_cell(CellSoup<Dim>& soup, const VtkShape& shape, vtkIdList& ids, vtk
     soup.cell_label.push_back(cell);
 }
 
-/// Value of the array "body" in each VTK cell; empty without that array.
-std::vector<std::int64_t> body_values(const std::string& name, vtkUnstructuredGrid& grid) {
-    vtkDataArray* array = grid.GetCellData()->GetArray("body");
-    std::vector<std::int64_t> values;
-    for (vtkIdType cell = 0; array != nullptr && cell < array->GetNumberOfTuples(); ++cell) {
-        const double value = array->GetComponent(cell, 0);
-        if (value != std::floor(value) || !(std::abs(value) <= 1e9))
-            throw MeshError(name + ": cell " + std::to_string(cell) + " has the body " + number(value) +
-                            ", a whole number between -1e9 and 1e9 is needed. Correct the cell array 'body'.");
-        values.push_back(static_cast<std::int64_t>(value));
-    }
-    return values;
-}
-
 template <int Dim>
 void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
     const auto values = body_values(soup.name, grid);
@@ -171,12 +129,8 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
         append_cell(soup, *shape, *ids, cell, -1);
         if (!values.empty()) bodies.push_back(values[static_cast<std::size_t>(cell)]);
     }
-    auto distinct = bodies;
-    sort_unique(distinct);
-    for (const std::int64_t value : distinct) soup.body_names.push_back(std::string("body_") + std::to_string(value));
-    for (std::size_t cell = 0; cell < bodies.size(); ++cell)
-        soup.cell_body[cell] =
-            static_cast<std::int32_t>(std::lower_bound(distinct.begin(), distinct.end(), bodies[cell]) - distinct.begin());
+    soup.body_names = names_of_bodies(bodies);
+    for (std::size_t cell = 0; cell < bodies.size(); ++cell) soup.cell_body[cell] = static_cast<std::int32_t>(bodies[cell]);
     name_connected_bodies(soup);
 }
 
@@ -186,8 +140,7 @@ template <int Dim>
 Mesh<Dim> read_vtu(const std::filesystem::path& path, const MeshOptions& options) {
     CellSoup<Dim> soup;
     soup.name = path.string();
-    check_is_whole_vtu(soup.name, file_contents(path));
-    const auto grid = read_grid(soup.name);
+    const auto grid = read_unstructured_grid(path);
     read_points(soup, *grid);
     read_cells(soup, *grid);
     return build_mesh(std::move(soup), options);

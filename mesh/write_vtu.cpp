@@ -3,8 +3,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -16,14 +14,12 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <array>
-#include <stdexcept>
-#include <system_error>
 
 #include "abut/geometry/messages.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/file.hpp"
 #include "abut/mesh/quality.hpp"
-#include "abut/mesh/vtk_messages.hpp"
+#include "abut/mesh/vtk_output.hpp"
 
 namespace abut::mesh {
 namespace {
@@ -38,61 +34,6 @@ int vtk_type(CellShape shape) {
 
 /// VTK's documented wedge begins with the triangle that is counter-clockwise from outside: our second one.
 std::size_t vtk_place(CellShape shape, std::size_t i) { return shape == CellShape::prism ? (i + 3) % 6 : i; }
-
-void fill(double* tuple, double value) { tuple[0] = value; }
-template <int Dim>
-void fill(double* tuple, const Vector<Dim>& value) {
-    for (int i = 0; i < 3; ++i) tuple[i] = i < Dim ? value[i] : 0.0;
-}
-template <int Dim>
-void fill(double* tuple, const Matrix<Dim>& value) {
-    constexpr std::array<std::array<int, 2>, 6> entries = {{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-    for (const auto& [row, column] : entries)
-        *tuple++ = row < Dim && column < Dim ? 0.5 * (value(row, column) + value(column, row)) : 0.0;
-}
-
-template <class Value>
-constexpr int n_components = 6;
-template <>
-constexpr int n_components<double> = 1;
-template <int Dim>
-constexpr int n_components<Vector<Dim>> = 3;
-
-void name_components(vtkDataArray& array) {
-    constexpr std::array<const char*, 6> names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-    if (array.GetNumberOfComponents() != 6) return;
-    for (int i = 0; i < 6; ++i) array.SetComponentName(i, names[static_cast<std::size_t>(i)]);
-}
-
-template <class Value>
-vtkSmartPointer<vtkDataArray> vtk_array(const std::string& name, std::span<const Value> values) {
-    auto array = vtkSmartPointer<vtkDoubleArray>::New();
-    array->SetName(name.c_str());
-    array->SetNumberOfComponents(n_components<Value>);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-    name_components(*array);
-    double* tuple = array->GetPointer(0);
-    for (const Value& value : values) {
-        fill(tuple, value);
-        tuple += n_components<Value>;
-    }
-    return array;
-}
-
-void add_field(vtkDataSetAttributes& data, vtkDataArray* array, std::size_t wanted, const char* of_what) {
-    if (static_cast<std::size_t>(array->GetNumberOfTuples()) != wanted)
-        throw std::invalid_argument(std::string("VtuSeries: field '") + array->GetName() + "' has " +
-                                    std::to_string(array->GetNumberOfTuples()) + " values, one for each of the " +
-                                    std::to_string(wanted) + " " + of_what + " is needed.");
-    data.AddArray(array);
-}
-
-template <int Dim>
-void add_fields(vtkDataSetAttributes& data, const std::vector<Field<Dim>>& fields, std::size_t wanted, const char* of_what) {
-    for (const Field<Dim>& field : fields)
-        std::visit([&](const auto& values) { add_field(data, vtk_array(field.name, values), wanted, of_what); },
-                   field.values);
-}
 
 template <class Bodies>
 void add_bodies(vtkDataSet& grid, const Bodies& bodies) {
@@ -167,27 +108,6 @@ vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, const std::v
     return surface;
 }
 
-template <class Writer>
-PreparedFile prepared_grid(vtkDataObject& grid, const Path& path) {
-    PreparedFile prepared(path);
-    const VtkMessages messages;
-    vtkNew<Writer> writer;
-    writer->SetInputData(&grid);
-    writer->SetFileName(prepared.temporary().c_str());
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
-    const bool is_written = writer->Write() == 1;
-    const auto code = static_cast<int>(writer->GetErrorCode());  // the system's below VTK's own
-    const std::string said = messages.all();
-    if (is_written && code == 0 && said.empty()) return prepared;
-    const std::string reason =
-        code > 0 && code < vtkErrorCode::FirstVTKErrorCode ? std::generic_category().message(code) : said;
-    throw MeshError(path.string() +
-                    ": cannot be written: " + (reason.empty() ? "VTK's error " + std::to_string(code) : reason) +
-                    ". Check permissions and free space of its folder.");
-}
-
 /// Mean over the cells around each vertex. Bodies share no vertex, so nothing mixes between them.
 template <int Dim>
 std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, const Rows& cell_vertices,
@@ -255,7 +175,7 @@ template <int Dim>
 void VtuSeries<Dim>::Files::add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells,
                                              vtkDataSet& of_surface) const {
     if (displacement.empty()) return;
-    add_field(*of_cells.GetCellData(), vtk_array("displacement", displacement), n_cells(), "cells");
+    add_field(*of_cells.GetCellData(), vtk_array("displacement", displacement), n_cells(), "cells", "VtuSeries");
     const auto at_vertices = vertex_means(displacement, cell_vertices, static_cast<std::size_t>(cells->GetNumberOfPoints()));
     of_cells.GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
     std::vector<Vector<Dim>> on_surface;
@@ -290,8 +210,9 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
     cells->ShallowCopy(files_->cells);
     surface->ShallowCopy(files_->surface);
     files_->add_displacement(frame.displacement, *cells, *surface);
-    add_fields(*cells->GetCellData(), frame.cell_fields, files_->n_cells(), "cells");
-    add_fields(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces");
+    add_fields<Dim>(*cells->GetCellData(), frame.cell_fields, files_->n_cells(), "cells", "VtuSeries");
+    add_fields<Dim>(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces",
+                    "VtuSeries");
 
     auto times = files_->times;
     auto of_cells = prepared_grid<vtkXMLUnstructuredGridWriter>(

@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/mesh/surface_mesh.hpp"
+
+namespace abut::mesh {
+
+struct SurfaceOptions {
+    /// Whether vertices at exactly one place become one (see `weld`). Unset: of .stl only, which knows no shared vertices.
+    std::optional<bool> weld{};
+    /// The point array of three components that holds the displacement in .vtp and .vtu; empty: read none. That a file has
+    /// no array of the default name is no error.
+    std::string displacement = "displacement";
+    /// Every connected part a body of its own (see `name_connected_bodies`), whatever the file says.
+    bool connected_bodies = false;
+    MeshOptions volume{};  ///< for files with cells of dimension 3
+};
+
+/// The surface that a file holds, by its extension (in small or capital letters):
+/// .obj, .off, .ply (through CGAL; polygons), .stl (triangles; ASCII and binary), .vtp (polygons and strips), .vtu and .msh
+/// (triangles, quadrangles, polygons; or the boundary of the cells if there are any of dimension 3: then read_mesh is what
+/// reads, and it refuses bad cells).
+///
+/// Faces are kept as they are, however bad; the exceptions are CGAL's: an .obj or .off file with a vertex index out of range
+/// or a coordinate that is no number is an error, and an ASCII .stl file is welded in any case. Bodies: the cell array
+/// "body" of .vtp and .vtu ("body_<value>"); the physical groups of .msh; else one, called like the file.
+///
+/// Throws MeshError with the file, the reason and the remedy: missing, empty, truncated, garbage, no face, an unknown
+/// extension, a displacement that is not finite or has not three components.
+[[nodiscard]] SurfaceMesh read_surface(const std::filesystem::path& path, const SurfaceOptions& options = {});
+
+}  // namespace abut::mesh

@@ -1,0 +1,458 @@
+#include <catch2/catch.hpp>
+
+#include <Eigen/Geometry>
+
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/self_intersections.hpp"
+#include "abut/geometry/surface_health.hpp"
+#include "abut/geometry/triangulate.hpp"
+#include "geometry/soups.hpp"
+
+using namespace abut;
+using namespace abut::geometry;
+using namespace abut::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+SurfaceHealth examined(const Faces& faces, const HealthOptions& options = {}) { return examine(faces.soup(), options); }
+FaceFault fault_of(const Faces& faces, std::int32_t face = 0) {
+    return face_faults(faces.soup())[static_cast<std::size_t>(face)];
+}
+FaceFault fault_of_corners(const std::vector<Vector<3>>& corners) { return fault_of(one_face(corners)); }
+std::int64_t n_intersections(const Faces& faces) {
+    return examined(faces, {.self_intersections = true}).n_self_intersections;
+}
+std::vector<Vector<3>> regular_polygon(int n) {
+    std::vector<Vector<3>> corners;
+    for (int i = 0; i < n; ++i)
+        corners.push_back({std::cos(2.0 * std::numbers::pi * i / n), std::sin(2.0 * std::numbers::pi * i / n), 0.0});
+    return corners;
+}
+/// Appends a copy of `other` that shares no vertex with what is there.
+void append(Faces& faces, const Faces& other, const Vector<3>& shift) {
+    const auto n = static_cast<std::int32_t>(faces.vertices.size());
+    for (const Vector<3>& x : other.vertices) faces.vertices.push_back(x + shift);
+    for (std::int32_t face = 0; face < other.size(); ++face) {
+        std::vector<std::int32_t> loop;
+        for (const std::int32_t v : other.soup().vertices_of(face)) loop.push_back(v + n);
+        faces.add(loop);
+    }
+}
+/// Every face with corners of its own.
+Faces unwelded(const Faces& faces) {
+    Faces result;
+    for (std::int32_t face = 0; face < faces.size(); ++face) {
+        std::vector<std::int32_t> loop;
+        for (const std::int32_t v : faces.soup().vertices_of(face)) {
+            loop.push_back(static_cast<std::int32_t>(result.vertices.size()));
+            result.vertices.push_back(faces.vertices[static_cast<std::size_t>(v)]);
+        }
+        result.add(loop);
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("no faces are examined without complaint, and are not sound", "[geometry][health]") {
+    const SurfaceHealth health = examine({}, {.self_intersections = true});
+    CHECK(health.n_faces == 0);
+    CHECK(health.n_usable() == 0);
+    CHECK(health.components.empty());
+    CHECK(health.box.empty());
+    CHECK_FALSE(health.closed());
+    CHECK_FALSE(health.sound());
+    CHECK(examined(faces({{0, 0, 0}, {1, 0, 0}}, {})).unreferenced_vertices == std::vector<std::int32_t>{0, 1});
+}
+
+TEST_CASE("one triangle is one open component with one rim of three edges", "[geometry][health]") {
+    const SurfaceHealth health = examined(one_face({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
+    CHECK(health.n_usable() == 1);
+    CHECK(health.n_edges == 3);
+    CHECK(health.boundary_edges.size() == 3);
+    CHECK(health.n_holes == 1);
+    REQUIRE(health.components.size() == 1);
+    CHECK_FALSE(health.components[0].closed);
+    CHECK(health.area == Approx(6.0));
+    CHECK(health.shortest_edge == 3.0);
+    CHECK(health.longest_edge == 5.0);
+    CHECK(health.worst_aspect == Approx(5.0 / 2.4));  // the height on the side of 5 is 3 4 / 5
+    CHECK_FALSE(health.sound());
+}
+
+TEST_CASE("offsets that do not fit are the host's mistake and throw", "[geometry][health]") {
+    Faces bad = one_face(corner_triangle());
+    bad.offsets = {0, 2};
+    CHECK_THROWS_WITH(examine(bad.soup()), Contains("`face_offsets` ends with 2 for 3 entries"));
+    bad.offsets = {1, 3};
+    CHECK_THROWS_AS(examine(bad.soup()), std::invalid_argument);
+    bad.offsets = {0, 5, 3};
+    CHECK_THROWS_WITH(face_faults(bad.soup()), Contains("`face_offsets` falls after face 1"));
+}
+
+TEST_CASE("an index out of range is the first fault of a face", "[geometry][health]") {
+    const Faces bad = faces(corner_triangle(), {{0, 1, 3}, {-1, 0, 1}, {0, 9}, {0, 1, 2}});
+    const std::vector<FaceFault> faults = face_faults(bad.soup());
+    for (std::size_t face = 0; face < 3; ++face) CHECK(faults[face] == FaceFault::index_out_of_range);
+    CHECK(faults[3] == FaceFault::none);
+    CHECK(describe(bad.soup(), 0, faults[0]) == "names vertex 3, but there are 3");
+    CHECK(describe(bad.soup(), 1, faults[1]) == "names vertex -1, but there are 3");
+    CHECK(examined(bad, {.self_intersections = true}).n_usable() == 1);
+}
+
+TEST_CASE("a face has 3 to max_polygon_vertices corners", "[geometry][health]") {
+    CHECK(fault_of(faces(corner_triangle(), {{}})) == FaceFault::too_few_corners);
+    CHECK(fault_of(faces(corner_triangle(), {{0, 1}})) == FaceFault::too_few_corners);
+    CHECK(fault_of_corners(regular_polygon(max_polygon_vertices)) == FaceFault::none);
+    CHECK(fault_of_corners(regular_polygon(max_polygon_vertices + 1)) == FaceFault::too_many_corners);
+}
+
+TEST_CASE("a corner that is NaN or infinite makes its faces unusable and no others", "[geometry][health]") {
+    const double bad = GENERATE(as<double>{}, no_number, infinite, -infinite);
+    CAPTURE(bad);
+    const Faces soup = faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {bad, 1, 1}}, {{0, 1, 2}, {0, 1, 3}, {3, 3, 3}});
+    const SurfaceHealth health = examined(soup, {.self_intersections = true});
+    CHECK(health.unusable_faces == std::vector<std::int32_t>{1, 2});
+    CHECK(health.n_faults[static_cast<std::size_t>(FaceFault::not_finite)] == 2);
+    CHECK(health.n_bad_vertices == 1);
+    CHECK(health.box.upper == Vector<3>(1, 1, 0));
+    CHECK(std::isfinite(health.area));
+    CHECK_THAT(describe(soup.soup(), 1, health.faults[1]), Contains("has vertex 3 at (") && Contains("finite"));
+}
+
+TEST_CASE("coordinates and sizes beyond what products of doubles bear are refused", "[geometry][health]") {
+    CHECK(fault_of_corners(corner_triangle(1e19)) == FaceFault::none);
+    CHECK(fault_of_corners(corner_triangle(1e75)) == FaceFault::none);
+    CHECK(fault_of_corners(corner_triangle(1.1e75)) == FaceFault::too_large);
+    CHECK(fault_of_corners(corner_triangle(1e300)) == FaceFault::too_large);
+    CHECK(fault_of_corners(corner_triangle(1e-74)) == FaceFault::none);
+    CHECK(fault_of_corners(corner_triangle(1e-76)) == FaceFault::too_small);
+    CHECK(fault_of_corners(corner_triangle(1e-200)) == FaceFault::too_small);
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {0.5, 1e-80, 0}}) == FaceFault::too_small);
+    const Faces huge = one_face(corner_triangle(1e76));
+    CHECK(describe(huge.soup(), 0, FaceFault::too_large) ==
+          "has vertex 1 at (1e+76, 0, 0) m, coordinates up to 1e+75 m are allowed");
+}
+
+TEST_CASE("a surface of any allowed size gives measures of that size", "[geometry][health]") {
+    const double size = GENERATE(1e-70, 1e-20, 1.0, 1e19, 1e70);
+    Faces box = cube();
+    for (Vector<3>& x : box.vertices) x *= size;
+    const SurfaceHealth health = examined(box, {.self_intersections = true});
+    CHECK(health.sound());
+    CHECK(health.area == Approx(6.0 * size * size).margin(0.0));
+    CHECK(health.components[0].volume == Approx(size * size * size).margin(0.0));
+    CHECK(health.worst_aspect == Approx(1.0));
+}
+
+TEST_CASE("corners at fewer than three places make no face", "[geometry][health]") {
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}) == FaceFault::repeated_corner);
+    CHECK(fault_of_corners({{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}) == FaceFault::repeated_corner);
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {1, 0, 0}}) == FaceFault::repeated_corner);
+    CHECK(fault_of(faces(corner_triangle(), {{0, 1, 1}})) == FaceFault::repeated_corner);
+    // Three places are enough.
+    const SurfaceHealth health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    CHECK(health.n_usable() == 1);
+    CHECK(health.repeated_corner_faces == std::vector<std::int32_t>{0});
+    CHECK(health.n_edges == 3);
+}
+
+TEST_CASE("a triangle whose corners are exactly collinear has no area", "[geometry][health]") {
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}) == FaceFault::zero_area);
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 2, 3}, {-2, -4, -6}}) == FaceFault::zero_area);
+    CHECK(fault_of_corners({{0.5, 0.5, 0}, {12.0, 12.0, 0}, {24.0, 24.0, 0}}) == FaceFault::zero_area);
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}) == FaceFault::zero_area);
+    // One unit in the last place aside, and it is a face.
+    CHECK(fault_of_corners({{0.5, 0.5, 0}, {12.0, std::nextafter(12.0, 13.0), 0}, {24.0, 24.0, 0}}) == FaceFault::none);
+}
+
+TEST_CASE("a needle of aspect 1e12 is usable, and counted as a sliver of that decade", "[geometry][health]") {
+    const SurfaceHealth health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5e-12, 0}}));
+    CHECK(health.n_usable() == 1);
+    CHECK(health.worst_aspect == Approx(2e12));
+    CHECK(health.worst_aspect_face == 0);
+    CHECK(health.slivers == std::vector<std::int32_t>{0});
+    CHECK(health.aspect_decades[12] == 1);
+}
+
+TEST_CASE("aspect ratios are longest edge over smallest height", "[geometry][health]") {
+    CHECK(aspect_ratio(regular_polygon(3)) == Approx(2.0 / std::sqrt(3.0)));
+    CHECK(aspect_ratio(one_face({{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {0, 1, 0}}).vertices) == Approx(5.0));
+    Faces both = one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.02, 0}});
+    append(both, one_face(corner_triangle()), {0, 0, 1});
+    SurfaceHealth health = examined(both, {.sliver_aspect = 49.0});
+    CHECK(health.slivers == std::vector<std::int32_t>{0});
+    CHECK(health.worst_aspect == Approx(50.0));
+    CHECK(health.aspect_decades[0] == 1);
+    CHECK(health.aspect_decades[1] == 1);
+    CHECK(examined(both, {.sliver_aspect = 51.0}).slivers.empty());
+}
+
+TEST_CASE("a bow-tie is told from a polygon that is not convex", "[geometry][health]") {
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}) == FaceFault::crossing);          // lobes cancel
+    CHECK(fault_of_corners({{0, 0, 0}, {2, 0, 0}, {0.9, 1.2, 0}, {1.1, 1.2, 0}}) == FaceFault::crossing);  // or not
+    CHECK(fault_of_corners({{0, 0, 1}, {0, 1, 2}, {0, 1, 1}, {0, 0, 2}}) == FaceFault::crossing);          // any plane
+    CHECK(fault_of_corners({{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}}) == FaceFault::non_convex);
+    std::vector<Vector<3>> star;
+    const auto pentagon = regular_polygon(5);
+    for (const std::size_t i : {0u, 2u, 4u, 1u, 3u}) star.push_back(pentagon[i]);
+    CHECK(fault_of_corners(star) == FaceFault::crossing);
+    // Around twice: convex by every edge, and yet no polygon.
+    const auto once = regular_polygon(3);
+    CHECK(fault_of_corners({once[0], once[1], once[2], once[0], once[1], once[2]}) == FaceFault::crossing);
+}
+
+TEST_CASE("a polygon with straight corners is usable", "[geometry][health]") {
+    CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}) == FaceFault::none);
+}
+
+TEST_CASE("a polygon that is not flat is usable and listed with its deviation", "[geometry][health]") {
+    // One corner lifted by h: the corners lie h/4 on either side of the plane through the centroid, tilted by O(h).
+    const double h = 1e-3;
+    Faces soup = one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, h}, {0, 1, 0}});
+    append(soup, one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-12}, {0, 1, 0}}), {0, 0, 5});
+    const SurfaceHealth health = examined(soup);
+    CHECK(health.n_usable() == 2);
+    CHECK(health.non_planar_faces == std::vector<std::int32_t>{0});
+    CHECK(health.worst_planarity == Approx(h / 4).epsilon(1e-3));
+    CHECK(health.worst_planarity_face == 0);
+    CHECK_FALSE(health.sound());
+}
+
+TEST_CASE("the second of two equal faces is a duplicate, from whichever corner it starts", "[geometry][health]") {
+    const Faces soup = faces(corner_triangle(), {{0, 1, 2}, {1, 2, 0}, {0, 1, 2}});
+    CHECK(face_faults(soup.soup()) == std::vector{FaceFault::none, FaceFault::duplicate, FaceFault::duplicate});
+    Faces apart = one_face(corner_triangle());
+    append(apart, one_face(corner_triangle()), Vector<3>::Zero());  // other indices, same places
+    CHECK(fault_of(apart, 1) == FaceFault::duplicate);
+    CHECK(fault_of(faces(corner_triangle(), {{0, 1, 9}, {0, 1, 9}}), 1) == FaceFault::index_out_of_range);
+}
+
+TEST_CASE("a face that repeats another the other way round is usable and reported by itself", "[geometry][health]") {
+    const SurfaceHealth health =
+        examined(faces(corner_triangle(), {{0, 1, 2}, {0, 2, 1}, {2, 1, 0}}), {.self_intersections = true});
+    CHECK(health.n_usable() == 2);
+    CHECK(health.faults[2] == FaceFault::duplicate);  // of the flipped one
+    REQUIRE(health.flipped_duplicates.size() == 1);
+    CHECK(health.flipped_duplicates[0].face == 1);
+    CHECK(health.flipped_duplicates[0].earlier == 0);
+    CHECK(health.n_self_intersections == 0);
+    CHECK_FALSE(health.sound());
+}
+
+TEST_CASE("vertices that no face names, and such at one place, are counted", "[geometry][health]") {
+    Faces soup = one_face(corner_triangle());
+    soup.vertices.push_back({7, 7, 7});
+    soup.vertices.push_back({1, 0, 0});
+    soup.vertices.push_back({-0.0, 0, 0});
+    const SurfaceHealth health = examined(soup);
+    CHECK(health.unreferenced_vertices == std::vector<std::int32_t>{3, 4, 5});
+    CHECK(health.n_unwelded_vertices == 2);
+    CHECK(health.place == std::vector<std::int32_t>{0, 1, 2, 3, 1, 0});
+}
+
+TEST_CASE("a cube is sound, welded or not", "[geometry][health]") {
+    const bool weld = GENERATE(true, false);
+    const SurfaceHealth health = examined(weld ? cube() : unwelded(cube()), {.self_intersections = true});
+    CHECK(health.sound());
+    CHECK(health.n_edges == 12);
+    CHECK(health.n_unwelded_vertices == (weld ? 0 : 24 - 8));
+    CHECK(health.components[0].volume == Approx(1.0));
+    CHECK(health.area == Approx(6.0));
+}
+
+TEST_CASE("a closed surface that is turned inside out has a negative volume", "[geometry][health]") {
+    Faces box = cube();
+    for (std::int32_t face = 0; face < box.size(); ++face)
+        std::reverse(box.corners.begin() + box.offsets[static_cast<std::size_t>(face)],
+                     box.corners.begin() + box.offsets[static_cast<std::size_t>(face) + 1]);
+    const SurfaceHealth health = examined(box);
+    CHECK(health.closed());
+    CHECK(health.components[0].inside_out);
+    CHECK(health.components[0].volume == Approx(-1.0));
+    CHECK_FALSE(health.sound());
+}
+
+TEST_CASE("one face turned round shows on each of its edges", "[geometry][health]") {
+    Faces box = cube();
+    std::reverse(box.corners.begin(), box.corners.begin() + 4);
+    const SurfaceHealth health = examined(box);
+    CHECK(health.inconsistent_edges.size() == 4);
+    CHECK(health.closed());
+    CHECK_FALSE(health.components[0].oriented);
+    CHECK_FALSE(health.sound());
+}
+
+TEST_CASE("a Moebius strip cannot be oriented", "[geometry][health]") {
+    const SurfaceHealth health = examined(moebius_strip(12));
+    CHECK(health.n_usable() == 24);
+    CHECK(health.inconsistent_edges.size() == 1);
+    CHECK(health.n_holes == 1);
+    CHECK(health.components.size() == 1);
+    CHECK_FALSE(health.components[0].oriented);
+}
+
+TEST_CASE("an edge of three faces is not manifold", "[geometry][health]") {
+    const SurfaceHealth health =
+        examined(faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+    REQUIRE(health.non_manifold_edges.size() == 1);
+    CHECK(health.non_manifold_edges[0].n_faces == 3);
+    CHECK(health.non_manifold_edges[0].first == 0);
+    CHECK(health.non_manifold_edges[0].second == 1);
+    CHECK(health.components.size() == 1);
+    CHECK(health.boundary_edges.size() == 6);
+    CHECK_FALSE(health.closed());
+}
+
+TEST_CASE("two cubes along one edge enclose two volumes, along no edge they are two components", "[geometry][health]") {
+    Faces touching = cube();
+    append(touching, cube(), {1, 1, 0});  // an edge
+    SurfaceHealth health = examined(touching);
+    CHECK(health.components.size() == 1);
+    CHECK(health.non_manifold_edges.size() == 1);
+    CHECK(health.closed());
+    CHECK(health.components[0].volume == Approx(2.0));
+    Faces apart = cube();
+    append(apart, cube(), {1, 1, 1});  // a corner
+    health = examined(apart);
+    REQUIRE(health.components.size() == 2);
+    CHECK(health.components[1].first_face == 6);
+    CHECK(health.components[1].volume == Approx(1.0));
+    CHECK(std::count(health.face_component.begin(), health.face_component.end(), 1) == 6);
+    CHECK(health.sound());
+}
+
+TEST_CASE("a sphere with k faces removed has k holes", "[geometry][health]") {
+    const int k = GENERATE(0, 1, 5);
+    const Faces whole = sphere(3);
+    Faces pierced;
+    pierced.vertices = whole.vertices;
+    for (std::int32_t face = 0; face < whole.size(); ++face) {
+        const auto loop = whole.soup().vertices_of(face);
+        if (face % 64 != 3 || face / 64 >= k) pierced.add({loop.begin(), loop.end()});  // 64 faces to an octant
+    }
+    const SurfaceHealth health = examined(pierced);
+    CHECK(health.n_faces == 512 - k);
+    CHECK(health.n_holes == k);
+    CHECK(health.boundary_edges.size() == static_cast<std::size_t>(3 * k));
+    CHECK(health.closed() == (k == 0));
+    CHECK(static_cast<int>(health.n_vertices) - health.n_edges + health.n_faces == 2 - k);  // Euler
+}
+
+TEST_CASE("the volume inside a sphere of triangles approaches 4/3 pi as the square of their size", "[geometry][health]") {
+    const double exact = 4.0 / 3.0 * std::numbers::pi;
+    const double coarse = exact - examined(sphere(3)).components[0].volume;
+    const double fine = exact - examined(sphere(4)).components[0].volume;
+    CHECK(coarse > 0.0);
+    CHECK(coarse / fine == Approx(4.0).epsilon(0.02));
+}
+
+TEST_CASE("two triangles that cross are found", "[geometry][health][intersections]") {
+    const Faces crossing = two_triangles({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}});
+    const SurfaceHealth health = examined(crossing, {.self_intersections = true});
+    CHECK(health.n_self_intersections == 1);
+    CHECK(health.self_intersections == std::vector<IndexPair>{{0, 1}});
+    CHECK_FALSE(examined(crossing).looked_for_self_intersections);
+    CHECK(n_intersections(two_triangles({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, -1}, {2, 2, 1}, {3, 3, 0}})) == 0);
+}
+
+TEST_CASE("a corner that lies on another face touches it", "[geometry][health][intersections]") {
+    const double height = GENERATE(0.0, 1e-300);
+    const Faces touching =
+        two_triangles({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, height}, {0.5, 0.6, 1}, {0.6, 0.5, 1}});
+    CHECK(n_intersections(touching) == (height > 0.0 ? 0 : 1));
+}
+
+TEST_CASE("faces that share a corner intersect where they meet beyond it", "[geometry][health][intersections]") {
+    const auto fan = [](const Vector<3>& a, const Vector<3>& b) {
+        return n_intersections(faces({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, a, b}, {{0, 1, 2}, {0, 3, 4}}));
+    };
+    CHECK(fan({-1, 0, 0}, {0, -1, 0}) == 0);     // in one plane, beside each other
+    CHECK(fan({1, 1, -1}, {1, 1, 1}) == 1);      // through the inside
+    CHECK(fan({1, 0.5, 0}, {-1, 0, 1}) == 1);    // an edge of one in the plane of the other
+    CHECK(fan({0.1, 0.1, -1}, {5, 5, 6}) == 1);  // leaves through the opposite edge
+    CHECK(fan({-1, -1, -1}, {-1, -1, 1}) == 0);
+}
+
+TEST_CASE("faces that share an edge intersect if folded onto each other", "[geometry][health][intersections]") {
+    const auto hinge = [](const Vector<3>& a) {
+        return n_intersections(faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, a}, {{0, 1, 2}, {1, 0, 3}}));
+    };
+    CHECK(hinge({0, -1, 0}) == 0);
+    CHECK(hinge({0.5, 0.5, 1e-300}) == 0);  // all but folded
+    CHECK(hinge({0.5, 0.25, 0}) == 1);
+    CHECK(hinge({0.3, 2, 0}) == 1);
+}
+
+TEST_CASE("a sphere and a torus do not pass through themselves, a torus without a hole does",
+          "[geometry][health][intersections]") {
+    CHECK(n_intersections(sphere(4)) == 0);
+    CHECK(n_intersections(torus(24, 0.9)) == 0);
+    CHECK(n_intersections(cube()) == 0);
+    CHECK(n_intersections(torus(24, 2.5)) > 0);
+}
+
+TEST_CASE("two spheres intersect in the faces that a test of every pair finds", "[geometry][health][intersections]") {
+    Faces both = sphere(2);
+    append(both, sphere(2), {0.9, 0.3, 0.2});
+    const SurfaceHealth health = examined(both, {.self_intersections = true, .max_listed_pairs = 3});
+    CHECK(health.self_intersections.size() == 3);
+    const auto places = health.place;
+    // Pair by pair: a soup of two faces has no candidates to miss.
+    std::int64_t n = 0;
+    for (std::int32_t i = 0; i < 128; ++i)
+        for (std::int32_t j = 128; j < 256; ++j) {
+            const auto a = both.soup().vertices_of(i), b = both.soup().vertices_of(j);
+            n += n_intersections(faces(both.vertices, {{a.begin(), a.end()}, {b.begin(), b.end()}}));
+        }
+    CHECK(n > 20);
+    CHECK(health.n_self_intersections == n);
+}
+
+TEST_CASE("what intersects does not depend on the number of threads", "[geometry][health][intersections]") {
+    const Faces knot = torus(32, 2.5);
+    const auto found = [&](std::size_t n_threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, n_threads);
+        return examined(knot, {.self_intersections = true}).self_intersections;
+    };
+    CHECK(found(1) == found(4));
+}
+
+TEST_CASE("polygons are cut into triangles of the same area and sense, none of them flat", "[geometry][triangulate]") {
+    const auto area_sum = [](const std::vector<Vector<3>>& corners) {
+        Vector<3> sum = Vector<3>::Zero();
+        double smallest = infinite;
+        const auto cut = cut_into_triangles(corners);
+        CHECK(cut.size() == corners.size() - 2);
+        for (const auto& t : cut) {
+            const Vector<3>&a = corners[static_cast<std::size_t>(t[0])], &b = corners[static_cast<std::size_t>(t[1])],
+                  &c = corners[static_cast<std::size_t>(t[2])];
+            sum += 0.5 * (b - a).cross(c - a);
+            smallest = std::min(smallest, 0.5 * (b - a).cross(c - a).z());
+        }
+        CHECK(smallest > 0.0);
+        return sum.z();
+    };
+    const int n = GENERATE(3, 4, 7, 16);
+    CHECK(area_sum(regular_polygon(n)) == Approx(0.5 * n * std::sin(2.0 * std::numbers::pi / n)));
+    // Two straight corners on every side of a square: 12 corners, area 9.
+    std::vector<Vector<3>> square;
+    const std::vector<Vector<3>> turns = {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}};
+    for (std::size_t i = 0; i < 4; ++i)
+        for (int k = 0; k < 3; ++k) square.push_back(turns[i] + k / 3.0 * (turns[(i + 1) % 4] - turns[i]));
+    CHECK(area_sum(square) == Approx(9.0));
+    // A straight corner leaves one way to cut a quadrangle.
+    CHECK(area_sum({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}) == Approx(2.0));
+}
