@@ -10,6 +10,9 @@ inline constexpr double coincidence_tolerance = 1e-12;
 /// z component of a x b [m^2].
 inline double cross(const PlaneVector<3>& a, const PlaneVector<3>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
+/// What it took to decide on a pair.
+enum class Arithmetic { doubles, exact };
+
 /// The reference: exact constructions, each result rounded once.
 SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift);
 SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift);
