@@ -284,6 +284,28 @@ SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2
     return method == AreaMethod::fast ? fast_shared_area(face_1, face_2, shift) : exact_shared_area(face_1, face_2, shift);
 }
 
+template <>
+std::vector<PlaneVector<2>> shared_polygon<2>(ProjectedFace<2> face_1, ProjectedFace<2> face_2) {
+    if (!interiors_meet(face_1, face_2, 0.0)) return {};
+    return {PlaneVector<2>(std::max(face_1[0].x(), face_2[0].x())), PlaneVector<2>(std::min(face_1[1].x(), face_2[1].x()))};
+}
+
+template <>
+std::vector<PlaneVector<3>> shared_polygon<3>(ProjectedFace<3> face_1, ProjectedFace<3> face_2) {
+    const PlaneVector<3> no_shift = PlaneVector<3>::Zero();
+    if (fast_shared_area(face_1, face_2, no_shift).area == 0.0) return {};
+    const Polygon polygon_1(face_1, face_1[0], no_shift), polygon_2(face_2, face_1[0], no_shift);
+    Clipped overlap, clipped;
+    for (int j = 0; j < polygon_2.size; ++j) overlap.add(polygon_2.vertices[j], j, true);
+    for (int i = 0; i < polygon_1.size && overlap.size > 0; ++i) {
+        clip(overlap, polygon_1.vertices[i], polygon_1.edge(i), i, clipped);
+        std::swap(overlap, clipped);
+    }
+    std::vector<PlaneVector<3>> corners;
+    for (int k = 0; k < overlap.size; ++k) corners.push_back(face_1[0] + overlap.corners[k].point);
+    return corners;
+}
+
 SharedArea<3> counted_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
                                   DecisionCounts& counts) {
     Arithmetic used = Arithmetic::doubles;

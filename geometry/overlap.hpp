@@ -40,6 +40,11 @@ template <int Dim>
 [[nodiscard]] SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
                                           const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
 
+/// The patch itself: its corners, counter-clockwise (3D; convex up to rounding, with corners that may repeat), or its two
+/// ends in increasing order (2D). Empty where the faces share no area, which is decided exactly; the corners are rounded.
+template <int Dim>
+[[nodiscard]] std::vector<PlaneVector<Dim>> shared_polygon(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2);
+
 /// Two triangles to be compared as `shared_area` does, each counter-clockwise.
 struct TrianglePair {
     std::array<PlaneVector<3>, 3> face_1, face_2;
