@@ -129,6 +129,14 @@ double size_of(const Polygon& polygon) {
     return largest;
 }
 
+bool is_thin(const Polygon& polygon) {
+    double twice_area = 0.0;
+    for (int i = 1; i + 1 < polygon.size; ++i)
+        twice_area += cross(polygon.vertices[i] - polygon.vertices[0], polygon.vertices[i + 1] - polygon.vertices[0]);
+    const double size = size_of(polygon);
+    return twice_area < 2.0 * thin_face * (size * size);
+}
+
 // Whether all of `other` lies more than `margin` [m^2], the rounding error of a height, on the outer side of edge i.
 bool lies_beyond(const Polygon& polygon, int i, const Polygon& other, double margin) {
     const PlaneVector<3> start = polygon.vertices[i], edge = polygon.edge(i);
@@ -238,10 +246,14 @@ SharedArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face
         return exact_shared_area(face_1, face_2, shift);
     }
 
-    const double area = area_of(*overlap);
+    double area = area_of(*overlap);
     if (area <= area_error &&
         (lies_beyond_an_edge(polygon_2, polygon_1, area_error) || !interiors_meet(face_1, face_2, shift, used)))
         return {};
+    if (is_thin(polygon_1) || is_thin(polygon_2)) {
+        used = Arithmetic::exact;
+        area = exact_shared_area(face_1, face_2, shift).area;
+    }
     const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
     return {std::max(area, std::numeric_limits<double>::min()),
             shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};

@@ -48,6 +48,12 @@ struct LanePair {
     LaneMask is_proper;      // neither triangle is too thin, too small or too large
     LaneMask is_given;       // coordinates are those to decide on
 
+    LaneMask is_proper_face(const Triangle& t) const {
+        const Lanes twice_area = cross(t.edge[0], t.edge[1]);
+        return (twice_area > limit) &
+               (twice_area > thin_face * larger(dot(t.edge[0], t.edge[0]), dot(t.edge[1], t.edge[1])));
+    }
+
     LanePair(const TriangleBatch& batch, int first) : a(batch.x_a, batch.y_a, first), b(batch.x_b, batch.y_b, first) {
         const Lanes shift = load_lanes(&batch.rounded_shift[first]);
         Lanes extent = shift;
@@ -59,8 +65,7 @@ struct LanePair {
         include(b.edge[0]);
         include(b.edge[2]);
         limit = least_certain_height * (extent * extent);
-        is_proper = (cross(a.edge[0], a.edge[1]) > limit) & (cross(b.edge[0], b.edge[1]) > limit) & (extent > least_extent) &
-                    (extent < largest_extent);
+        is_proper = is_proper_face(a) & is_proper_face(b) & (extent > least_extent) & (extent < largest_extent);
         is_given = shift == 0.0;
     }
 };

@@ -7,6 +7,9 @@ namespace abut::geometry {
 /// Two edges lie on one line when both ends of one are within this part of the face size of the other's line.
 inline constexpr double coincidence_tolerance = 1e-12;
 
+/// A face is thin if its area is below this part of the square of its size: doubles leave of it fewer digits than six.
+inline constexpr double thin_face = 1e-9;
+
 /// z component of a x b [m^2].
 inline double cross(const PlaneVector<3>& a, const PlaneVector<3>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
