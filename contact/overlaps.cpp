@@ -32,7 +32,7 @@ struct Scene {
         return surface.stiffness[face] == std::numeric_limits<double>::infinity();
     }
     [[nodiscard]] bool are_facing(IndexPair pair) const {
-        return contact::are_facing(surface, pair.first, pair.second, 0.0);
+        return surface.normal[pair.first].dot(surface.normal[pair.second]) < 0.0;
     }
     [[nodiscard]] Vector<Dim> motion(IndexPair pair) const { return displacement[pair.second] - displacement[pair.first]; }
     [[nodiscard]] Vector<Dim> apart(IndexPair pair) const {
@@ -41,17 +41,30 @@ struct Scene {
     [[nodiscard]] const Vector<Dim>& corner(std::int32_t face, int i) const {
         return surface.vertices[surface.face_vertices[surface.face_offsets[face] + i]];
     }
+    /// Asks for what is known of a face before it is needed: the faces of a list of pairs are all over the memory.
+    void prefetch(std::int32_t face) const {
+        __builtin_prefetch(&surface.normal[face]);
+        __builtin_prefetch(&surface.centroid[face]);
+        __builtin_prefetch(&displacement[face]);
+        __builtin_prefetch(&surface.area[face]);
+        __builtin_prefetch(&surface.stiffness[face]);
+        for (int i = 0; i < Dim; ++i) __builtin_prefetch(&corner(face, i));
+    }
     [[nodiscard]] int n_corners(std::int32_t face) const {
         return surface.face_offsets[face + 1] - surface.face_offsets[face];
     }
 };
 
 template <int Dim>
-void check_pair(const SurfaceView<Dim>& surface, IndexPair pair, const std::string& name) {
-    for (const std::int32_t face : {pair.first, pair.second})
-        if (face < 0 || face >= surface.size())
-            throw std::invalid_argument("overlaps: " + name + " names face " + std::to_string(face) + ", but there are " +
-                                        std::to_string(surface.size()) + " faces. Correct `pairs`.");
+bool are_faces(const SurfaceView<Dim>& surface, IndexPair pair) {
+    return pair.first >= 0 && pair.first < surface.size() && pair.second >= 0 && pair.second < surface.size();
+}
+
+template <int Dim>
+[[noreturn]] void refuse_pair(const SurfaceView<Dim>& surface, IndexPair pair, const std::string& name) {
+    const bool is_first = pair.first < 0 || pair.first >= surface.size();
+    throw std::invalid_argument("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
+                                ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.");
 }
 
 template <int Dim>
@@ -132,11 +145,15 @@ public:
         const int k = size_++;
         pairs_[k] = pair;
         is_swapped_[k] = scene.surface.area[pair.second] > scene.surface.area[pair.first];
-        const auto [b, a] = is_swapped_[k] ? pair : IndexPair{pair.second, pair.first};
-        const Vector<3>& origin = scene.corner(b, 0);
-        const Vector<3> motion = scene.displacement[a] - scene.displacement[b];
-        for (int i = 0; i < 3; ++i) put((scene.corner(a, i) - origin) + motion, a_[index(a, i, pair)], k);
-        for (int i = 1; i < 3; ++i) put(scene.corner(b, i) - origin, b_[index(b, i, pair) - 1], k);
+        const bool other = is_swapped_[k];  // which face is a; an index, for branches could not be foretold
+        const std::array<std::int32_t, 2> faces{pair.first, pair.second};
+        const std::array<std::array<const Vector<3>*, 3>, 2> corners{corners_of(scene, pair.first, 1, 2),
+                                                                     corners_of(scene, pair.second, 2, 1)};
+        const auto &a = corners[other], &b = corners[!other];
+        const Vector<3>& origin = *b[0];
+        const Vector<3> motion = scene.displacement[faces[other]] - scene.displacement[faces[!other]];
+        for (int i = 0; i < 3; ++i) put((*a[i] - origin) + motion, a_[i], k);
+        for (int i = 1; i < 3; ++i) put(*b[i] - origin, b_[i - 1], k);
         put(normal_before(scene, pair), normal_, k);
         put(scene.apart(pair), apart_, k);
     }
@@ -156,8 +173,10 @@ private:
     static void put(const Vector<3>& v, Rows& rows, int k) {
         for (int i = 0; i < 3; ++i) rows[i][k] = v[i];
     }
-    // Face 2 runs the other way about the normal of the pair.
-    static int index(std::int32_t face, int i, IndexPair pair) { return face == pair.second && i > 0 ? 3 - i : i; }
+    // Face 2 runs the other way about the normal of the pair: its corners come as 0, 2, 1.
+    static std::array<const Vector<3>*, 3> corners_of(const Scene<3>& scene, std::int32_t face, int second, int third) {
+        return {&scene.corner(face, 0), &scene.corner(face, second), &scene.corner(face, third)};
+    }
     // As `pair_normal`, of any length.
     static Vector<3> normal_before(const Scene<3>& scene, IndexPair pair) {
         const Vector<3>&n_1 = scene.surface.normal[pair.first], &n_2 = scene.surface.normal[pair.second];
@@ -274,8 +293,11 @@ void append_overlaps(const Scene<2>& scene, std::span<const IndexPair> pairs, Ar
 
 // Triangles wait in a block. What cannot wait there takes its turn behind them: the order is that of the pairs.
 void append_overlaps(const Scene<3>& scene, std::span<const IndexPair> pairs, AreaMethod method, Overlaps<3>& overlaps) {
+    constexpr std::size_t ahead = 12;
     TriangleBlock block;
-    for (const IndexPair pair : pairs) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const IndexPair pair = pairs[i];
+        if (i + ahead < pairs.size()) scene.prefetch(pairs[i + ahead].second);
         if (scene.n_corners(pair.first) != 3 || scene.n_corners(pair.second) != 3) {
             block.flush(method, overlaps);
             append_overlap(scene, pair, method, overlaps);
@@ -295,49 +317,57 @@ std::size_t number_of_parts(std::size_t n_pairs) {
     return threads == 1 ? 1 : std::clamp<std::size_t>(n_pairs / 2048, 1, 8 * threads);
 }
 
+// Puts the parts behind the first one, in order, and their counts together.
 template <int Dim>
-Overlaps<Dim> joined(std::vector<Overlaps<Dim>>& parts) {
-    Overlaps<Dim> all = std::move(parts.front());
-    std::size_t n = 0;
+void join(std::span<const Overlaps<Dim>> parts, Overlaps<Dim>& all) {
+    std::size_t n = all.found.size();
     for (const Overlaps<Dim>& part : parts) n += part.found.size();
     all.found.reserve(n);
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-        all.found.insert(all.found.end(), parts[i].found.begin(), parts[i].found.end());
-        all.report.not_facing += parts[i].report.not_facing;
-        all.report.decided += parts[i].report.decided;
+    for (const Overlaps<Dim>& part : parts) {
+        all.found.insert(all.found.end(), part.found.begin(), part.found.end());
+        all.report.not_facing += part.report.not_facing;
+        all.report.decided += part.report.decided;
     }
-    return all;
 }
 
 }  // namespace
 
 template <int Dim>
-Overlaps<Dim> find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
-                            std::span<const IndexPair> pairs, AreaMethod method) {
+void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                   std::span<const IndexPair> pairs, AreaMethod method, Overlaps<Dim>& overlaps) {
     check_arrays(surface, displacement);
     for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (!(pairs[i].first >= 0 && pairs[i].first < surface.size() && pairs[i].second >= 0 &&
-              pairs[i].second < surface.size()))
-            check_pair(surface, pairs[i], "pair " + std::to_string(i));
+        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
 
+    overlaps.found.clear();
+    overlaps.report = {};
     const Scene<Dim> scene{surface, displacement};
-    std::vector<Overlaps<Dim>> parts(number_of_parts(pairs.size()));
-    oneapi::tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-        const std::size_t begin = i * pairs.size() / parts.size(), end = (i + 1) * pairs.size() / parts.size();
-        parts[i].found.reserve(end - begin);
-        append_overlaps(scene, pairs.subspan(begin, end - begin), method, parts[i]);
+    const std::size_t n_parts = number_of_parts(pairs.size());
+    std::vector<Overlaps<Dim>> others(n_parts - 1);
+    oneapi::tbb::parallel_for(std::size_t{0}, n_parts, [&](std::size_t i) {
+        const std::size_t begin = i * pairs.size() / n_parts, end = (i + 1) * pairs.size() / n_parts;
+        Overlaps<Dim>& part = i == 0 ? overlaps : others[i - 1];
+        part.found.reserve(end - begin);
+        append_overlaps(scene, pairs.subspan(begin, end - begin), method, part);
     });
-    Overlaps<Dim> all = joined(parts);
-    all.report.pairs = static_cast<std::int64_t>(pairs.size());
-    all.report.overlaps = static_cast<std::int64_t>(all.found.size());
-    return all;
+    join<Dim>(others, overlaps);
+    overlaps.report.pairs = static_cast<std::int64_t>(pairs.size());
+    overlaps.report.overlaps = static_cast<std::int64_t>(overlaps.found.size());
+}
+
+template <int Dim>
+Overlaps<Dim> find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                            std::span<const IndexPair> pairs, AreaMethod method) {
+    Overlaps<Dim> overlaps;
+    find_overlaps(surface, displacement, pairs, method, overlaps);
+    return overlaps;
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                                          IndexPair pair) {
     check_arrays(surface, displacement);
-    check_pair(surface, pair, "the pair");
+    if (!are_faces(surface, pair)) refuse_pair(surface, pair, "the pair");
     const Scene<Dim> scene{surface, displacement};
     if (!scene.are_facing(pair)) return {};
     const ProjectedPair<Dim> projected(scene, pair);
@@ -351,6 +381,10 @@ std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface, std::s
     return polygon;
 }
 
+template void find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>, AreaMethod,
+                               Overlaps<2>&);
+template void find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>, AreaMethod,
+                               Overlaps<3>&);
 template Overlaps<2> find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>,
                                       AreaMethod);
 template Overlaps<3> find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>,

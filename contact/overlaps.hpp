@@ -46,6 +46,11 @@ template <int Dim>
                                           std::span<const geometry::IndexPair> pairs,
                                           geometry::AreaMethod method = geometry::AreaMethod::fast);
 
+/// The same into memory that is used again, for a host that asks at every step: what was in `overlaps` is lost.
+template <int Dim>
+void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                   std::span<const geometry::IndexPair> pairs, geometry::AreaMethod method, Overlaps<Dim>& overlaps);
+
 /// The shared patch of one pair itself, for pictures: its corners in space, on the plane halfway between the displaced
 /// centroids, counter-clockwise about n_12 (3D), or its two ends (2D). Empty where the faces share no area or do not face
 /// each other. The decision is exact, the corners are rounded. Errors as above.
