@@ -7,7 +7,8 @@
 
 namespace abut::benchmark {
 
-/// One way to compute the area that two triangles share. Pairs have no shift; both triangles are counter-clockwise.
+/// One way to compute the area that two triangles share; NaN where it came to grief. Pairs have no shift; both triangles
+/// are counter-clockwise.
 struct Clipper {
     std::string name;
     std::size_t most_pairs;  ///< that are worth timing
