@@ -210,8 +210,8 @@ private:
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
     static VectorLanes normalized(const VectorLanes& a) {
-        const Lanes length = geometry::square_root(dot(a, a));
-        return {a.x / length, a.y / length, a.z / length};
+        const Lanes scale = 1.0 / geometry::square_root(dot(a, a));
+        return {scale * a.x, scale * a.y, scale * a.z};
     }
     // The first tangent of PlaneFrame: the axis farthest from the normal, times the normal.
     static VectorLanes tangent_of(const VectorLanes& n) {

@@ -1,8 +1,7 @@
 #pragma once
 // Private to the sources of the layers.
-#include <array>
+#include <Eigen/Core>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -40,9 +39,10 @@ inline void store_lanes(Lanes lanes, double* values) { std::memcpy(values, &lane
 }
 
 [[nodiscard]] inline Lanes square_root(Lanes a) {
-    Lanes root;
-    for (int k = 0; k < lane_count; ++k) root[k] = std::sqrt(a[k]);
-    return root;
+    Eigen::Array<double, lane_count, 1> values;  // knows the instruction; a loop over std::sqrt would ask for errno
+    store_lanes(a, values.data());
+    values = values.sqrt();
+    return load_lanes(values.data());
 }
 
 /// Bit k is set where lane k says yes.
