@@ -14,7 +14,7 @@ struct TriangleBatch {
     using Row = std::array<double, size>;
 
     alignas(64) std::array<Row, 3> x_a, y_a, x_b, y_b;  ///< [m]
-    /// How large the numbers were that a was shifted by, in double arithmetic [m]. 0: the coordinates are those to decide on.
+    /// The size of what was added to a in double arithmetic [m]. 0: the coordinates are those to decide on.
     alignas(64) Row rounded_shift;
 };
 

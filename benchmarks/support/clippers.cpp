@@ -96,12 +96,17 @@ private:
 template <double (*area)(const TrianglePair&)>
 void each(std::span<const TrianglePair> pairs, std::span<double> areas) {
     const CatchSigfpe guard;
-    volatile std::size_t k = 0;
+    volatile std::size_t k = 0;  // survives the jump
     if (sigsetjmp(next_pair, 0) != 0) {
         areas[k] = std::numeric_limits<double>::quiet_NaN();
-        k = k + 1;
+        const std::size_t next = k + 1;
+        k = next;
     }
-    for (; k < pairs.size(); k = k + 1) areas[k] = area(pairs[k]);
+    while (k < pairs.size()) {
+        const std::size_t now = k;
+        areas[now] = area(pairs[now]);
+        k = now + 1;
+    }
 }
 
 double plain_area(const TrianglePair& pair) {
