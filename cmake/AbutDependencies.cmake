@@ -36,6 +36,12 @@ if(ABUT_EXAMPLES OR ABUT_BENCHMARKS)
   abut_find(nlohmann_json 3.11 ARGS CONFIG TARGETS nlohmann_json::nlohmann_json)
 endif()
 
+# benchmarks
+if(ABUT_BENCHMARKS)
+  abut_find(Polyclipping 6.4 ARGS MODULE TARGETS Polyclipping::Polyclipping)
+  abut_find(Boost 1.74 TARGETS Boost::headers)
+endif()
+
 # tests
 if(ABUT_TESTS)
   abut_find(Catch2 2.13 ARGS CONFIG TARGETS Catch2::Catch2)

@@ -40,34 +40,6 @@ void check_n_corners(std::size_t n_corners, const std::string& face) {
 }
 
 template <int Dim>
-void check_sizes(const SurfaceView<Dim>& surface) {
-    const std::size_t n = surface.area.size();
-    const auto require_size = [&](std::size_t size, std::size_t expected, const char* array) {
-        if (size != expected)
-            throw std::invalid_argument(std::string("contact surface: `") + array + "` has " + std::to_string(size) +
-                                        " entries, " + std::to_string(expected) + " are needed: one a face" +
-                                        (expected == n ? "." : ", and one more."));
-    };
-    require_size(surface.face_offsets.size(), n + 1, "face_offsets");
-    require_size(surface.centroid.size(), n, "centroid");
-    require_size(surface.normal.size(), n, "normal");
-    require_size(surface.depth.size(), n, "depth");
-    require_size(surface.stiffness.size(), n, "stiffness");
-    require_size(surface.body.size(), n, "body");
-    const auto refuse_offsets = [](const std::string& what) {
-        throw std::invalid_argument("contact surface: `face_offsets` " + what +
-                                    "; it must rise from 0 to the size of `face_vertices`.");
-    };
-    if (surface.face_offsets.front() != 0) refuse_offsets("begins with " + std::to_string(surface.face_offsets.front()));
-    for (std::size_t face = 0; face < n; ++face)
-        if (surface.face_offsets[face + 1] < surface.face_offsets[face])
-            refuse_offsets("falls after face " + std::to_string(face));
-    if (static_cast<std::size_t>(surface.face_offsets.back()) != surface.face_vertices.size())
-        refuse_offsets("ends with " + std::to_string(surface.face_offsets.back()) + " for " +
-                       std::to_string(surface.face_vertices.size()) + " entries");
-}
-
-template <int Dim>
 void check_corners(const SurfaceView<Dim>& surface, std::int32_t face) {
     const auto corners = surface.vertices_of(face);
     check_n_corners<Dim>(corners.size(), face_name(surface, face));
@@ -179,6 +151,34 @@ void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_dept
 }
 
 template <int Dim>
+void check_sizes(const SurfaceView<Dim>& surface) {
+    const std::size_t n = surface.area.size();
+    const auto require_size = [&](std::size_t size, std::size_t expected, const char* array) {
+        if (size != expected)
+            throw std::invalid_argument(std::string("contact surface: `") + array + "` has " + std::to_string(size) +
+                                        " entries, " + std::to_string(expected) + " are needed: one a face" +
+                                        (expected == n ? "." : ", and one more."));
+    };
+    require_size(surface.face_offsets.size(), n + 1, "face_offsets");
+    require_size(surface.centroid.size(), n, "centroid");
+    require_size(surface.normal.size(), n, "normal");
+    require_size(surface.depth.size(), n, "depth");
+    require_size(surface.stiffness.size(), n, "stiffness");
+    require_size(surface.body.size(), n, "body");
+    const auto refuse_offsets = [](const std::string& what) {
+        throw std::invalid_argument("contact surface: `face_offsets` " + what +
+                                    "; it must rise from 0 to the size of `face_vertices`.");
+    };
+    if (surface.face_offsets.front() != 0) refuse_offsets("begins with " + std::to_string(surface.face_offsets.front()));
+    for (std::size_t face = 0; face < n; ++face)
+        if (surface.face_offsets[face + 1] < surface.face_offsets[face])
+            refuse_offsets("falls after face " + std::to_string(face));
+    if (static_cast<std::size_t>(surface.face_offsets.back()) != surface.face_vertices.size())
+        refuse_offsets("ends with " + std::to_string(surface.face_offsets.back()) + " for " +
+                       std::to_string(surface.face_vertices.size()) + " entries");
+}
+
+template <int Dim>
 void check(const SurfaceView<Dim>& surface) {
     check_sizes(surface);
     for (std::int32_t face = 0; face < surface.size(); ++face) {
@@ -193,6 +193,8 @@ template struct SurfaceView<2>;
 template struct SurfaceView<3>;
 template struct Surface<2>;
 template struct Surface<3>;
+template void check_sizes<2>(const SurfaceView<2>&);
+template void check_sizes<3>(const SurfaceView<3>&);
 template void check<2>(const SurfaceView<2>&);
 template void check<3>(const SurfaceView<3>&);
 

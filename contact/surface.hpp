@@ -52,6 +52,11 @@ struct Surface {
     void append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness, std::int32_t face_body);
 };
 
+/// The part of `check` that reads no face: throws std::invalid_argument naming an array whose size disagrees with the
+/// others, and for offsets that do not rise to the size of `face_vertices`.
+template <int Dim>
+void check_sizes(const SurfaceView<Dim>& surface);
+
 /// Throws std::invalid_argument naming the face, the value, the limit and the remedy: array sizes that disagree, an index
 /// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
 /// normal that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the

@@ -204,7 +204,7 @@ double shape_tolerance(std::span<const Vector<3>> corners) {
 
 std::vector<FaceFault> face_faults(const FaceSoup& soup) {
     check_offsets(soup);
-    return face_faults(soup, first_at_same_place(soup.vertices));
+    return face_faults(soup, first_at_same_place<3>(soup.vertices));
 }
 
 std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> places) {

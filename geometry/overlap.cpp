@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "abut/geometry/overlap_batch.hpp"
 #include "abut/geometry/overlap_kernels.hpp"
 
 namespace abut::geometry {
@@ -33,7 +34,8 @@ std::optional<int> sign_of_difference(double a, double b, double c, double d) {
 
 // The side of the line from a to b on which c + shift lies, as `exact_side`: at once where doubles can tell, and with little
 // more work where the differences of the coordinates are doubles, as on meshes that match.
-int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift) {
+int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift,
+         Arithmetic& used) {
     const PlaneVector<3> along = b - a, arm_before = c - a, arm = arm_before + shift;
     const double left = along.x() * arm.y(), right = along.y() * arm.x();
     const double error =
@@ -47,33 +49,35 @@ int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>&
                      sum_error(arm_before[i], shift[i]) != 0.0;
     if (!is_rounded)
         if (const auto sign = sign_of_difference(along.x(), arm.y(), along.y(), arm.x())) return *sign;
+    used = Arithmetic::exact;
     return exact_side(a, b, c, shift);
 }
 
 // Whether the line of an edge has all of `other`, shifted, on it or on its outer side. An edge without length separates
 // nothing.
-bool edge_separates(ProjectedFace<3> face, std::size_t edge, ProjectedFace<3> other, const PlaneVector<3>& shift) {
+bool edge_separates(ProjectedFace<3> face, std::size_t edge, ProjectedFace<3> other, const PlaneVector<3>& shift,
+                    Arithmetic& used) {
     const PlaneVector<3>&a = face[edge], &b = face[edge + 1 == face.size() ? 0 : edge + 1];
     return a != b && std::all_of(other.begin(), other.end(),
-                                 [&](const PlaneVector<3>& point) { return side(a, b, point, shift) <= 0; });
+                                 [&](const PlaneVector<3>& point) { return side(a, b, point, shift, used) <= 0; });
 }
 
-bool an_edge_separates(ProjectedFace<3> face, ProjectedFace<3> other, const PlaneVector<3>& shift) {
+bool an_edge_separates(ProjectedFace<3> face, ProjectedFace<3> other, const PlaneVector<3>& shift, Arithmetic& used) {
     for (std::size_t i = 0; i < face.size(); ++i)
-        if (edge_separates(face, i, other, shift)) return true;
+        if (edge_separates(face, i, other, shift, used)) return true;
     return false;
 }
 
-bool has_interior(ProjectedFace<3> face) {
+bool has_interior(ProjectedFace<3> face, Arithmetic& used) {
     for (std::size_t i = 1; i + 1 < face.size(); ++i)
-        if (side(face[0], face[i], face[i + 1], PlaneVector<3>::Zero()) > 0) return true;
+        if (side(face[0], face[i], face[i + 1], PlaneVector<3>::Zero(), used) > 0) return true;
     return false;
 }
 
 // Whether the interiors of face 1 and of face 2, shifted, meet: decided on the coordinates and the shift as given.
-bool interiors_meet(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
-    return !an_edge_separates(face_1, face_2, shift) && !an_edge_separates(face_2, face_1, -shift) && has_interior(face_1) &&
-           has_interior(face_2);
+bool interiors_meet(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift, Arithmetic& used) {
+    return !an_edge_separates(face_1, face_2, shift, used) && !an_edge_separates(face_2, face_1, -shift, used) &&
+           has_interior(face_1, used) && has_interior(face_2, used);
 }
 
 // An edge of the clipped polygon starts at each corner. It comes from an edge of one of the two faces.
@@ -123,6 +127,14 @@ double size_of(const Polygon& polygon) {
     for (int i = 1; i < polygon.size; ++i)
         largest = std::max(largest, (polygon.vertices[i] - polygon.vertices[0]).cwiseAbs().maxCoeff());
     return largest;
+}
+
+bool is_thin(const Polygon& polygon) {
+    double twice_area = 0.0;
+    for (int i = 1; i + 1 < polygon.size; ++i)
+        twice_area += cross(polygon.vertices[i] - polygon.vertices[0], polygon.vertices[i + 1] - polygon.vertices[0]);
+    const double size = size_of(polygon);
+    return twice_area < 2.0 * thin_face * (size * size);
 }
 
 // Whether all of `other` lies more than `margin` [m^2], the rounding error of a height, on the outer side of edge i.
@@ -210,7 +222,8 @@ PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygo
     return {along.y(), -along.x()};
 }
 
-SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+SharedArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
+                                  Arithmetic& used) {
     const Polygon polygon_1(face_1, face_1[0], PlaneVector<3>::Zero());
     const Polygon polygon_2(face_2, face_1[0], shift);
     const double extent = std::max(polygon_1.extent(), polygon_2.extent());
@@ -228,15 +241,27 @@ SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
         if (is_empty && lies_beyond(polygon_1, i, polygon_2, area_error)) return {};
         std::swap(overlap, clipped);
     }
-    if (buffers[0].full || buffers[1].full) return exact_shared_area(face_1, face_2, shift);
+    if (buffers[0].full || buffers[1].full) {
+        used = Arithmetic::exact;
+        return exact_shared_area(face_1, face_2, shift);
+    }
 
-    const double area = area_of(*overlap);
+    double area = area_of(*overlap);
     if (area <= area_error &&
-        (lies_beyond_an_edge(polygon_2, polygon_1, area_error) || !interiors_meet(face_1, face_2, shift)))
+        (lies_beyond_an_edge(polygon_2, polygon_1, area_error) || !interiors_meet(face_1, face_2, shift, used)))
         return {};
+    if (is_thin(polygon_1) || is_thin(polygon_2)) {
+        used = Arithmetic::exact;
+        area = exact_shared_area(face_1, face_2, shift).area;
+    }
     const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
     return {std::max(area, std::numeric_limits<double>::min()),
             shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
+}
+
+SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+    Arithmetic used = Arithmetic::doubles;
+    return clipped_shared_area(face_1, face_2, shift, used);
 }
 
 // Whether a + b < c, without rounding: the rounded sum decides unless it is c itself.
@@ -269,6 +294,36 @@ SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2
     assert(face_1.size() >= Dim && face_1.size() <= max_polygon_vertices);
     assert(face_2.size() >= Dim && face_2.size() <= max_polygon_vertices);
     return method == AreaMethod::fast ? fast_shared_area(face_1, face_2, shift) : exact_shared_area(face_1, face_2, shift);
+}
+
+template <>
+std::vector<PlaneVector<2>> shared_polygon<2>(ProjectedFace<2> face_1, ProjectedFace<2> face_2) {
+    if (!interiors_meet(face_1, face_2, 0.0)) return {};
+    return {PlaneVector<2>(std::max(face_1[0].x(), face_2[0].x())), PlaneVector<2>(std::min(face_1[1].x(), face_2[1].x()))};
+}
+
+template <>
+std::vector<PlaneVector<3>> shared_polygon<3>(ProjectedFace<3> face_1, ProjectedFace<3> face_2) {
+    const PlaneVector<3> no_shift = PlaneVector<3>::Zero();
+    if (fast_shared_area(face_1, face_2, no_shift).area == 0.0) return {};
+    const Polygon polygon_1(face_1, face_1[0], no_shift), polygon_2(face_2, face_1[0], no_shift);
+    Clipped overlap, clipped;
+    for (int j = 0; j < polygon_2.size; ++j) overlap.add(polygon_2.vertices[j], j, true);
+    for (int i = 0; i < polygon_1.size && overlap.size > 0; ++i) {
+        clip(overlap, polygon_1.vertices[i], polygon_1.edge(i), i, clipped);
+        std::swap(overlap, clipped);
+    }
+    std::vector<PlaneVector<3>> corners;
+    for (int k = 0; k < overlap.size; ++k) corners.push_back(face_1[0] + overlap.corners[k].point);
+    return corners;
+}
+
+SharedArea<3> counted_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
+                                  DecisionCounts& counts) {
+    Arithmetic used = Arithmetic::doubles;
+    const SharedArea<3> shared = clipped_shared_area(face_1, face_2, shift, used);
+    ++(used == Arithmetic::exact ? counts.by_exact_arithmetic : counts.by_scalar_path);
+    return shared;
 }
 
 template SharedArea<2> shared_area<2>(ProjectedFace<2>, ProjectedFace<2>, const PlaneVector<2>&, AreaMethod);

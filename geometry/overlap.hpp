@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -37,6 +39,32 @@ struct SharedArea {
 template <int Dim>
 [[nodiscard]] SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
                                           const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
+
+/// The patch itself: its corners, counter-clockwise (3D; convex up to rounding, with corners that may repeat), or its two
+/// ends in increasing order (2D). Empty where the faces share no area, which is decided exactly; the corners are rounded.
+template <int Dim>
+[[nodiscard]] std::vector<PlaneVector<Dim>> shared_polygon(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2);
+
+/// Two triangles to be compared as `shared_area` does, each counter-clockwise.
+struct TrianglePair {
+    std::array<PlaneVector<3>, 3> face_1, face_2;
+    PlaneVector<3> shift;  ///< of face 2
+};
+
+/// What it took to decide on pairs; the three add up to their number.
+struct DecisionCounts {
+    std::int64_t by_doubles = 0;           ///< many at once: no corner near a line, or evidently on it
+    std::int64_t by_scalar_path = 0;       ///< one by one, doubles still enough
+    std::int64_t by_exact_arithmetic = 0;  ///< one by one, numbers of any length asked
+
+    DecisionCounts& operator+=(const DecisionCounts& other);
+    [[nodiscard]] std::int64_t total() const { return by_doubles + by_scalar_path + by_exact_arithmetic; }
+};
+
+/// `shared_area` of many pairs of triangles by the method `fast`, several times quicker: pairs[i] gives areas[i]. The same
+/// decisions, and the same numbers up to rounding. What a pair gives depends on that pair alone. Throws
+/// std::invalid_argument if the sizes differ.
+DecisionCounts shared_areas(std::span<const TrianglePair> pairs, std::span<SharedArea<3>> areas);
 
 /// Appends to `events` the parameters tau in (0, 1) at which A_12 may change its formula while the shift goes straight from
 /// `shift_0` to `shift_1`: a vertex of one face crosses an edge of the other. Unsorted, with duplicates possible. Between

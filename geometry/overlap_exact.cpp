@@ -4,6 +4,7 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "abut/geometry/overlap_kernels.hpp"
@@ -19,6 +20,9 @@ using ExactVector = Exact::Vector_2;
 
 // to_double of a lazy number alone promises only five digits.
 double rounded(const Number& number) { return CGAL::to_double(CGAL::exact(number)); }
+
+// Of an area > 0: to no less than the smallest normal number, so that it stays one.
+double rounded_up(const Number& area) { return std::max(rounded(area), std::numeric_limits<double>::min()); }
 
 std::vector<Point> exact_points(ProjectedFace<3> face, const PlaneVector<3>& shift) {
     const ExactVector exact_shift(shift.x(), shift.y());
@@ -88,7 +92,7 @@ SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2
     if (area <= 0) return {};
     const auto weight_of_end = [](CGAL::Sign room) { return 0.5 * (1 + static_cast<int>(room)); };
     const double derivative = weight_of_end(CGAL::sign(upper_1 - upper_2)) - weight_of_end(CGAL::sign(lower_2 - lower_1));
-    return {rounded(area), PlaneVector<2>(derivative)};
+    return {rounded_up(area), PlaneVector<2>(derivative)};
 }
 
 SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
@@ -99,7 +103,7 @@ SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2
     for (const Triangle& triangle_1 : fan_1)
         for (const Triangle& triangle_2 : fan_2) area += shared_area_of(triangle_1, triangle_2);
     if (CGAL::is_zero(area)) return {};
-    return {rounded(area), shift_derivative_of(polygon_1, polygon_2)};
+    return {rounded_up(area), shift_derivative_of(polygon_1, polygon_2)};
 }
 
 int exact_side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift) {

@@ -1,40 +1,44 @@
 #include "abut/geometry/places.hpp"
 
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <cstddef>
 #include <numeric>
 
 namespace abut::geometry {
 namespace {
 
+template <int Dim>
 struct Place {
-    double x, y, z;
+    std::array<double, Dim> x;
     std::int32_t vertex;
-
-    [[nodiscard]] bool is_that_of(const Place& other) const { return x == other.x && y == other.y && z == other.z; }
-    friend bool operator<(const Place& a, const Place& b) {
-        if (a.x != b.x) return a.x < b.x;
-        if (a.y != b.y) return a.y < b.y;
-        if (a.z != b.z) return a.z < b.z;
-        return a.vertex < b.vertex;
-    }
+    friend auto operator<=>(const Place&, const Place&) = default;
 };
 
 }  // namespace
 
-std::vector<std::int32_t> first_at_same_place(std::span<const Vector<3>> vertices) {
+template <int Dim>
+std::vector<std::int32_t> first_at_same_place(std::span<const Vector<Dim>> vertices) {
     std::vector<std::int32_t> first(vertices.size());
     std::iota(first.begin(), first.end(), 0);
-    std::vector<Place> places;
+    std::vector<Place<Dim>> places;
     places.reserve(vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        if (vertices[i].allFinite())
-            places.push_back({vertices[i].x(), vertices[i].y(), vertices[i].z(), static_cast<std::int32_t>(i)});
-    std::sort(places.begin(), places.end());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (!vertices[i].allFinite()) continue;
+        Place<Dim>& place = places.emplace_back();
+        std::copy(vertices[i].begin(), vertices[i].end(), place.x.begin());
+        place.vertex = static_cast<std::int32_t>(i);
+    }
+    // No coordinate is NaN: the partial order of doubles is a total one, in which 0 and -0 are equal.
+    std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a < b; });
     for (std::size_t i = 1; i < places.size(); ++i)
-        if (places[i].is_that_of(places[i - 1]))
+        if (places[i].x == places[i - 1].x)
             first[static_cast<std::size_t>(places[i].vertex)] = first[static_cast<std::size_t>(places[i - 1].vertex)];
     return first;
 }
+
+template std::vector<std::int32_t> first_at_same_place<2>(std::span<const Vector<2>>);
+template std::vector<std::int32_t> first_at_same_place<3>(std::span<const Vector<3>>);
 
 }  // namespace abut::geometry

@@ -84,7 +84,7 @@ private:
     }
 
     void examine_vertices() {
-        health_.place = first_at_same_place(soup_.vertices);
+        health_.place = first_at_same_place<3>(soup_.vertices);
         std::vector<char> is_named(soup_.vertices.size(), 0);
         for (const std::int32_t v : soup_.face_vertices)
             if (v >= 0 && v < health_.n_vertices) is_named[at(v)] = 1;

@@ -157,7 +157,7 @@ private:
 }  // namespace
 
 std::int32_t weld(SurfaceMesh& mesh) {
-    const std::vector<std::int32_t> places = geometry::first_at_same_place(mesh.vertices);
+    const std::vector<std::int32_t> places = geometry::first_at_same_place<3>(mesh.vertices);
     std::vector<std::int32_t> target(places);
     std::vector<char> keeps(places.size(), 1);
     std::int32_t n_dropped = 0;
@@ -175,7 +175,7 @@ std::int32_t weld(SurfaceMesh& mesh) {
 }
 
 void name_connected_bodies(SurfaceMesh& mesh) {
-    std::vector<std::int32_t> parent = geometry::first_at_same_place(mesh.vertices);
+    std::vector<std::int32_t> parent = geometry::first_at_same_place<3>(mesh.vertices);
     const auto first_vertex = [&](std::int32_t face) {
         const auto corners = mesh.faces[face];
         const auto found = std::find_if(corners.begin(), corners.end(), [&](std::int32_t v) { return is_vertex(mesh, v); });

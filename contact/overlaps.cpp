@@ -1,0 +1,395 @@
+#include "abut/contact/overlaps.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "abut/contact/pairs.hpp"
+#include "abut/geometry/lanes.hpp"
+#include "abut/geometry/overlap_batch.hpp"
+#include "abut/geometry/plane_frame.hpp"
+
+namespace abut::contact {
+namespace {
+
+using geometry::AreaMethod;
+using geometry::IndexPair;
+using geometry::LaneMask;
+using geometry::Lanes;
+using geometry::TriangleBatch;
+
+template <int Dim>
+struct Scene {
+    const SurfaceView<Dim>& surface;
+    std::span<const Vector<Dim>> displacement;
+
+    [[nodiscard]] bool is_rigid(std::int32_t face) const {
+        return surface.stiffness[face] == std::numeric_limits<double>::infinity();
+    }
+    [[nodiscard]] bool are_facing(IndexPair pair) const {
+        return surface.normal[pair.first].dot(surface.normal[pair.second]) < 0.0;
+    }
+    [[nodiscard]] Vector<Dim> motion(IndexPair pair) const { return displacement[pair.second] - displacement[pair.first]; }
+    [[nodiscard]] Vector<Dim> apart(IndexPair pair) const {
+        return (surface.centroid[pair.second] - surface.centroid[pair.first]) + motion(pair);
+    }
+    [[nodiscard]] const Vector<Dim>& corner(std::int32_t face, int i) const {
+        return surface.vertices[surface.face_vertices[surface.face_offsets[face] + i]];
+    }
+    /// Asks for what is known of a face before it is needed: the faces of a list of pairs are all over the memory.
+    void prefetch(std::int32_t face) const {
+        __builtin_prefetch(&surface.normal[face]);
+        __builtin_prefetch(&surface.centroid[face]);
+        __builtin_prefetch(&displacement[face]);
+        __builtin_prefetch(&surface.area[face]);
+        __builtin_prefetch(&surface.stiffness[face]);
+        for (int i = 0; i < Dim; ++i) __builtin_prefetch(&corner(face, i));
+    }
+    [[nodiscard]] int n_corners(std::int32_t face) const {
+        return surface.face_offsets[face + 1] - surface.face_offsets[face];
+    }
+};
+
+template <int Dim>
+bool are_faces(const SurfaceView<Dim>& surface, IndexPair pair) {
+    return pair.first >= 0 && pair.first < surface.size() && pair.second >= 0 && pair.second < surface.size();
+}
+
+template <int Dim>
+[[noreturn]] void refuse_pair(const SurfaceView<Dim>& surface, IndexPair pair, const std::string& name) {
+    const bool is_first = pair.first < 0 || pair.first >= surface.size();
+    throw std::invalid_argument("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
+                                ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.");
+}
+
+template <int Dim>
+void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement) {
+    check_sizes(surface);
+    if (displacement.size() != surface.area.size())
+        throw std::invalid_argument("overlaps: `displacement` has " + std::to_string(displacement.size()) + " entries, " +
+                                    std::to_string(surface.size()) + " are needed: one a face.");
+}
+
+// One pair of any two faces, seen along its normal from a corner of face 1.
+template <int Dim>
+struct ProjectedPair {
+    geometry::PlaneFrame<Dim> frame;
+    std::array<PlaneVector<Dim>, geometry::max_polygon_vertices> corners_1, corners_2;
+    int size_1, size_2;
+
+    ProjectedPair(const Scene<Dim>& scene, IndexPair pair)
+        : frame(pair_normal(scene.surface, pair.first, pair.second)),
+          size_1(scene.n_corners(pair.first)),
+          size_2(scene.n_corners(pair.second)) {
+        const Vector<Dim>& origin = scene.corner(pair.first, 0);
+        project(scene, pair.first, origin, Vector<Dim>::Zero(), corners_1);
+        project(scene, pair.second, origin, scene.motion(pair), corners_2);
+        if constexpr (Dim == 3) std::reverse(corners_2.begin(), corners_2.begin() + size_2);  // it faces the other way
+    }
+    [[nodiscard]] geometry::ProjectedFace<Dim> face_1() const {
+        return {corners_1.data(), static_cast<std::size_t>(size_1)};
+    }
+    [[nodiscard]] geometry::ProjectedFace<Dim> face_2() const {
+        return {corners_2.data(), static_cast<std::size_t>(size_2)};
+    }
+
+private:
+    void project(const Scene<Dim>& scene, std::int32_t face, const Vector<Dim>& origin, const Vector<Dim>& motion,
+                 std::array<PlaneVector<Dim>, geometry::max_polygon_vertices>& corners) const {
+        const int n = scene.n_corners(face);
+        for (int i = 0; i < n; ++i) corners[i] = frame.project((scene.corner(face, i) - origin) + motion);
+        if constexpr (Dim == 2)
+            if (corners[1].x() < corners[0].x()) std::swap(corners[0], corners[1]);
+    }
+};
+
+template <int Dim>
+geometry::SharedArea<Dim> shared_area(geometry::ProjectedFace<Dim> face_1, geometry::ProjectedFace<Dim> face_2,
+                                      AreaMethod method, geometry::DecisionCounts& counts) {
+    if constexpr (Dim == 3)
+        if (method == AreaMethod::fast) return geometry::counted_shared_area(face_1, face_2, PlaneVector<3>::Zero(), counts);
+    ++(method == AreaMethod::fast ? counts.by_doubles : counts.by_exact_arithmetic);
+    return geometry::shared_area<Dim>(face_1, face_2, PlaneVector<Dim>::Zero(), method);
+}
+
+// Pairs one by one.
+template <int Dim>
+void append_overlap(const Scene<Dim>& scene, IndexPair pair, AreaMethod method, Overlaps<Dim>& overlaps) {
+    if (!scene.are_facing(pair)) {
+        ++overlaps.report.not_facing;
+        return;
+    }
+    const ProjectedPair<Dim> projected(scene, pair);
+    const auto shared = shared_area<Dim>(projected.face_1(), projected.face_2(), method, overlaps.report.decided);
+    if (shared.area == 0.0) return;
+    const Vector<Dim>& normal = projected.frame.normal();
+    overlaps.found.push_back({pair.first, pair.second, shared.area, normal, scene.apart(pair).dot(normal),
+                              projected.frame.lift(shared.shift_derivative)});
+}
+
+// Pairs of triangles, one a column: first gathered, then computed side by side. The larger face is a, the smaller b; both
+// are seen from corner 0 of b.
+class TriangleBlock {
+public:
+    static constexpr int capacity = 32;
+    static_assert(capacity % TriangleBatch::size == 0 && TriangleBatch::size % geometry::lane_count == 0);
+
+    [[nodiscard]] int size() const { return size_; }
+
+    void add(const Scene<3>& scene, IndexPair pair) {
+        const int k = size_++;
+        pairs_[k] = pair;
+        is_swapped_[k] = scene.surface.area[pair.second] > scene.surface.area[pair.first];
+        const bool other = is_swapped_[k];  // which face is a; an index, for branches could not be foretold
+        const std::array<std::int32_t, 2> faces{pair.first, pair.second};
+        const std::array<std::array<const Vector<3>*, 3>, 2> corners{corners_of(scene, pair.first, 1, 2),
+                                                                     corners_of(scene, pair.second, 2, 1)};
+        const auto &a = corners[other], &b = corners[!other];
+        const Vector<3>& origin = *b[0];
+        const Vector<3> motion = scene.displacement[faces[other]] - scene.displacement[faces[!other]];
+        for (int i = 0; i < 3; ++i) put((*a[i] - origin) + motion, a_[i], k);
+        for (int i = 1; i < 3; ++i) put(*b[i] - origin, b_[i - 1], k);
+        put(normal_before(scene, pair), normal_, k);
+        put(scene.apart(pair), apart_, k);
+    }
+
+    // Appends what the pairs share and forgets them.
+    void flush(AreaMethod method, Overlaps<3>& overlaps) {
+        if (size_ == 0) return;
+        for (int k = size_; k < capacity; ++k) repeat_first(k);
+        for (int first = 0; first < size_; first += TriangleBatch::size) flush(first, method, overlaps);
+        size_ = 0;
+    }
+
+private:
+    using Row = std::array<double, capacity>;
+    using Rows = std::array<Row, 3>;  // the components of a vector
+
+    static void put(const Vector<3>& v, Rows& rows, int k) {
+        for (int i = 0; i < 3; ++i) rows[i][k] = v[i];
+    }
+    // Face 2 runs the other way about the normal of the pair: its corners come as 0, 2, 1.
+    static std::array<const Vector<3>*, 3> corners_of(const Scene<3>& scene, std::int32_t face, int second, int third) {
+        return {&scene.corner(face, 0), &scene.corner(face, second), &scene.corner(face, third)};
+    }
+    // As `pair_normal`, of any length.
+    static Vector<3> normal_before(const Scene<3>& scene, IndexPair pair) {
+        const Vector<3>&n_1 = scene.surface.normal[pair.first], &n_2 = scene.surface.normal[pair.second];
+        if (scene.is_rigid(pair.second)) return -n_2;
+        return scene.is_rigid(pair.first) ? n_1 : Vector<3>(n_1 - n_2);
+    }
+    // Columns left over must hold numbers.
+    void repeat_first(int k) {
+        const auto repeat = [k](Rows& rows) {
+            for (Row& row : rows) row[k] = row[0];
+        };
+        std::for_each(a_.begin(), a_.end(), repeat);
+        std::for_each(b_.begin(), b_.end(), repeat);
+        repeat(normal_);
+        repeat(apart_);
+    }
+
+    struct VectorLanes {
+        Lanes x, y, z;
+    };
+    static VectorLanes load(const Rows& rows, int k) {
+        return {geometry::load_lanes(&rows[0][k]), geometry::load_lanes(&rows[1][k]), geometry::load_lanes(&rows[2][k])};
+    }
+    static void store(const VectorLanes& v, Rows& rows, int k) {
+        geometry::store_lanes(v.x, &rows[0][k]);
+        geometry::store_lanes(v.y, &rows[1][k]);
+        geometry::store_lanes(v.z, &rows[2][k]);
+    }
+    static Lanes dot(const VectorLanes& a, const VectorLanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+    static VectorLanes cross(const VectorLanes& a, const VectorLanes& b) {
+        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    }
+    static VectorLanes normalized(const VectorLanes& a) {
+        const Lanes scale = 1.0 / geometry::square_root(dot(a, a));
+        return {scale * a.x, scale * a.y, scale * a.z};
+    }
+    // The first tangent of PlaneFrame: the axis farthest from the normal, times the normal.
+    static VectorLanes tangent_of(const VectorLanes& n) {
+        const Lanes x = geometry::absolute(n.x), y = geometry::absolute(n.y), z = geometry::absolute(n.z), zero{};
+        const LaneMask along_x = (x <= y) & (x <= z), along_y = ~along_x & (y <= z);
+        return normalized({along_x ? zero : (along_y ? n.z : -n.y), along_x ? -n.z : (along_y ? zero : n.x),
+                           along_x ? n.y : (along_y ? -n.x : zero)});
+    }
+
+    // The columns from k on that fit in one register, into the columns from `to` of the batch.
+    void project(int k, TriangleBatch& batch, int to) {
+        const VectorLanes normal = normalized(load(normal_, k)), tangent_0 = tangent_of(normal),
+                          tangent_1 = cross(normal, tangent_0);
+        const auto project_corner = [&](const Rows& corner, TriangleBatch::Row& x, TriangleBatch::Row& y) {
+            const VectorLanes arm = load(corner, k);
+            geometry::store_lanes(dot(tangent_0, arm), &x[to]);
+            geometry::store_lanes(dot(tangent_1, arm), &y[to]);
+        };
+        for (int i = 0; i < 3; ++i) project_corner(a_[i], batch.x_a[i], batch.y_a[i]);
+        for (int i = 0; i < 2; ++i) project_corner(b_[i], batch.x_b[i + 1], batch.y_b[i + 1]);
+        geometry::store_lanes(dot(normal, load(apart_, k)), &gap_[k]);
+        store(normal, normal_, k);
+        store(tangent_0, tangent_0_, k);
+        store(tangent_1, tangent_1_, k);
+    }
+
+    void flush(int first, AreaMethod method, Overlaps<3>& overlaps) {
+        TriangleBatch batch;
+        batch.x_b[0].fill(0.0);
+        batch.y_b[0].fill(0.0);
+        batch.rounded_shift.fill(0.0);
+        for (int k = 0; k < TriangleBatch::size; k += geometry::lane_count) project(first + k, batch, k);
+        geometry::AreaBatch result;
+        if (method == AreaMethod::fast)
+            result = geometry::shared_areas(batch);
+        else
+            result.undecided = ~0u;
+        const int end = std::min(size_ - first, TriangleBatch::size);
+        for (int k = 0; k < end; ++k) {
+            if (result.undecided >> k & 1u) {
+                append(first + k, one_by_one(batch, k, is_swapped_[first + k], method, overlaps.report.decided), overlaps);
+            } else {
+                ++overlaps.report.decided.by_doubles;
+                const PlaneVector<3> derivative(result.shift_derivative[0][k], result.shift_derivative[1][k]);
+                append(first + k, {result.area[k], is_swapped_[first + k] ? PlaneVector<3>(-derivative) : derivative},
+                       overlaps);
+            }
+        }
+    }
+    static geometry::SharedArea<3> one_by_one(const TriangleBatch& batch, int k, bool is_swapped, AreaMethod method,
+                                              geometry::DecisionCounts& counts) {
+        std::array<PlaneVector<3>, 3> a, b;
+        for (int i = 0; i < 3; ++i) {
+            a[i] = {batch.x_a[i][k], batch.y_a[i][k]};
+            b[i] = {batch.x_b[i][k], batch.y_b[i][k]};
+        }
+        return is_swapped ? shared_area<3>(b, a, method, counts) : shared_area<3>(a, b, method, counts);
+    }
+    void append(int k, const geometry::SharedArea<3>& shared, Overlaps<3>& overlaps) const {
+        if (shared.area == 0.0) return;
+        const auto column = [k](const Rows& rows) { return Vector<3>(rows[0][k], rows[1][k], rows[2][k]); };
+        overlaps.found.push_back(
+            {pairs_[k].first, pairs_[k].second, shared.area, column(normal_), gap_[k],
+             shared.shift_derivative.x() * column(tangent_0_) + shared.shift_derivative.y() * column(tangent_1_)});
+    }
+
+    int size_ = 0;
+    std::array<IndexPair, capacity> pairs_;
+    std::array<bool, capacity> is_swapped_;
+    alignas(64) std::array<Rows, 3> a_;
+    alignas(64) std::array<Rows, 2> b_;
+    alignas(64) Rows normal_, apart_, tangent_0_, tangent_1_;
+    alignas(64) Row gap_;
+};
+
+void append_overlaps(const Scene<2>& scene, std::span<const IndexPair> pairs, AreaMethod method, Overlaps<2>& overlaps) {
+    for (const IndexPair pair : pairs) append_overlap(scene, pair, method, overlaps);
+}
+
+// Triangles wait in a block. What cannot wait there takes its turn behind them: the order is that of the pairs.
+void append_overlaps(const Scene<3>& scene, std::span<const IndexPair> pairs, AreaMethod method, Overlaps<3>& overlaps) {
+    constexpr std::size_t ahead = 12;
+    TriangleBlock block;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const IndexPair pair = pairs[i];
+        if (i + ahead < pairs.size()) scene.prefetch(pairs[i + ahead].second);
+        if (scene.n_corners(pair.first) != 3 || scene.n_corners(pair.second) != 3) {
+            block.flush(method, overlaps);
+            append_overlap(scene, pair, method, overlaps);
+        } else if (!scene.are_facing(pair)) {
+            ++overlaps.report.not_facing;
+        } else {
+            block.add(scene, pair);
+            if (block.size() == TriangleBlock::capacity) block.flush(method, overlaps);
+        }
+    }
+    block.flush(method, overlaps);
+}
+
+// One part of the pairs a task: a part is worth a task, and there are a few for every thread.
+std::size_t number_of_parts(std::size_t n_pairs) {
+    const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
+    return threads == 1 ? 1 : std::clamp<std::size_t>(n_pairs / 2048, 1, 8 * threads);
+}
+
+// Puts the parts behind the first one, in order, and their counts together.
+template <int Dim>
+void join(std::span<const Overlaps<Dim>> parts, Overlaps<Dim>& all) {
+    std::size_t n = all.found.size();
+    for (const Overlaps<Dim>& part : parts) n += part.found.size();
+    all.found.reserve(n);
+    for (const Overlaps<Dim>& part : parts) {
+        all.found.insert(all.found.end(), part.found.begin(), part.found.end());
+        all.report.not_facing += part.report.not_facing;
+        all.report.decided += part.report.decided;
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                   std::span<const IndexPair> pairs, AreaMethod method, Overlaps<Dim>& overlaps) {
+    check_arrays(surface, displacement);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
+
+    overlaps.found.clear();
+    overlaps.report = {};
+    const Scene<Dim> scene{surface, displacement};
+    const std::size_t n_parts = number_of_parts(pairs.size());
+    std::vector<Overlaps<Dim>> others(n_parts - 1);
+    oneapi::tbb::parallel_for(std::size_t{0}, n_parts, [&](std::size_t i) {
+        const std::size_t begin = i * pairs.size() / n_parts, end = (i + 1) * pairs.size() / n_parts;
+        Overlaps<Dim>& part = i == 0 ? overlaps : others[i - 1];
+        part.found.reserve(end - begin);
+        append_overlaps(scene, pairs.subspan(begin, end - begin), method, part);
+    });
+    join<Dim>(others, overlaps);
+    overlaps.report.pairs = static_cast<std::int64_t>(pairs.size());
+    overlaps.report.overlaps = static_cast<std::int64_t>(overlaps.found.size());
+}
+
+template <int Dim>
+Overlaps<Dim> find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                            std::span<const IndexPair> pairs, AreaMethod method) {
+    Overlaps<Dim> overlaps;
+    find_overlaps(surface, displacement, pairs, method, overlaps);
+    return overlaps;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                                         IndexPair pair) {
+    check_arrays(surface, displacement);
+    if (!are_faces(surface, pair)) refuse_pair(surface, pair, "the pair");
+    const Scene<Dim> scene{surface, displacement};
+    if (!scene.are_facing(pair)) return {};
+    const ProjectedPair<Dim> projected(scene, pair);
+    const Vector<Dim> origin = scene.corner(pair.first, 0) + displacement[pair.first];
+    const Vector<Dim> centroid_1 = surface.centroid[pair.first] + displacement[pair.first];
+    const Vector<Dim> halfway = centroid_1 + 0.5 * scene.apart(pair);
+    const Vector<Dim> on_plane = origin + (halfway - origin).dot(projected.frame.normal()) * projected.frame.normal();
+    std::vector<Vector<Dim>> polygon;
+    for (const PlaneVector<Dim>& corner : geometry::shared_polygon<Dim>(projected.face_1(), projected.face_2()))
+        polygon.push_back(on_plane + projected.frame.lift(corner));
+    return polygon;
+}
+
+template void find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>, AreaMethod,
+                               Overlaps<2>&);
+template void find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>, AreaMethod,
+                               Overlaps<3>&);
+template Overlaps<2> find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>,
+                                      AreaMethod);
+template Overlaps<3> find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>,
+                                      AreaMethod);
+template std::vector<Vector<2>> overlap_polygon<2>(const SurfaceView<2>&, std::span<const Vector<2>>, IndexPair);
+template std::vector<Vector<3>> overlap_polygon<3>(const SurfaceView<3>&, std::span<const Vector<3>>, IndexPair);
+
+}  // namespace abut::contact

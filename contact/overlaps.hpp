@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/surface.hpp"
+#include "abut/geometry/broad_phase.hpp"
+#include "abut/geometry/overlap.hpp"
+
+namespace abut::contact {
+
+/// The patch that two facing faces share, seen along their common normal.
+/// Law: swapping faces 1 and 2 reverses `normal` and `shift_derivative` and changes nothing else (beyond rounding).
+template <int Dim>
+struct Overlap {
+    std::int32_t face_1;
+    std::int32_t face_2;
+    double area;                   ///< A_12 [m^(Dim-1)], > 0
+    Vector<Dim> normal;            ///< n_12, unit, from face 1's body into face 2's: `pair_normal`
+    double gap;                    ///< g [m], between the centroids along the normal; > 0 apart
+    Vector<Dim> shift_derivative;  ///< dA/ds [m^(Dim-2)], orthogonal to the normal: what A gains as face 2 moves
+};
+
+/// What became of the pairs: not_facing + decided.total() = pairs.
+struct OverlapReport {
+    std::int64_t pairs = 0;
+    std::int64_t overlaps = 0;
+    std::int64_t not_facing = 0;       ///< n_1 . n_2 >= 0: no common normal to look along, so no overlap
+    geometry::DecisionCounts decided;  ///< on the others; pairs that are not two triangles go the scalar way (3D)
+};
+
+template <int Dim>
+struct Overlaps {
+    std::vector<Overlap<Dim>> found;  ///< in the order of the pairs
+    OverlapReport report;
+};
+
+/// The narrow phase: of every pair of faces that faces each other, displaced, the overlap; pairs that share no area give
+/// none. Corners are projected in double arithmetic; whether the projected faces overlap is then decided exactly, by both
+/// methods. Faces that match to the last digit, displaced by the same or along an axis, meet in corners and edges to the
+/// last digit also in projection. The same bits for any number of threads. `displacement` has one vector a face [m].
+/// `surface` must be one that `check` lets pass. Throws std::invalid_argument for arrays whose sizes disagree and for a
+/// pair that names a face that does not exist.
+template <int Dim>
+[[nodiscard]] Overlaps<Dim> find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                                          std::span<const geometry::IndexPair> pairs,
+                                          geometry::AreaMethod method = geometry::AreaMethod::fast);
+
+/// The same into memory that is used again, for a host that asks at every step: what was in `overlaps` is lost.
+template <int Dim>
+void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                   std::span<const geometry::IndexPair> pairs, geometry::AreaMethod method, Overlaps<Dim>& overlaps);
+
+/// The shared patch of one pair itself, for pictures: its corners in space, on the plane halfway between the displaced
+/// centroids, counter-clockwise about n_12 (3D), or its two ends (2D). Empty where the faces share no area or do not face
+/// each other. The decision is exact, the corners are rounded. Errors as above.
+template <int Dim>
+[[nodiscard]] std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface,
+                                                       std::span<const Vector<Dim>> displacement, geometry::IndexPair pair);
+
+}  // namespace abut::contact
