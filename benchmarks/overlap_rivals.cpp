@@ -103,7 +103,7 @@ Scene make_scene(const Sheets& sheets) {
     for (std::int32_t f = 0; f < 2 * n; ++f)
         for (const std::int32_t v : scene.surface.view().vertices_of(f)) boxes[f].extend(scene.surface.vertices[v]);
     const std::span<const geometry::Box<3>> all(boxes);
-    scene.pairs = geometry::overlapping_pairs<3>(geometry::BroadPhase::embree, all.first(n), all.last(n));
+    scene.pairs = geometry::overlapping_pairs<3>({}, all.first(n), all.last(n));
     for (auto& pair : scene.pairs) pair.second += n;
     return scene;
 }
