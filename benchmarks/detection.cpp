@@ -2,23 +2,22 @@
 //
 // Two cylinders side by side ("press", contact along a line) and a plug in a sleeve ("plug", contact all around), a fifth of a
 // side apart; wanted are all pairs of triangles that come as near as half a side. First one query from nothing, what is built
-// for it included; then, where a finder can follow bodies that move, 100 steps in which one body slides by a hundredth of a side
+// for it included; then, where a finder can follow bodies that move, 100 steps in which one body slides, by 0.002 of a side
 // each. Every answer is checked before it is timed: pairs nearer than wanted that are missing are counted, and a finder that
 // misses one is out of the comparison. Peak memory comes from a process of its own for each finder.
 // Expected: the packed tree several times faster than the best rival when contact is local, 1.5 times when it is conforming;
 // a list with a skin tens of times faster a step.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <optional>
+#include <cstdio>
+#include <fstream>
+#include <memory>
 
 #include "abut/contact/candidate_search.hpp"
-#include "abut/contact/pairs.hpp"
 #include "support/detection_rivals.hpp"
 #include "support/measure.hpp"
 
@@ -32,7 +31,6 @@ using benchmark::Pairs;
 using geometry::BroadPhase;
 using geometry::IndexPair;
 
-constexpr double speed = 0.01;  // sides a step
 constexpr const char* no_query = "none";
 
 template <BroadPhase method>
@@ -61,6 +59,7 @@ struct Choices {
     int repetitions = 3;
     int steps = 100;
     int rival_steps = 5;
+    double speed = 0.002;  ///< sides a step
     int threads = 1;
     bool memory = true;
     std::string json;
@@ -92,17 +91,20 @@ std::size_t count_missing(Pairs found, const Pairs& required) {
 
 /// Peak of memory of this program as a process of its own, which makes the scene and does one query, or none [bytes].
 double peak_of_process(const std::string& scene, int faces, int threads, const std::string& finder) {
-    const pid_t child = fork();
-    if (child < 0) throw std::runtime_error("memory: no process can be started");
-    if (child == 0) {
-        execl("/proc/self/exe", "detection", "--scene", scene.c_str(), "--faces", std::to_string(faces).c_str(), "--threads",
-              std::to_string(threads).c_str(), "--one-query", finder.c_str(), static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    int status = 0;
-    rusage usage{};
-    if (wait4(child, &status, 0, &usage) < 0 || status != 0) throw std::runtime_error("memory: a query ended badly");
-    return 1024.0 * static_cast<double>(usage.ru_maxrss);
+    const std::string command = fmt::format("/proc/{}/exe --scene {} --faces {} --threads {} --one-query {}", getpid(),
+                                            scene, faces, threads, finder);
+    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
+    double kilobytes = 0.0;
+    if (!pipe || std::fscanf(pipe.get(), "%lf", &kilobytes) != 1) throw std::runtime_error("memory: a query ended badly");
+    return 1024.0 * kilobytes;
+}
+
+/// Peak of memory of this process so far [kB].
+double own_peak() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:")) return std::stod(line.substr(6));
+    throw std::runtime_error("memory: /proc/self/status has no VmHWM");
 }
 
 struct StaticResult {
@@ -162,63 +164,32 @@ contact::Surface<3> surface_of(const DetectionScene& scene) {
     return surface;
 }
 
-/// A host that moves one body and keeps a list: what it does in each step, the bound on the motion included.
+/// A host that keeps a list of the pairs that are near, whatever their normals.
 class Follower {
 public:
-    Follower(const contact::Surface<3>& surface, const DetectionScene& scene, BroadPhase method)
-        : surface_(surface.view()),
-          way_(speed * scene.side),
-          search_(surface_, {.broad_phase = method, .distance = scene.distance}),
-          u_(surface.area.size(), Vector<3>::Zero()),
-          next_(u_),
-          searched_(u_) {}
+    Follower(const contact::Surface<3>& surface, double distance, BroadPhase method)
+        : search_(surface.view(), {.broad_phase = method, .facing_cosine = 1.0, .distance = distance}),
+          searched_(surface.area.size(), Vector<3>::Zero()) {}
 
-    void step() {
-        for (std::size_t face = 0; face < u_.size(); ++face)
-            if (surface_.body[face] == 1) next_[face].z() = u_[face].z() + way_;
+    /// A step from u to `next`: the bound on the motion, and a new list if need be.
+    void step(const std::vector<Vector<3>>& u, const std::vector<Vector<3>>& next) {
         double motion = 0.0;
-        for (std::size_t face = 0; face < u_.size(); ++face)
-            motion = std::max(motion, (next_[face] - searched_[face]).squaredNorm());
-        if (!search_.covers(std::sqrt(motion))) {
-            search_.search(u_, next_);
-            searched_ = u_;
-        }
-        u_.swap(next_);
+        for (std::size_t face = 0; face < u.size(); ++face)
+            motion = std::max(motion, (next[face] - searched_[face]).squaredNorm());
+        if (search_.covers(std::sqrt(motion))) return;
+        search_.search(u, next);
+        searched_ = u;
     }
     [[nodiscard]] const contact::CandidateSearch<3>& search() const { return search_; }
-    [[nodiscard]] const contact::SurfaceView<3>& surface() const { return surface_; }
-    [[nodiscard]] const std::vector<Vector<3>>& displacement() const { return u_; }
 
 private:
-    contact::SurfaceView<3> surface_;
-    double way_;
     contact::CandidateSearch<3> search_;
-    std::vector<Vector<3>> u_, next_, searched_;
+    std::vector<Vector<3>> searched_;
 };
-
-/// Facing pairs with a common area and a gap up to the distance, out of `near`, that the list does not hold.
-std::size_t count_missing(const Follower& follower, const Pairs& near, std::int32_t n_faces_1, double distance) {
-    const auto list = follower.search().candidates();
-    const auto& surface = follower.surface();
-    const auto& u = follower.displacement();
-    std::size_t missing = 0;
-    contact::PairList<3> pairs;
-    for (const auto& [i, j] : near) {
-        const std::int32_t face_1 = i, face_2 = j + n_faces_1;
-        if (!contact::are_facing(surface, face_1, face_2, -0.5)) continue;
-        if (std::binary_search(list.begin(), list.end(), IndexPair{face_1, face_2})) continue;
-        pairs.clear();
-        pairs.append(surface, face_1, face_2, contact::Weights::half);
-        const auto& pair = pairs.pairs().front();
-        const auto at =
-            pairs.position(surface, pair, u[static_cast<std::size_t>(face_1)], u[static_cast<std::size_t>(face_2)]);
-        if (at.gap <= distance && pairs.shared_area(pair, at.shift, geometry::AreaMethod::fast).area > 0.0) ++missing;
-    }
-    return missing;
-}
 
 nlohmann::json measure_motion(const DetectionScene& at_start, const Choices& choices) {
     const auto clock = benchmark::clock_for(choices.threads);
+    const double way = choices.speed * at_start.side;
     nlohmann::json json;
     std::vector<std::pair<std::string, double>> rival_times, our_times;
     fmt::print("  {:<20}{:>12}{:>10}{:>12}{:>14}\n", "a step of slow motion", "pairs", "missing", "ms", "lists made");
@@ -231,7 +202,7 @@ nlohmann::json measure_motion(const DetectionScene& at_start, const Choices& cho
         double seconds = 0.0;
         std::size_t pairs = 0;
         for (int step = 0; step < choices.rival_steps; ++step) {
-            scene.bodies[1].translate(speed * scene.side * Vector<3>::UnitZ());
+            scene.bodies[1].translate(way * Vector<3>::UnitZ());
             seconds += benchmark::seconds_of(
                 [&] { pairs = finder->follow(scene.bodies[0], scene.bodies[1], scene.distance); }, clock);
         }
@@ -244,17 +215,22 @@ nlohmann::json measure_motion(const DetectionScene& at_start, const Choices& cho
     for (const BroadPhase method : {BroadPhase::packed_tree, BroadPhase::embree, BroadPhase::fcl}) {
         const std::string name(geometry::name(method));
         if (!choices.wants(name)) continue;
-        Follower follower(surface, at_start, method);
-        const double seconds = benchmark::seconds_of(
-                                   [&] {
-                                       for (int step = 0; step < choices.steps; ++step) follower.step();
-                                   },
-                                   clock) /
-                               choices.steps;
+        Follower follower(surface, at_start.distance, method);
+        std::vector<Vector<3>> u(surface.area.size(), Vector<3>::Zero()), next = u;
+        double seconds = 0.0;
+        for (int step = 1; step <= choices.steps; ++step) {
+            for (std::size_t face = 0; face < u.size(); ++face)
+                if (surface.body[face] == 1) next[face].z() = step * way;
+            seconds += benchmark::seconds_of([&] { follower.step(u, next); }, clock);
+            u.swap(next);
+        }
+        seconds /= choices.steps;
         DetectionScene moved = at_start;
-        moved.bodies[1].translate(choices.steps * speed * at_start.side * Vector<3>::UnitZ());
-        const std::size_t missing = count_missing(
-            follower, required_pairs(moved), static_cast<std::int32_t>(moved.bodies[0].triangles.size()), moved.distance);
+        moved.bodies[1].translate(choices.steps * way * Vector<3>::UnitZ());
+        const auto n_1 = static_cast<std::int32_t>(moved.bodies[0].triangles.size());
+        Pairs list;
+        for (const auto& [i, j] : follower.search().candidates()) list.push_back({i, j - n_1});
+        const std::size_t missing = count_missing(std::move(list), required_pairs(moved));
         const auto& report = follower.search().report();
         fmt::print("  {:<20}{:>12}{:>10}{:>12.2f}{:>14}\n", name, report.candidates, missing, 1e3 * seconds,
                    report.searches);
@@ -283,6 +259,7 @@ int run(int argc, char** argv) {
     app.add_option("--only", choices.only, "names of finders; all by default")->delimiter(',');
     app.add_option("--repetitions", choices.repetitions, "rounds; the least is shown")->check(CLI::PositiveNumber);
     app.add_option("--steps", choices.steps, "of slow motion, ours; 0: none")->check(CLI::NonNegativeNumber);
+    app.add_option("--speed", choices.speed, "of the sliding body, sides of a triangle a step")->check(CLI::PositiveNumber);
     app.add_option("--rival-steps", choices.rival_steps, "of slow motion, others: they do the same in each")
         ->check(CLI::PositiveNumber);
     app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
@@ -292,13 +269,14 @@ int run(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
 
     nlohmann::json result = benchmark::circumstances(argc, argv);
-    std::optional<oneapi::tbb::global_control> threads;
-    threads.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(choices.threads));
+    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
+                                              static_cast<std::size_t>(choices.threads));
     if (!choices.one_query.empty()) {
         const DetectionScene scene = benchmark::detection_scene(choices.scenes.front(), choices.faces.front());
         for (const auto& finder : finders())
             if (finder.name == choices.one_query)
                 (void)finder.make()->find(scene.bodies[0], scene.bodies[1], scene.distance);
+        fmt::print("{}\n", own_peak());
         return 0;
     }
     for (const std::string& name : choices.scenes)

@@ -15,6 +15,7 @@
 #include "abut/contact/pairs.hpp"
 #include "abut/contact/skin_choice.hpp"
 #include "abut/geometry/parallel.hpp"
+#include "abut/geometry/sort_pairs.hpp"
 #include "abut/geometry/spatial_order.hpp"
 #include "abut/geometry/stopwatch.hpp"
 
@@ -71,38 +72,41 @@ double mean_face_size(const SurfaceView<Dim>& surface) {
     return n > 0 ? size / n : 0.0;
 }
 
-/// The box of a face between two displacements, and what it has to be grown by so that it holds all its contacts.
+/// What of a face a search reads again and again.
 template <int Dim>
-class BoxMaker {
-public:
-    BoxMaker(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
-             const CandidateOptions& options)
-        : surface_(surface),
-          u_0_(u_0),
-          u_1_(u_1),
-          tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))),
-          half_distance_(0.5 * options.distance) {}
+struct RestFace {
+    Box<Dim> corners;
+    double reach;   ///< how far past its corners an active pair can be, without distance and skin [m]
+    double radius;  ///< largest distance of a corner from the centroid [m]
+    std::int32_t face;
+};
 
-    Box<Dim> operator()(std::int32_t face, double skin) const {
-        Box<Dim> corners;
-        double radius = 0.0;
-        for (const std::int32_t v : surface_.vertices_of(face)) {
-            corners.extend(surface_.vertices[v]);
-            radius = std::max(radius, (surface_.vertices[v] - surface_.centroid[face]).norm());
-        }
-        const double reach = surface_.is_rigid(face) ? 0.0 : 2.0 * surface_.depth[face] + radius * tilt_;
-        const Vector<Dim>&from = u_0_[face], to = u_1_[face];
-        return Box<Dim>{corners.lower + from.cwiseMin(to), corners.upper + from.cwiseMax(to)}.grown(reach + half_distance_ +
-                                                                                                    0.5 * skin);
+template <int Dim>
+class RestFaceMaker {
+public:
+    RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)
+        : surface_(surface),
+          by_distance_alone_(options.facing_cosine == 1.0),
+          tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))) {}
+
+    RestFace<Dim> operator()(std::int32_t face) const {
+        RestFace<Dim> rest{.corners = {}, .reach = 0.0, .radius = circumradius(surface_, face), .face = face};
+        for (const std::int32_t v : surface_.vertices_of(face)) rest.corners.extend(surface_.vertices[v]);
+        if (!by_distance_alone_ && !surface_.is_rigid(face)) rest.reach = 2.0 * surface_.depth[face] + rest.radius * tilt_;
+        return rest;
     }
 
 private:
     const SurfaceView<Dim>& surface_;
-    std::span<const Vector<Dim>> u_0_;
-    std::span<const Vector<Dim>> u_1_;
+    bool by_distance_alone_;
     double tilt_;
-    double half_distance_;
 };
+
+template <int Dim>
+Box<Dim> swept_box(const RestFace<Dim>& rest, const Vector<Dim>& u_0, const Vector<Dim>& u_1, double margin) {
+    return Box<Dim>{rest.corners.lower + u_0.cwiseMin(u_1), rest.corners.upper + u_0.cwiseMax(u_1)}.grown(rest.reach +
+                                                                                                          margin);
+}
 
 /// What became of the pairs whose boxes overlap.
 struct Counts {
@@ -114,7 +118,7 @@ struct Counts {
 
 /// Faces of one body.
 struct BodyFaces {
-    std::size_t begin;  ///< in the list of all faces, body by body
+    std::size_t begin;  ///< in the list of all faces
     std::size_t end;
     bool is_rigid;  ///< all of them are
 };
@@ -128,6 +132,15 @@ public:
         : surface_(surface), options_(checked(options)), skin_(Dim, options.skin, checked_face_size(surface)) {
         if (options_.self_contact && options_.self_contact_rings > 0)
             neighbours_.emplace(surface_, options_.self_contact_rings);
+        measure_extent();
+    }
+
+    void surface_changed() {
+        list_holds_ = false;
+        check(surface_);
+        measure_extent();
+        const RestFaceMaker<Dim> at_rest(surface_, options_);
+        parallel_each(n_faces(), [&](std::ptrdiff_t i) { faces_[i] = at_rest(faces_[i].face); });
     }
 
     [[nodiscard]] bool covers(double motion) const { return list_holds_ && motion <= 0.5 * list_skin_; }
@@ -135,7 +148,6 @@ public:
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         list_holds_ = false;
         candidates_.clear();
-        if (report_.searches % searches_an_order == 0) measure_extent();
         check_motion(u_0, u_1);
         if (report_.searches % searches_an_order == 0) order_faces(u_0);
         ++report_.searches;
@@ -144,7 +156,8 @@ public:
         find(u_0, u_1);
         report_.candidates = static_cast<std::int64_t>(candidates_.size());
         report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
-        skin_.learn(report_.candidates, count_at_half_skin(u_0, u_1), surface_.size(), report_.motion);
+        if (options_.skin == 0.0)
+            skin_.learn(report_.candidates, count_at_half_skin(u_0, u_1), surface_.size(), report_.motion);
         list_holds_ = true;
     }
 
@@ -168,17 +181,27 @@ private:
     void order_faces(std::span<const Vector<Dim>> u) {
         std::vector<Vector<Dim>> centroids(surface_.centroid.begin(), surface_.centroid.end());
         for (std::size_t face = 0; face < centroids.size(); ++face) centroids[face] += u[face];
-        faces_ = geometry::spatial_order<Dim>(centroids);
-        std::ranges::stable_sort(faces_, {}, [&](std::int32_t face) { return surface_.body[face]; });
+        std::vector<std::int32_t> order = geometry::spatial_order<Dim>(centroids);
+        std::ranges::stable_sort(order, {}, [&](std::int32_t face) { return surface_.body[face]; });
+        faces_.resize(order.size());
+        const RestFaceMaker<Dim> at_rest(surface_, options_);
+        parallel_each(n_faces(), [&](std::ptrdiff_t i) { faces_[i] = at_rest(order[static_cast<std::size_t>(i)]); });
+        list_bodies();
+        ++report_.orderings;
+    }
+
+    void list_bodies() {
         bodies_.clear();
         for (std::size_t i = 0; i < faces_.size(); ++i) {
-            const bool rigid = surface_.is_rigid(faces_[i]);
-            if (i == 0 || surface_.body[faces_[i]] != surface_.body[faces_[i - 1]]) bodies_.push_back({i, i, rigid});
+            const std::int32_t face = faces_[i].face;
+            const bool rigid = surface_.is_rigid(face);
+            if (i == 0 || surface_.body[face] != surface_.body[faces_[i - 1].face]) bodies_.push_back({i, i, rigid});
             bodies_.back().end = i + 1;
             bodies_.back().is_rigid = bodies_.back().is_rigid && rigid;
         }
-        ++report_.orderings;
     }
+
+    [[nodiscard]] std::ptrdiff_t n_faces() const { return static_cast<std::ptrdiff_t>(faces_.size()); }
 
     void check_motion(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         const auto n = static_cast<std::size_t>(surface_.size());
@@ -208,10 +231,11 @@ private:
 
     void make_boxes(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         const Stopwatch watch(report_.seconds_boxes);
-        const BoxMaker<Dim> box_of(surface_, u_0, u_1, options_);
+        const double margin = 0.5 * (options_.distance + list_skin_);
         boxes_.resize(faces_.size());
-        parallel_each(static_cast<std::ptrdiff_t>(faces_.size()), [&](std::ptrdiff_t i) {
-            boxes_[static_cast<std::size_t>(i)] = box_of(faces_[static_cast<std::size_t>(i)], list_skin_);
+        parallel_each(n_faces(), [&](std::ptrdiff_t i) {
+            const RestFace<Dim>& rest = faces_[i];
+            boxes_[i] = swept_box(rest, u_0[rest.face], u_1[rest.face], margin);
         });
     }
 
@@ -237,9 +261,9 @@ private:
         counts_.clear();
         for (const auto& [a, b] : body_pairs()) {
             const BodyFaces &body_1 = bodies_[static_cast<std::size_t>(a)], &body_2 = bodies_[static_cast<std::size_t>(b)];
+            const RestFace<Dim>*faces_1 = faces_.data() + body_1.begin, *faces_2 = faces_.data() + body_2.begin;
             const auto wanted = [&](std::int32_t i, std::int32_t j) {
-                return is_candidate(faces_[body_1.begin + static_cast<std::size_t>(i)],
-                                    faces_[body_2.begin + static_cast<std::size_t>(j)], u_0, u_1);
+                return is_candidate(faces_1[i], faces_2[j], u_0, u_1);
             };
             geometry::SearchOptions options{options_.broad_phase, options_.limits, true};
             options.limits.pairs -= static_cast<std::int64_t>(candidates_.size());
@@ -247,27 +271,32 @@ private:
                                    ? geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), wanted)
                                    : geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), boxes_of(body_2), wanted);
             for (const auto& [i, j] : found) {
-                const auto [face_1, face_2] = std::minmax(faces_[body_1.begin + static_cast<std::size_t>(i)],
-                                                          faces_[body_2.begin + static_cast<std::size_t>(j)]);
+                const auto [face_1, face_2] = std::minmax(faces_1[i].face, faces_2[j].face);
                 candidates_.push_back({face_1, face_2});
             }
         }
-        std::sort(candidates_.begin(), candidates_.end());
+        geometry::sort_pairs(candidates_, faces_.size());
         add_up_counts();
     }
 
-    bool is_candidate(std::int32_t face_1, std::int32_t face_2, std::span<const Vector<Dim>> u_0,
+    bool is_candidate(const RestFace<Dim>& rest_1, const RestFace<Dim>& rest_2, std::span<const Vector<Dim>> u_0,
                       std::span<const Vector<Dim>> u_1) {
-        if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) return false;
+        const std::int32_t face_1 = rest_1.face, face_2 = rest_2.face;
         Counts& counts = counts_.local();
         ++counts.box_pairs;
-        if (!are_facing(surface_, face_1, face_2, options_.facing_cosine)) {
+        if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) {
             ++counts.not_facing;
             return false;
         }
-        if (!can_touch(face_1, face_2, u_0, u_1, list_skin_)) {
-            ++counts.out_of_reach;
-            return false;
+        if (!by_distance_alone()) {
+            if (!are_facing(surface_, face_1, face_2, options_.facing_cosine)) {
+                ++counts.not_facing;
+                return false;
+            }
+            if (!can_touch(rest_1, rest_2, u_0, u_1, list_skin_)) {
+                ++counts.out_of_reach;
+                return false;
+            }
         }
         if (neighbours_ && surface_.body[face_1] == surface_.body[face_2] && (*neighbours_)(face_1, face_2)) {
             ++counts.neighbours;
@@ -276,18 +305,31 @@ private:
         return true;
     }
 
-    /// Whether g can come below `distance` where the faces share area: on the way from u_0 to u_1, or within a skin of u_0. Faces that look the same way have no gap: their boxes decide.
-    bool can_touch(std::int32_t face_1, std::int32_t face_2, std::span<const Vector<Dim>> u_0,
+    [[nodiscard]] bool by_distance_alone() const { return options_.facing_cosine == 1.0; }
+
+    /// Whether g can come below `distance` where the faces share area: on the way from u_0 to u_1, or within a skin of u_0.
+    /// Faces that do not look at each other at all have no gap: their boxes decide.
+    bool can_touch(const RestFace<Dim>& rest_1, const RestFace<Dim>& rest_2, std::span<const Vector<Dim>> u_0,
                    std::span<const Vector<Dim>> u_1, double skin) const {
+        const std::int32_t face_1 = rest_1.face, face_2 = rest_2.face;
         if (options_.facing_cosine > 0.0 && !are_facing(surface_, face_1, face_2, 0.0)) return true;
-        const Vector<Dim> n = pair_normal(surface_, face_1, face_2);
+        // m is the pair's normal times |m|: with squares nothing has to be normalised
+        const Vector<Dim> m = direction(face_1, face_2);
+        const double mm = m.squaredNorm();
         const Vector<Dim> rest = surface_.centroid[face_2] - surface_.centroid[face_1];
         const Vector<Dim> at_0 = rest + (u_0[face_2] - u_0[face_1]);
         const Vector<Dim> at_1 = rest + (u_1[face_2] - u_1[face_1]);
-        if (at_0.dot(n) - skin > options_.distance && at_1.dot(n) > options_.distance) return false;
-        const double reach =
-            circumradius(surface_, face_1) + circumradius(surface_, face_2) + std::max(skin, (at_1 - at_0).norm());
-        return (at_0 - at_0.dot(n) * n).norm() <= (1.0 + 1e-12) * reach;
+        const double gap_0 = at_0.dot(m), gap_1 = at_1.dot(m);  // times |m|
+        const auto exceeds = [mm](double gap, double limit) { return gap > 0.0 && gap * gap > limit * limit * mm; };
+        if (exceeds(gap_0, options_.distance + skin) && exceeds(gap_1, options_.distance)) return false;
+        const double reach = (1.0 + 1e-12) * (rest_1.radius + rest_2.radius + std::max(skin, (at_1 - at_0).norm()));
+        return at_0.squaredNorm() - gap_0 * gap_0 / mm <= reach * reach;
+    }
+
+    /// Along the pair's normal, of any length.
+    [[nodiscard]] Vector<Dim> direction(std::int32_t face_1, std::int32_t face_2) const {
+        if (surface_.is_rigid(face_1) || surface_.is_rigid(face_2)) return pair_normal(surface_, face_1, face_2);
+        return surface_.normal[face_1] - surface_.normal[face_2];
     }
 
     void add_up_counts() {
@@ -306,17 +348,16 @@ private:
 
     /// How many of the candidates half the skin would have found.
     [[nodiscard]] std::int64_t count_at_half_skin(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
-        if (options_.skin > 0.0) return 0;
         place_of_face_.resize(faces_.size());
-        for (std::size_t i = 0; i < faces_.size(); ++i) place_of_face_[static_cast<std::size_t>(faces_[i])] = i;
-        const auto smaller_box = [&](std::int32_t face) {
-            return boxes_[place_of_face_[static_cast<std::size_t>(face)]].grown(-0.25 * list_skin_);
+        for (std::size_t i = 0; i < faces_.size(); ++i)
+            place_of_face_[static_cast<std::size_t>(faces_[i].face)] = static_cast<std::int32_t>(i);
+        const auto remains = [&](const IndexPair& pair) {
+            const std::int32_t i = place_of_face_[static_cast<std::size_t>(pair.first)];
+            const std::int32_t j = place_of_face_[static_cast<std::size_t>(pair.second)];
+            return boxes_[i].grown(-0.5 * list_skin_).overlaps(boxes_[j]) &&
+                   (by_distance_alone() || can_touch(faces_[i], faces_[j], u_0, u_1, 0.5 * list_skin_));
         };
-        return std::ranges::count_if(candidates_, [&](const IndexPair& pair) {
-            const auto& [face_1, face_2] = pair;
-            return smaller_box(face_1).overlaps(smaller_box(face_2)) &&
-                   can_touch(face_1, face_2, u_0, u_1, 0.5 * list_skin_);
-        });
+        return std::ranges::count_if(candidates_, remains);
     }
 
     SurfaceView<Dim> surface_;
@@ -325,11 +366,11 @@ private:
     double list_skin_ = 0.0;
     bool list_holds_ = false;
     std::optional<Neighbours> neighbours_;
-    double extent_ = 0.0;              // of all surfaces at rest [m]
-    std::vector<std::int32_t> faces_;  // body by body, in spatial order
+    double extent_ = 0.0;               // of all surfaces at rest [m]
+    std::vector<RestFace<Dim>> faces_;  // body by body, in spatial order
     std::vector<BodyFaces> bodies_;
-    std::vector<Box<Dim>> boxes_;             // of faces_
-    std::vector<std::size_t> place_of_face_;  // in faces_
+    std::vector<Box<Dim>> boxes_;              // of faces_
+    std::vector<std::int32_t> place_of_face_;  // in faces_
     std::vector<IndexPair> candidates_;
     oneapi::tbb::enumerable_thread_specific<Counts> counts_;
     CandidateReport report_;
@@ -354,6 +395,10 @@ void CandidateSearch<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<co
     implementation_->search(u_0, u_1);
 }
 template <int Dim>
+void CandidateSearch<Dim>::surface_changed() {
+    implementation_->surface_changed();
+}
+template <int Dim>
 std::span<const IndexPair> CandidateSearch<Dim>::candidates() const {
     return implementation_->candidates();
 }
@@ -369,10 +414,11 @@ const CandidateReport& CandidateSearch<Dim>::report() const {
 template <int Dim>
 std::vector<Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
                                   std::span<const Vector<Dim>> u_1, const CandidateOptions& options, double skin) {
-    const BoxMaker<Dim> box_of(surface, u_0, u_1, options);
+    const RestFaceMaker<Dim> at_rest(surface, options);
     std::vector<Box<Dim>> boxes;
     boxes.reserve(static_cast<std::size_t>(surface.size()));
-    for (std::int32_t face = 0; face < surface.size(); ++face) boxes.push_back(box_of(face, skin));
+    for (std::int32_t face = 0; face < surface.size(); ++face)
+        boxes.push_back(swept_box(at_rest(face), u_0[face], u_1[face], 0.5 * (options.distance + skin)));
     return boxes;
 }
 

@@ -40,8 +40,7 @@ template <int Dim>
 template <int Dim>
 class CandidateSearch {
 public:
-    /// Keeps the view: the host's arrays must outlive it. They are read anew by each search, so that a host whose faces turn
-    /// may change coordinates and normals in between. Throws std::invalid_argument for a surface (see `check`) or an option
+    /// Keeps the view: the host's arrays must outlive it, and stay as they are, or see `surface_changed`. Throws std::invalid_argument for a surface (see `check`) or an option
     /// that is no good.
     CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options);
     ~CandidateSearch();
@@ -52,9 +51,14 @@ public:
     /// since the search. False before the first one, and after one that failed.
     [[nodiscard]] bool covers(double motion) const;
 
+    /// For a host whose faces turn or deform: it has changed coordinates and all that follows from them, but no face and no
+    /// corner came or went. The list holds no longer. Throws as the constructor.
+    void surface_changed();
+
     /// Makes the list anew for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
-    /// pair of facing faces (face_1 < face_2) that can come as near as `distance` on that way, and as long as no face has
-    /// moved by more than half the skin from u_0. Rigid faces never pair with each other.
+    /// pair of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that way and as long
+    /// as no face has moved by more than half the skin from u_0. Without a condition on facing (facing_cosine = 1) it is
+    /// every pair of faces, whatever their normals, that can come as near as `distance` in space. Rigid faces never pair.
     /// Throws std::runtime_error naming the face if a displacement is not finite, or a face moves farther within the step
     /// than `largest_motion` allows: the run has diverged. geometry::SearchLimitError if there are too many pairs, or too
     /// little memory is allowed; std::invalid_argument for arrays of the wrong size.

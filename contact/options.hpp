@@ -19,7 +19,9 @@ enum class OverlapMode {
 /// Which pairs of faces a search for candidates lists, and what it may take.
 struct CandidateOptions {
     geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic;
-    double facing_cosine = -0.5;  ///< n_1 . n_2 below this: the faces look at each other. From above -1 to 1; 1: all do
+    /// n_1 . n_2 below this: the faces look at each other, and gap and shift tell what can touch. From above -1 to 1. With
+    /// 1 normals and the model of contact play no part: what counts is the distance of faces in space
+    double facing_cosine = -0.5;
     /// [m] >= 0: gaps up to this count besides contact. Contact itself needs 0
     double distance = 0.0;
     /// [m] how far faces may move, together, before the list is made anew; 0: chosen from the number of faces and pairs and

@@ -15,6 +15,9 @@ constexpr double cost_a_pair = 10.0;
 constexpr double least = 0.02;
 constexpr double most = 4.0;
 
+// Of the first list, before anything is known.
+constexpr double first = 0.5;
+
 // From one list to the next the skin changes by no more than this factor: the next one knows better.
 constexpr double largest_change = 2.0;
 
@@ -24,7 +27,7 @@ constexpr double growth_without_pairs = 1.25;
 }  // namespace
 
 SkinChoice::SkinChoice(int dim, double fixed, double face_size)
-    : dim_(dim), is_fixed_(fixed > 0.0), face_size_(face_size), skin_(is_fixed_ ? fixed : face_size) {}
+    : dim_(dim), is_fixed_(fixed > 0.0), face_size_(face_size), skin_(is_fixed_ ? fixed : first * face_size) {}
 
 void SkinChoice::learn(std::int64_t pairs, std::int64_t pairs_at_half, std::int64_t faces, double motion) {
     if (is_fixed_ || motion == 0.0 || face_size_ == 0.0) return;

@@ -14,7 +14,7 @@ namespace abut::contact {
 /// part, so that a run gives the same lists every time.
 class SkinChoice {
 public:
-    /// `fixed` > 0: always that. `face_size`: the mean size of the faces, the skin of the first list [m].
+    /// `fixed` > 0: always that. `face_size`: the mean size of the faces, from which the choice begins [m].
     SkinChoice(int dim, double fixed, double face_size);
 
     [[nodiscard]] double skin() const { return skin_; }

@@ -124,11 +124,6 @@ void check_shape(const SurfaceView<2>&, std::int32_t) {}
 }  // namespace
 
 template <int Dim>
-bool SurfaceView<Dim>::is_rigid(std::int32_t face) const {
-    return stiffness[face] == std::numeric_limits<double>::infinity();
-}
-
-template <int Dim>
 SurfaceView<Dim> Surface<Dim>::view() const {
     return {vertices, face_offsets, face_vertices, centroid, normal, area, depth, stiffness, body};
 }

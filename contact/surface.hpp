@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,9 @@ struct SurfaceView {
         return face_vertices.subspan(static_cast<std::size_t>(face_offsets[face]),
                                      static_cast<std::size_t>(face_offsets[face + 1] - face_offsets[face]));
     }
-    [[nodiscard]] bool is_rigid(std::int32_t face) const;
+    [[nodiscard]] bool is_rigid(std::int32_t face) const {
+        return stiffness[face] == std::numeric_limits<double>::infinity();
+    }
 };
 
 /// A surface that owns its arrays.

@@ -161,11 +161,13 @@ void check_number(const FoundPairs& found, const SearchLimits& limits, std::int6
                            static_cast<double>(n), static_cast<double>(allowed));
 }
 
-void find_between(BroadPhase method, const Selection& selection_1, const Selection& selection_2, bool in_spatial_order,
+// May take the boxes of the selections with it, to have room for the pairs.
+void find_between(BroadPhase method, Selection& selection_1, Selection& selection_2, bool in_spatial_order,
                   FoundPairs& found) {
     switch (method) {
         case BroadPhase::packed_tree:
-            return backend::find_by_packed_tree(selection_1.boxes, selection_2.boxes, in_spatial_order, found);
+            return backend::find_by_packed_tree(std::move(selection_1.boxes), std::move(selection_2.boxes), in_spatial_order,
+                                                found);
         case BroadPhase::embree:
             return backend::find_by_embree(selection_1.boxes, selection_2.boxes, found);
         case BroadPhase::fcl:
@@ -175,10 +177,10 @@ void find_between(BroadPhase method, const Selection& selection_1, const Selecti
     }
 }
 
-void find_within(BroadPhase method, const Selection& selection, bool in_spatial_order, FoundPairs& found) {
+void find_within(BroadPhase method, Selection& selection, bool in_spatial_order, FoundPairs& found) {
     switch (method) {
         case BroadPhase::packed_tree:
-            return backend::find_by_packed_tree(selection.boxes, in_spatial_order, found);
+            return backend::find_by_packed_tree(std::move(selection.boxes), in_spatial_order, found);
         case BroadPhase::embree:
             return backend::find_by_embree(selection.boxes, found);
         case BroadPhase::fcl:
@@ -217,8 +219,8 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     if (n_1 == 0 || n_2 == 0) return {};
     const BroadPhase method = chosen(options.method, n_1 * n_2);
     const std::int64_t allowed = pairs_allowed(options.limits, method, n_1 + n_2);
-    const Selection selection_1 = parts_inside(regions.of_1, boxes_1, n_1);
-    const Selection selection_2 = parts_inside(regions.of_2, boxes_2, n_2);
+    Selection selection_1 = parts_inside(regions.of_1, boxes_1, n_1);
+    Selection selection_2 = parts_inside(regions.of_2, boxes_2, n_2);
     FoundPairs found(allowed, in_numbers_of_selections(wanted, selection_1, selection_2));
     find_between(method, selection_1, selection_2, options.in_spatial_order, found);
     check_number(found, options.limits, allowed);
@@ -233,7 +235,7 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     if (n < 2) return {};
     const BroadPhase method = chosen(options.method, n * (n - 1) / 2);
     const std::int64_t allowed = pairs_allowed(options.limits, method, n);
-    const Selection selection = parts_inside(everywhere<Dim>(), boxes, n);
+    Selection selection = parts_inside(everywhere<Dim>(), boxes, n);
     FoundPairs found(allowed, in_numbers_of_selections(wanted, selection, selection));
     find_within(method, selection, options.in_spatial_order, found);
     check_number(found, options.limits, allowed);

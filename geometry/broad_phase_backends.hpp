@@ -15,7 +15,8 @@ void find_by_embree(Boxes boxes_1, Boxes boxes_2, FoundPairs& found);
 void find_by_embree(Boxes boxes, FoundPairs& found);
 void find_by_fcl(Boxes boxes_1, Boxes boxes_2, FoundPairs& found);
 void find_by_fcl(Boxes boxes, FoundPairs& found);
-void find_by_packed_tree(Boxes boxes_1, Boxes boxes_2, bool in_spatial_order, FoundPairs& found);
-void find_by_packed_tree(Boxes boxes, bool in_spatial_order, FoundPairs& found);
+/// Takes the boxes: it has its own copy of them in its blocks.
+void find_by_packed_tree(std::vector<Box<3>> boxes_1, std::vector<Box<3>> boxes_2, bool in_spatial_order, FoundPairs& found);
+void find_by_packed_tree(std::vector<Box<3>> boxes, bool in_spatial_order, FoundPairs& found);
 
 }  // namespace abut::geometry::backend

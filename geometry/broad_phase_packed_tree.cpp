@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "abut/geometry/broad_phase_backends.hpp"
 #include "abut/geometry/spatial_order.hpp"
@@ -72,8 +74,10 @@ struct Node {
 // searched for, all is written once from one end to the other.
 class PackedTree {
 public:
-    PackedTree(Boxes boxes, bool in_spatial_order) : order_(order(boxes, in_spatial_order)) {
+    /// The boxes are freed as soon as they are packed.
+    PackedTree(std::vector<Box<3>> boxes, bool in_spatial_order) : order_(order(boxes, in_spatial_order)) {
         pack(boxes.size(), [&](std::size_t i) { return boxes[static_cast<std::size_t>(order_[i])]; });
+        std::vector<Box<3>>().swap(boxes);
         while (levels_.back().size() > 1) {
             const std::vector<Block>& below = levels_.back();
             pack(below.size(), [&](std::size_t i) { return below[i].bounds(); });
@@ -217,13 +221,14 @@ private:
 
 }  // namespace
 
-void find_by_packed_tree(Boxes boxes_1, Boxes boxes_2, bool in_spatial_order, FoundPairs& found) {
-    const PackedTree tree_1(boxes_1, in_spatial_order), tree_2(boxes_2, in_spatial_order);
+void find_by_packed_tree(std::vector<Box<3>> boxes_1, std::vector<Box<3>> boxes_2, bool in_spatial_order,
+                         FoundPairs& found) {
+    const PackedTree tree_1(std::move(boxes_1), in_spatial_order), tree_2(std::move(boxes_2), in_spatial_order);
     Search(tree_1, tree_2).find(found);
 }
 
-void find_by_packed_tree(Boxes boxes, bool in_spatial_order, FoundPairs& found) {
-    const PackedTree tree(boxes, in_spatial_order);
+void find_by_packed_tree(std::vector<Box<3>> boxes, bool in_spatial_order, FoundPairs& found) {
+    const PackedTree tree(std::move(boxes), in_spatial_order);
     Search(tree, tree).find(found);
 }
 

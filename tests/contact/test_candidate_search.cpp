@@ -175,8 +175,8 @@ TEMPLATE_TEST_CASE_SIG("a list covers motions up to half its skin, and nothing b
     contact::ContactOptions options;
     options.search.skin = GENERATE(0.0, 0.3);
     Mover<Dim> mover(surface, options);
-    // By default the mean size of the deformable faces, 1 and 3.
-    const double expected = options.search.skin > 0.0 ? options.search.skin : 2.0;
+    // By default the first one is half the mean size of the deformable faces, 1 and 3.
+    const double expected = options.search.skin > 0.0 ? options.search.skin : 1.0;
     CHECK(mover.contact.skin() == Approx(expected).epsilon(1e-14));
     CHECK_FALSE(mover.contact.covers(0.0));
     mover.search(at_rest(surface));
@@ -345,7 +345,7 @@ TEST_CASE("any number of threads gives the same list and the same counts", "[con
     for (const int threads : {2, 5}) CHECK(on_threads(threads) == one);
 }
 
-TEST_CASE("a host whose faces turn changes its arrays, and searches anew", "[contact][candidates]") {
+TEST_CASE("a host whose faces turn changes its arrays, says so, and searches anew", "[contact][candidates]") {
     contact::Surface<3> surface;
     surface.append(tile<3>(Vector<3>::Zero(), up<3>(), 0.5), 0.1, 1.0, 0);
     surface.append(tile<3>(2.0 * axis<3>(0), -axis<3>(0), 0.5), 0.1, 1.0, 1);
@@ -356,6 +356,8 @@ TEST_CASE("a host whose faces turn changes its arrays, and searches anew", "[con
     std::copy(turned.begin(), turned.end(), surface.vertices.begin() + 4);
     surface.normal[1] = -up<3>();
     surface.centroid[1] = 0.2 * up<3>();
+    search.surface_changed();
+    CHECK_FALSE(search.covers(0.0));
     search.search(at_rest(surface), at_rest(surface));
     CHECK(search.candidates().size() == 1);
 }
