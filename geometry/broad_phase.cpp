@@ -15,7 +15,11 @@ namespace {
 // Boxes that take part, lifted to 3D, and where each stands in the caller's list.
 struct Selection {
     std::vector<Box<3>> boxes;
-    std::vector<std::int32_t> indices;
+    std::vector<std::int32_t> indices;  // empty: all take part
+
+    [[nodiscard]] std::int32_t number(std::int32_t i) const {
+        return indices.empty() ? i : indices[static_cast<std::size_t>(i)];
+    }
 };
 
 template <int Dim>
@@ -79,11 +83,11 @@ template <int Dim>
 Selection parts_inside(const Box<Dim>& region, std::span<const Box<Dim>> boxes, std::size_t n) {
     Selection parts;
     parts.boxes.reserve(n);
-    parts.indices.reserve(n);
+    if (n < boxes.size()) parts.indices.reserve(n);
     for (std::size_t i = 0; i < boxes.size(); ++i)
         if (takes_part(region, boxes[i])) {
             parts.boxes.push_back(lifted(part_inside(region, boxes[i])));
-            parts.indices.push_back(static_cast<std::int32_t>(i));
+            if (n < boxes.size()) parts.indices.push_back(static_cast<std::int32_t>(i));
         }
     return parts;
 }
@@ -123,9 +127,9 @@ double bytes_a_box(BroadPhase method) {
         case BroadPhase::automatic:
             return 120.0;
         case BroadPhase::embree:
-            return 250.0;
+            return 130.0;
         case BroadPhase::fcl:
-            return 260.0;
+            return 200.0;
         case BroadPhase::brute_force:
             return 56.0;
     }
@@ -193,16 +197,12 @@ void find_within(BroadPhase method, Selection& selection, bool in_spatial_order,
 // Both selections must outlive it.
 PairFilter in_numbers_of_selections(const PairFilter& wanted, const Selection& selection_1, const Selection& selection_2) {
     if (!wanted) return {};
-    return [&](std::int32_t i, std::int32_t j) {
-        return wanted(selection_1.indices[static_cast<std::size_t>(i)], selection_2.indices[static_cast<std::size_t>(j)]);
-    };
+    return [&](std::int32_t i, std::int32_t j) { return wanted(selection_1.number(i), selection_2.number(j)); };
 }
 
 std::vector<IndexPair> in_numbers_of_caller(std::vector<IndexPair> pairs, const Selection& selection_1,
                                             const Selection& selection_2) {
-    for (IndexPair& pair : pairs)
-        pair = {selection_1.indices[static_cast<std::size_t>(pair.first)],
-                selection_2.indices[static_cast<std::size_t>(pair.second)]};
+    for (IndexPair& pair : pairs) pair = {selection_1.number(pair.first), selection_2.number(pair.second)};
     return pairs;
 }
 
