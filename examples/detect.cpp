@@ -9,7 +9,8 @@
 //   detect torus:n=4000 torus:n=4000,x=1,axis=1,tube=0.6 --distance 0.12 --verify
 //
 // Two interlocked tori, R = 1: every point of the one circle has the distance 1 from the other, so that between tubes of
-// 0.3 and 0.6 the least gap is 0.1, less what chords cut off (about 1e-3 for these meshes). No pair is missed.
+// 0.3 and 0.6 the gap is 0.1, up to the square of the size of a face: 0.1027 is found here, 0.1008 of 16,000 faces each. No pair
+// is missed.
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <spdlog/spdlog.h>
@@ -119,6 +120,8 @@ void run(const DetectOptions& options) {
     if (!options.no_files) prepare_output(options.out);
     DetectTimes seconds;
     Bodies bodies = read_bodies(options, seconds.input);
+    if (bodies.names.size() == 1 && !options.search.self_contact)
+        spdlog::warn("one body alone has nothing to touch: give another, or --self, or --connected if it has several parts");
     const Motion motion(options, bodies);
     motion.move(bodies, 0);
     const Nearness near = nearness(options, bodies, motion);

@@ -53,26 +53,32 @@ InputReport examined(const SurfaceMesh& surface, const DetectOptions& options) {
     return report;
 }
 
-/// What the library calls its remedy is an option here.
-CleanSurface cleaned(const SurfaceMesh& surface, const InputReport& report, const DetectOptions& options) {
+/// Calls `read`; where its error names a choice of the library, that of the command line stands there.
+template <class Read>
+auto with_option_names(const Read& read) {
     try {
-        return mesh::clean(surface, report.health, options.unusable);
+        return read();
     } catch (const mesh::MeshError& error) {
         std::string message = error.what();
-        const std::string name = "UnusableFaces::skip";
-        if (const auto place = message.find(name); place != std::string::npos)
-            message.replace(place, name.size(), "--unusable skip");
+        for (const auto& [name, option] : {std::pair<std::string, std::string>{"UnusableFaces::skip", "--unusable skip"},
+                                           {"SurfaceOptions::displacement", "--displacement"}})
+            if (const auto place = message.find(name); place != std::string::npos)
+                message.replace(place, name.size(), option);
         throw std::runtime_error(message);
     }
 }
 
-void log_report(const InputReport& report) {
+void log_lines(const InputReport& report) {
     spdlog::info("{}:", report.name);
     for (const std::string& line : report.lines) spdlog::info("  {}", line);
-    if (report.n_skipped_faces > 0) spdlog::warn("  {} unusable faces are left out", report.n_skipped_faces);
-    if (report.n_cut_faces > 0)
+}
+
+/// What was done about it.
+void log_cleaning(const CleanSurface& clean) {
+    if (clean.n_skipped_faces > 0) spdlog::warn("  {} unusable faces are left out", clean.n_skipped_faces);
+    if (clean.n_cut_faces > 0)
         spdlog::info("  {} faces that are not flat are cut into triangles, {} of them without area left out",
-                     report.n_cut_faces, report.n_flat_pieces);
+                     clean.n_cut_faces, clean.n_flat_pieces);
 }
 
 /// Appends faces of a clean surface, with vertices for each body of its own.
@@ -186,13 +192,14 @@ Bodies read_bodies(const DetectOptions& options, ReadingTimes& times) {
         SurfaceMesh surface;
         {
             const Stopwatch watch(times.reading);
-            surface = read_one(input, options);
+            surface = with_option_names([&] { return read_one(input, options); });
         }
         const Stopwatch watch(times.health);
         InputReport report = examined(surface, options);
-        log_report(report);
-        surfaces.push_back(cleaned(surface, report, options));
+        log_lines(report);
+        surfaces.push_back(with_option_names([&] { return mesh::clean(surface, report.health, options.unusable); }));
         const CleanSurface& clean = surfaces.back();
+        log_cleaning(clean);
         report.n_used_faces = clean.mesh.faces.size();
         report.n_skipped_faces = clean.n_skipped_faces;
         report.n_cut_faces = clean.n_cut_faces;

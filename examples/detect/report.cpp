@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_lines = 10;  // pairs of bodies that are printed
+constexpr std::size_t most_lines = 10;  // bodies, or pairs of them, that are printed
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
@@ -121,6 +121,7 @@ Json last_json(const DetectReport& report) {
 
 Json verification_json(const Verification& verification) {
     return {{"faces", verification.faces},
+            {"sampled", verification.sampled},
             {"pairs_tested", verification.tested},
             {"required", verification.required},
             {"on_limit", verification.on_limit},
@@ -144,6 +145,14 @@ Json seconds_json(const DetectTimes& seconds) {
 }
 
 void print_line(const std::string& name, const std::string& value) { fmt::print("  {:<44}{}\n", name, value); }
+
+void print_bodies(const Bodies& bodies) {
+    std::vector<std::int64_t> n_faces(bodies.names.size(), 0);
+    for (const std::int32_t body : bodies.surface.body) ++n_faces[at(body)];
+    for (std::size_t body = 0; body < std::min(n_faces.size(), most_lines); ++body)
+        print_line(fmt::format("body {}", body), fmt::format("{}, {} faces", bodies.names[body], n_faces[body]));
+    if (n_faces.size() > most_lines) print_line("", fmt::format("and {} more bodies", n_faces.size() - most_lines));
+}
 
 void print_search(const DetectReport& report) {
     const auto& search = report.search;
@@ -180,6 +189,7 @@ void print_verification(const DetectReport& report) {
         "verified against all pairs",
         fmt::format("{} pairs tested, {} required, {} missed, {} wrong, {} within rounding of a limit", found.tested,
                     found.required, found.missed_candidates + found.missed_overlaps, found.wrong_overlaps, found.on_limit));
+    if (found.sampled) print_line("  by a sample of faces against all", fmt::format("{}", found.faces));
     print_line("  largest error of area and gap",
                fmt::format("{:.2g} of the smaller face, {:.2g} m", found.area_error, found.gap_error));
 }
@@ -224,8 +234,10 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
 
 void print(const DetectReport& report, const DetectOptions& options) {
     const Bodies& bodies = report.bodies;
-    fmt::print("detect: {} bodies, {} faces, step {} of {}\n", bodies.names.size(), bodies.surface.size(), report.last.step,
-               report.steps);
+    fmt::print("detect: {}, {} faces, step {} of {}\n",
+               bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()), bodies.surface.size(),
+               report.last.step, report.steps);
+    print_bodies(bodies);
     print_line("mean size of a face, sqrt(area)", fmt::format("{:.6g} m", bodies.mean_face_size()));
     print_line("gaps kept", fmt::format("above {:.6g} m, up to {:.6g} m", -report.near.depth, report.near.distance));
     print_search(report);

@@ -27,6 +27,7 @@ struct VerificationLimits {
 
 struct Verification {
     std::int64_t faces = 0;     ///< compared with all others
+    bool sampled = false;       ///< these are not all faces
     std::int64_t tested = 0;    ///< pairs
     std::int64_t required = 0;  ///< of them: facing, sharing area, with a gap in the range
     std::int64_t on_limit = 0;  ///< within rounding of a limit: neither required nor wrong
