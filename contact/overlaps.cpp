@@ -330,6 +330,20 @@ void join(std::span<const Overlaps<Dim>> parts, Overlaps<Dim>& all) {
     }
 }
 
+template <int Dim>
+std::vector<Vector<Dim>> polygon_of(const Scene<Dim>& scene, IndexPair pair) {
+    if (!scene.are_facing(pair)) return {};
+    const ProjectedPair<Dim> projected(scene, pair);
+    const Vector<Dim> origin = scene.corner(pair.first, 0) + scene.displacement[pair.first];
+    const Vector<Dim> centroid_1 = scene.surface.centroid[pair.first] + scene.displacement[pair.first];
+    const Vector<Dim> halfway = centroid_1 + 0.5 * scene.apart(pair);
+    const Vector<Dim> on_plane = origin + (halfway - origin).dot(projected.frame.normal()) * projected.frame.normal();
+    std::vector<Vector<Dim>> polygon;
+    for (const PlaneVector<Dim>& corner : geometry::shared_polygon<Dim>(projected.face_1(), projected.face_2()))
+        polygon.push_back(on_plane + projected.frame.lift(corner));
+    return polygon;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -368,17 +382,21 @@ std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface, std::s
                                          IndexPair pair) {
     check_arrays(surface, displacement);
     if (!are_faces(surface, pair)) refuse_pair(surface, pair, "the pair");
+    return polygon_of(Scene<Dim>{surface, displacement}, pair);
+}
+
+template <int Dim>
+std::vector<std::vector<Vector<Dim>>> overlap_polygons(const SurfaceView<Dim>& surface,
+                                                       std::span<const Vector<Dim>> displacement,
+                                                       std::span<const IndexPair> pairs) {
+    check_arrays(surface, displacement);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
     const Scene<Dim> scene{surface, displacement};
-    if (!scene.are_facing(pair)) return {};
-    const ProjectedPair<Dim> projected(scene, pair);
-    const Vector<Dim> origin = scene.corner(pair.first, 0) + displacement[pair.first];
-    const Vector<Dim> centroid_1 = surface.centroid[pair.first] + displacement[pair.first];
-    const Vector<Dim> halfway = centroid_1 + 0.5 * scene.apart(pair);
-    const Vector<Dim> on_plane = origin + (halfway - origin).dot(projected.frame.normal()) * projected.frame.normal();
-    std::vector<Vector<Dim>> polygon;
-    for (const PlaneVector<Dim>& corner : geometry::shared_polygon<Dim>(projected.face_1(), projected.face_2()))
-        polygon.push_back(on_plane + projected.frame.lift(corner));
-    return polygon;
+    std::vector<std::vector<Vector<Dim>>> polygons;
+    polygons.reserve(pairs.size());
+    for (const IndexPair pair : pairs) polygons.push_back(polygon_of(scene, pair));
+    return polygons;
 }
 
 template void find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>, AreaMethod,
@@ -390,6 +408,10 @@ template Overlaps<2> find_overlaps<2>(const SurfaceView<2>&, std::span<const Vec
 template Overlaps<3> find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>,
                                       AreaMethod);
 template std::vector<Vector<2>> overlap_polygon<2>(const SurfaceView<2>&, std::span<const Vector<2>>, IndexPair);
+template std::vector<std::vector<Vector<2>>> overlap_polygons<2>(const SurfaceView<2>&, std::span<const Vector<2>>,
+                                                                 std::span<const IndexPair>);
 template std::vector<Vector<3>> overlap_polygon<3>(const SurfaceView<3>&, std::span<const Vector<3>>, IndexPair);
+template std::vector<std::vector<Vector<3>>> overlap_polygons<3>(const SurfaceView<3>&, std::span<const Vector<3>>,
+                                                                 std::span<const IndexPair>);
 
 }  // namespace abut::contact

@@ -58,4 +58,10 @@ template <int Dim>
 [[nodiscard]] std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface,
                                                        std::span<const Vector<Dim>> displacement, geometry::IndexPair pair);
 
+/// The same of many pairs: pairs[i] gives patch i. Sizes are checked once, so that a pair costs the same on large surfaces.
+template <int Dim>
+[[nodiscard]] std::vector<std::vector<Vector<Dim>>> overlap_polygons(const SurfaceView<Dim>& surface,
+                                                                     std::span<const Vector<Dim>> displacement,
+                                                                     std::span<const geometry::IndexPair> pairs);
+
 }  // namespace abut::contact

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "abut/geometry/box.hpp"
@@ -95,6 +96,12 @@ struct SurfaceHealth {
 /// Throws std::invalid_argument for bad offsets, nothing for bad faces. The same bits for any number of threads.
 /// n log n, and in proportion to the pairs of faces whose boxes overlap if self-intersections are asked for.
 [[nodiscard]] SurfaceHealth examine(const FaceSoup& soup, const HealthOptions& options = {});
+
+/// What `health`, examine(soup), says, in plain words: a line for each thing a reader should know, with counts and the first
+/// faces, without line ends. `labels` (n_faces) is what faces are called; empty: by their index. Throws
+/// std::invalid_argument if the sizes disagree.
+[[nodiscard]] std::vector<std::string> describe(const FaceSoup& soup, const SurfaceHealth& health,
+                                                std::span<const std::int64_t> labels = {});
 
 /// Longest edge over smallest height (the smallest extent orthogonal to an edge) of a face with area; >= 2/sqrt(3) for a
 /// triangle, >= 1 for others.

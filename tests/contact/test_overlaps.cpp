@@ -268,8 +268,14 @@ TEST_CASE("the polygon of a pair has its area, and lies halfway between the face
     const auto u = random_displacement(random, surface, 0.3);
     const auto overlaps = find(surface, u, all_pairs(surface));
     REQUIRE(overlaps.found.size() > 50);
-    for (const auto& overlap : overlaps.found) {
-        const auto polygon = contact::overlap_polygon<3>(surface.view(), u, {overlap.face_1, overlap.face_2});
+    std::vector<geometry::IndexPair> pairs;
+    for (const auto& overlap : overlaps.found) pairs.push_back({overlap.face_1, overlap.face_2});
+    const auto polygons = contact::overlap_polygons<3>(surface.view(), u, pairs);
+    REQUIRE(polygons.size() == pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto& overlap = overlaps.found[i];
+        const auto polygon = contact::overlap_polygon<3>(surface.view(), u, pairs[i]);
+        CHECK(polygons[i] == polygon);
         CHECK(polygon_area(polygon, overlap.normal) == Approx(overlap.area).margin(1e-14));
         const Vector<3> c_1 = surface.centroid[overlap.face_1] + u[overlap.face_1],
                         c_2 = surface.centroid[overlap.face_2] + u[overlap.face_2];
@@ -300,6 +306,8 @@ TEMPLATE_TEST_CASE_SIG("overlaps of wrong arrays or of faces that do not exist a
                       "overlaps: pair 1 names face 4, but there are 4 faces. Correct `pairs`.");
     CHECK_THROWS_WITH(find<Dim>(surface, u, {{-1, 1}}), Contains("pair 0 names face -1"));
     CHECK_THROWS_WITH(contact::overlap_polygon<Dim>(surface.view(), u, {0, 9}), Contains("the pair names face 9"));
+    const std::vector<geometry::IndexPair> pairs{{0, 1}, {9, 0}};
+    CHECK_THROWS_WITH(contact::overlap_polygons<Dim>(surface.view(), u, pairs), Contains("pair 1 names face 9"));
     u.pop_back();
     CHECK_THROWS_WITH(find<Dim>(surface, u, {}), Contains("`displacement` has 3 entries, 4 are needed: one a face."));
     auto broken = surface;

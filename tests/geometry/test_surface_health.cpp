@@ -456,3 +456,50 @@ TEST_CASE("polygons are cut into triangles of the same area and sense, none of t
     // A straight corner leaves one way to cut a quadrangle.
     CHECK(area_sum({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 2, 0}}) == Approx(2.0));
 }
+
+namespace {
+
+std::string described(const Faces& faces, const HealthOptions& options = {}, std::span<const std::int64_t> labels = {}) {
+    std::string text;
+    for (const std::string& line : describe(faces.soup(), examined(faces, options), labels)) text += line + "\n";
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("the health of a sound cube in words: counts, box, volume, nothing wrong", "[geometry][health]") {
+    const std::string text = described(cube(), {.self_intersections = true});
+    for (const char* words :
+         {"6 faces, 8 vertices, 1 component", "from (0, 0, 0) to (1, 1, 1) m, area 6 m^2", "edges of 1 to 1 m",
+          "closed, volume 1 m^3", "every face can be used", "0 slivers", "no self-intersection"})
+        CHECK_THAT(text, Contains(words));
+    for (const char* words : {"cannot", "open", "inside out", "repeat", "not "}) CHECK_THAT(text, !Contains(words));
+}
+
+TEST_CASE("the health of a bad surface in words: what is wrong, how often, and which face first, by its label",
+          "[geometry][health]") {
+    Faces bad = cube();
+    bad.vertices.push_back({no_number, 0, 0});
+    bad.vertices.push_back({5, 5, 5});
+    bad.add({0, 1, 8});   // not finite
+    bad.add({0, 1, 77});  // no such vertex
+    bad.add({1, 2, 6, 5});
+    bad.add({5, 6, 2, 1});
+    bad.vertices.push_back({0, 0, 0});
+    const std::vector<std::int64_t> labels{10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
+    const std::string text = described(bad, {}, labels);
+    for (const char* words : {"10 faces", "3 faces cannot be used: 1 index_out_of_range, 1 not_finite, 1 duplicate",
+                              "face 16 has vertex 8", "face 17 names vertex 77", "face 18 repeats an earlier face",
+                              "2 vertices that no face names", "1 vertex at the place of an earlier one",
+                              "1 vertex with a coordinate that is not finite", "4 edges of three faces or more",
+                              "1 face repeats an earlier one the other way round: first face 19 that of face 13"})
+        CHECK_THAT(text, Contains(words));
+    CHECK_THAT(described(one_face(corner_triangle())), Contains("open: 1 hole or rim of 3 edges, the first edge at face 0"));
+    CHECK_THAT(described(Faces{}), Contains("0 faces, 0 vertices, 0 components"));
+}
+
+TEST_CASE("a report of another surface is not put into words", "[geometry][health]") {
+    const Faces one = one_face(corner_triangle());
+    CHECK_THROWS_WITH(describe(one.soup(), examined(cube())), Contains("a report of 6 faces") && Contains("for 1 faces"));
+    CHECK_THROWS_AS(describe(one.soup(), examined(one), std::vector<std::int64_t>{1, 2}), std::invalid_argument);
+}
