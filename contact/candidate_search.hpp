@@ -48,7 +48,8 @@ public:
     CandidateSearch& operator=(CandidateSearch&&) noexcept;
 
     /// Whether the list is still a superset of all pairs in question, when no corner has moved by more than `motion` [m]
-    /// since the search. False before the first one, and after one that failed.
+    /// since the search, and no face has turned: normals decide which faces look at each other and where a gap lies, and no
+    /// skin allows for a change of them. False before the first search, and after one that failed.
     [[nodiscard]] bool covers(double motion) const;
 
     /// For a host whose faces turn or deform: it has changed coordinates and all that follows from them, but no face and no

@@ -60,6 +60,7 @@ const StepResult& Detection::find(int step, bool turned) {
 }
 
 void Detection::search() {
+    if (!at_search_.empty()) search_.surface_changed();
     try {
         search_.search(at_rest_, at_rest_);
     } catch (const geometry::SearchLimitError& error) {
