@@ -1,6 +1,8 @@
 #include "abut/contact/surface.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -8,6 +10,7 @@
 
 #include "abut/contact/messages.hpp"
 #include "abut/geometry/overlap.hpp"
+#include "abut/geometry/parallel.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::contact {
@@ -74,17 +77,25 @@ void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
                    " m; it must be > 0 (>= 0 if rigid). Give the distance from the centroid of its cell to its plane.");
 }
 
+/// The corners of a face whose number has been checked.
 template <int Dim>
-std::vector<Vector<Dim>> corners_of(const SurfaceView<Dim>& surface, std::int32_t face) {
-    std::vector<Vector<Dim>> corners;
-    for (const std::int32_t v : surface.vertices_of(face)) corners.push_back(surface.vertices[v]);
-    return corners;
-}
+class Corners {
+public:
+    Corners(const SurfaceView<Dim>& surface, std::int32_t face) {
+        for (const std::int32_t v : surface.vertices_of(face)) points_[size_++] = surface.vertices[v];
+    }
+    operator std::span<const Vector<Dim>>() const { return {points_.data(), size_}; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+
+private:
+    std::array<Vector<Dim>, geometry::max_polygon_vertices> points_;
+    std::size_t size_ = 0;
+};
 
 /// Area, centroid and normal must be those of the corners.
 template <int Dim>
 void check_measures(const SurfaceView<Dim>& surface, std::int32_t face) {
-    const auto corners = corners_of(surface, face);
+    const Corners corners(surface, face);
     const double area = geometry::face_measure<Dim>(corners);
     const double allowed = tolerance(surface, face);
     if (!(std::abs(surface.area[face] - area) <= allowed * area))
@@ -107,7 +118,7 @@ void check_measures(const SurfaceView<Dim>& surface, std::int32_t face) {
 }
 
 void check_shape(const SurfaceView<3>& surface, std::int32_t face) {
-    const auto corners = corners_of(surface, face);
+    const Corners corners(surface, face);
     if (corners.size() == 3) return;
     const double size = std::sqrt(surface.area[face]);
     const double allowed = tolerance(surface, face);
@@ -120,6 +131,14 @@ void check_shape(const SurfaceView<3>& surface, std::int32_t face) {
 }
 
 void check_shape(const SurfaceView<2>&, std::int32_t) {}
+
+template <int Dim>
+void check_face(const SurfaceView<Dim>& surface, std::int32_t face) {
+    check_corners(surface, face);
+    check_values(surface, face);
+    check_shape(surface, face);
+    check_measures(surface, face);
+}
 
 }  // namespace
 
@@ -176,12 +195,18 @@ void check_sizes(const SurfaceView<Dim>& surface) {
 template <int Dim>
 void check(const SurfaceView<Dim>& surface) {
     check_sizes(surface);
-    for (std::int32_t face = 0; face < surface.size(); ++face) {
-        check_corners(surface, face);
-        check_values(surface, face);
-        check_shape(surface, face);
-        check_measures(surface, face);
-    }
+    std::atomic<std::int32_t> first_bad = surface.size();  // so that the message does not depend on the threads
+    parallel_ranges(surface.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        for (auto face = static_cast<std::int32_t>(begin); face < end && face < first_bad; ++face) {
+            try {
+                check_face(surface, face);
+            } catch (const std::invalid_argument&) {
+                for (std::int32_t known = first_bad; face < known && !first_bad.compare_exchange_weak(known, face);) {
+                }
+            }
+        }
+    });
+    if (first_bad < surface.size()) check_face<Dim>(surface, first_bad);
 }
 
 template struct SurfaceView<2>;
