@@ -49,7 +49,9 @@ public:
     CandidateSearch& operator=(CandidateSearch&&) noexcept;
 
     /// Whether the list is still a superset of all pairs in question, when no corner has moved by more than `motion` [m]
-    /// since the search. False before the first one, and after one that failed.
+    /// since the search, and no face has turned. False before the first one, and after one that failed. Normals decide which
+    /// faces look at each other and where a gap lies: no skin allows for a change of them, so that a host whose faces turn
+    /// searches anew after each turn.
     [[nodiscard]] bool covers(double motion) const;
 
     /// Makes the list anew for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
