@@ -362,3 +362,12 @@ TEST_CASE("detect: files of an earlier run are gone, others stay, and --no-files
     const auto none = detect("torus --no-files", "no_files");
     CHECK(files_in(none.directory).empty());
 }
+
+TEST_CASE("detect: an output folder with a file in its place is refused before anything is read", "[examples][detect]") {
+    const Folder folder("detect_in_the_way");
+    const auto file = folder.path() / "results";
+    std::ofstream(file) << "mine\n";
+    check_error(run_program("detect", fmt::format("nowhere.obj --out '{}'", file.string()), ""),
+                {"--out", "cannot be written to", "a file is in its place"});
+    CHECK(read_text(file) == "mine\n");
+}
