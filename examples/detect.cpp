@@ -30,6 +30,7 @@ namespace {
 using oneapi::tbb::global_control;
 
 constexpr int most_logged_steps = 20;
+constexpr double many_sizes = 10.0;
 
 Verification verified(const Bodies& bodies, const DetectOptions& options, const Nearness& near, const Detection& detection,
                       const StepResult& result) {
@@ -104,6 +105,14 @@ private:
     Output output_;
 };
 
+/// Boxes that reach far beyond their faces overlap many others: work and memory grow with the square of the ratio and more.
+void warn_of_far_reach(const Bodies& bodies, const Nearness& near) {
+    const double size = bodies.mean_face_size(), reach = std::max(near.distance, near.depth);
+    if (reach > many_sizes * size)
+        spdlog::warn("distance or depth are {:.3g} times the mean size of a face, {:.4g} m: the search will take long",
+                     reach / size, size);
+}
+
 void throw_if_missed(const Verification& verification) {
     if (verification.passed()) return;
     throw std::runtime_error(fmt::format(
@@ -125,7 +134,8 @@ void run(const DetectOptions& options) {
     const Motion motion(options, bodies);
     motion.move(bodies, 0);
     const Nearness near = nearness(options, bodies, motion);
-    set_depth(bodies, near.depth);
+    set_depth(bodies, near.depth, near.distance);
+    warn_of_far_reach(bodies, near);
     DetectReport report{
         .bodies = bodies, .near = near, .steps = motion.steps(), .verified = options.verify, .seconds = seconds};
     std::optional<Run> steps;

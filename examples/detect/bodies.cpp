@@ -234,8 +234,9 @@ void update_faces(Bodies& bodies, int step) {
     }
 }
 
-void set_depth(Bodies& bodies, double depth_of_pairs) {
-    bodies.surface.depth.assign(bodies.surface.body.size(), 0.5 * depth_of_pairs);
+void set_depth(Bodies& bodies, double depth, double distance) {
+    constexpr double nothing = 1e-9;  // of the depth: faces that are not rigid must have some
+    bodies.surface.depth.assign(bodies.surface.body.size(), std::max(0.25 * (depth - distance), nothing * depth));
 }
 
 }  // namespace abut::examples

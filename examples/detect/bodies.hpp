@@ -47,7 +47,9 @@ struct ReadingTimes {
 /// Computes centroids, normals and areas from the vertices. Throws std::runtime_error naming a face that has no area left.
 void update_faces(Bodies& bodies, int step);
 
-/// The depth of every face: half of what a pair may have.
-void set_depth(Bodies& bodies, double depth_of_pairs);
+/// The depth of every face, so that the search reaches pairs with a gap above -depth. Boxes that reach for gaps up to
+/// `distance` hold as deep ones too: only what lies beyond is added, the search takes twice the depth of a face on either
+/// side.
+void set_depth(Bodies& bodies, double depth, double distance);
 
 }  // namespace abut::examples

@@ -77,7 +77,7 @@ struct Scene {
         ReadingTimes times;
         bodies = read_bodies(options, times);
         requirement.distance = requirement.depth = 0.1;
-        set_depth(bodies, requirement.depth);
+        set_depth(bodies, requirement.depth, requirement.distance);
         const std::vector<Vector<3>> u(bodies.face_label.size(), Vector<3>::Zero());
         contact::CandidateSearch<3> search(bodies.surface.view(), {.distance = requirement.distance, .skin = 1e-9});
         search.search(u, u);
@@ -210,10 +210,10 @@ TEST_CASE("detect: a list with a skin lasts for steps that only translate, and i
 }
 
 TEST_CASE("detect: --verify passes on every shape and every sample", "[examples][detect]") {
-    const std::string scene =
-        GENERATE("torus torus:x=1,axis=1,tube=0.6", "gear gear:x=1.9,turn=0.1571", "sphere sphere:x=1.99",
-                 "sheet sheet:z=0.05,flip=1", "barrel barrel:x=2.01", "soup:n=1000 --self",
-                 "soup:n=1500 soup:n=1500,seed=2 --facing 0", "torus:n=2000 --connected --self --rings 2");
+    const std::string scene = GENERATE(
+        "torus torus:x=1,axis=1,tube=0.6", "gear gear:x=1.9,turn=0.1571", "sphere sphere:x=1.99",
+        "sphere sphere:x=1.9 --depth 0.2", "sheet sheet:z=0.05,flip=1", "barrel barrel:x=2.01", "soup:n=1000 --self",
+        "soup:n=1500 soup:n=1500,seed=2 --facing 0", "torus:n=2000 --connected --self --rings 2");
     const std::string sampled = GENERATE("", "--verify-samples 50 --seed 7", "--verify-tests 1e5");
     CAPTURE(scene, sampled);
     const auto found = read_summary(detect(scene + " --verify --distance 0.05 " + sampled, "verified"))["verification"];
@@ -334,7 +334,7 @@ TEST_CASE("detect: bad input ends with one message that names place, value, limi
          {"line 3, column step", "1 follows 2"}},
         {two + "--script " + file("empty.csv", head), {"empty.csv", "no row"}},
         {two + "--steps 1 --script " + file("late.csv", head + "9,0,0,0,0,0,0,0\n"), {"--steps 1", "step 9"}},
-        {"torus torus:x=0.1 --max-pairs 10", {"step 0", "10 are allowed", "--max-pairs"}},
+        {"torus torus:x=0.1 --distance 0.5 --max-pairs 10", {"step 0", "10 are allowed", "--max-pairs"}},
         {"torus torus:x=0.1 --max-memory 0.001", {"step 0", "bytes", "--max-memory"}},
         {"torus --distance 0", {"--distance", "above 0 m"}},
         {"torus --facing 0.5", {"--facing", "not above 0"}},
