@@ -79,7 +79,7 @@ public:
 private:
     [[nodiscard]] dynamics::SolidOptions<3> options(const Variant& variant, const Choices& choices) const {
         dynamics::SolidOptions<3> result = scene_.solid;
-        if (variant.contact) result.contact.emplace().skin = choices.skin;
+        if (variant.contact) result.contact.emplace().search.skin = choices.skin;
         return result;
     }
 
