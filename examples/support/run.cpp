@@ -91,7 +91,6 @@ struct Start {
         result.stencils = solid.ccg().stencil_report();
         result.boundary_stencils = solid.ccg().boundary().report;
         result.contact_faces_left_out = solid.contact_faces_left_out();
-        result.skin = solid.contact()->skin();
         at_rest.assign(solid.size(), 0.0);
         momentum = dynamics::uniform_momentum<Dim>(solid, scene.velocity);
     }
@@ -158,6 +157,7 @@ public:
         }
         result_.end = dynamics::body_motions<Dim>(integrator_, solid_);
         result_.contact = solid_.contact_report();
+        result_.skin = solid_.contact()->skin();
         result_.evaluations = solid_.evaluations();
         result_.times = difference(solid_.times(), times_of_setup_);
         energies.finish();

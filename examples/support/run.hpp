@@ -56,7 +56,7 @@ struct RunResult {
     std::int64_t evaluations = 0;           ///< forces of cells, in the steps
     std::int64_t steps = 0;
     EnergyScale scale;  ///< with its value, > 0
-    double skin = 0.0;  ///< of the candidate list [m]
+    double skin = 0.0;  ///< of the last candidate list [m]
     int threads = 0;    ///< allowed
     contact::ContactReport contact;
     std::int64_t not_admitted_max = 0;          ///< most pairs at a record that face each other inside and are no contacts

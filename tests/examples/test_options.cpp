@@ -96,7 +96,8 @@ TEST_CASE("the options --cfl, --dt, --time and --steps say how long steps and th
 TEST_CASE("the skin of the summary is the one used, and a thicker one is made anew less often", "[examples]") {
     const auto by_default = read_summary(run_coarse("", "skin_default"));
     const auto thick = read_summary(run_coarse("--skin 0.8", "skin_thick"));
-    CHECK(by_default["options"]["skin"].get<double>() == Approx(0.25).epsilon(0.2));  // the mean face size
+    CHECK(by_default["options"]["skin"].get<double>() > 0.005);  // chosen, between 0.02 and 4 times the mean face size, 0.25
+    CHECK(by_default["options"]["skin"].get<double>() < 1.0);
     CHECK(thick["options"]["skin"] == 0.8);
     CHECK(thick["rebuilds"] < by_default["rebuilds"]);
     CHECK(by_default["options"]["threads"] > 0);
