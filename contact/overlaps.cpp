@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -28,9 +27,6 @@ struct Scene {
     const SurfaceView<Dim>& surface;
     std::span<const Vector<Dim>> displacement;
 
-    [[nodiscard]] bool is_rigid(std::int32_t face) const {
-        return surface.stiffness[face] == std::numeric_limits<double>::infinity();
-    }
     [[nodiscard]] bool are_facing(IndexPair pair) const {
         return surface.normal[pair.first].dot(surface.normal[pair.second]) < 0.0;
     }
@@ -180,8 +176,8 @@ private:
     // As `pair_normal`, of any length.
     static Vector<3> normal_before(const Scene<3>& scene, IndexPair pair) {
         const Vector<3>&n_1 = scene.surface.normal[pair.first], &n_2 = scene.surface.normal[pair.second];
-        if (scene.is_rigid(pair.second)) return -n_2;
-        return scene.is_rigid(pair.first) ? n_1 : Vector<3>(n_1 - n_2);
+        if (scene.surface.is_rigid(pair.second)) return -n_2;
+        return scene.surface.is_rigid(pair.first) ? n_1 : Vector<3>(n_1 - n_2);
     }
     // Columns left over must hold numbers.
     void repeat_first(int k) {
