@@ -27,6 +27,7 @@ abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
 
 # dynamics
 abut_find(nanoflann 1.4 ARGS CONFIG TARGETS nanoflann::nanoflann)
+abut_find(LBFGSpp "" ARGS MODULE TARGETS LBFGSpp::LBFGSpp)
 
 # examples
 if(ABUT_EXAMPLES OR ABUT_BENCHMARKS)

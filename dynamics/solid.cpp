@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "abut/geometry/parallel.hpp"
-#include "abut/geometry/stopwatch.hpp"
 #include "abut/geometry/messages.hpp"
+#include "abut/geometry/parallel.hpp"
 #include "abut/geometry/sort_unique.hpp"
+#include "abut/geometry/stopwatch.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -533,26 +533,41 @@ typename Solid<Dim>::ContactField Solid<Dim>::contact_field(std::span<const doub
             field.pressure[local_boundary_[i]] =
                 contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[local_boundary_[i]]];
     const auto lower_gap = [&](std::int32_t face, double gap) {
-        if (surface_.view().is_rigid(face)) return;
-        double& smallest = field.gap[surface_boundary_[face]];
-        smallest = std::min(smallest, gap);
+        if (face == no_face) return;
+        field.gap[face] = std::min(field.gap[face], gap);
     };
+    visit_contacts([&](const contact::ContactPair<Dim>& pair, double gap) {
+        lower_gap(boundary_place(pair.face_1), gap);
+        lower_gap(boundary_place(pair.face_2), gap);
+    });
+    return field;
+}
+
+template <int Dim>
+template <class Visit>
+void Solid<Dim>::visit_contacts(const Visit& visit) const {
     for (const auto& pair : contact_->pairs().pairs()) {
         const auto at = contact_->pairs().position(contact_->surface(), pair, u_1_[contact_->local(pair.face_1)],
                                                    u_1_[contact_->local(pair.face_2)]);
-        if (!pair.admitted || contact_->pairs().shared_area(pair, at.shift, options_.contact->area).area == 0.0) continue;
-        lower_gap(pair.face_1, at.gap);
-        lower_gap(pair.face_2, at.gap);
+        if (pair.admitted && contact_->pairs().shared_area(pair, at.shift, options_.contact->area).area > 0.0)
+            visit(pair, at.gap);
     }
-    return field;
+}
+
+template <int Dim>
+std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap) {
+    std::vector<TouchingPair<Dim>> touching;
+    if (!contact_) return touching;
+    evaluate_contact(as_vectors<Dim>(q));
+    visit_contacts([&](const contact::ContactPair<Dim>& pair, double open) {
+        if (open <= gap) touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2), pair.frame.normal()});
+    });
+    return touching;
 }
 
 template <int Dim>
 std::vector<ContactPatch> Solid<Dim>::contact_patches() const {
     std::vector<TouchingFaces> touching;
-    const auto boundary_place = [&](std::int32_t surface_face) {
-        return surface_.view().is_rigid(surface_face) ? no_face : surface_boundary_[surface_face];
-    };
     for (const std::int32_t p : active_pairs_) {
         const auto& pair = contact_->pairs().pairs()[p];
         touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2)});

@@ -25,6 +25,14 @@ struct SolidOptions {
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
 };
 
+/// A contact of two faces, given as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+template <int Dim>
+struct TouchingPair {
+    std::int32_t face_1;
+    std::int32_t face_2;
+    Vector<Dim> normal;  ///< from the body of face 1 into that of face 2
+};
+
 /// Where the time of all steps of a Solid went [s].
 struct SolidTimes {
     double bulk = 0.0;
@@ -98,6 +106,9 @@ public:
     };
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
 
+    /// Admitted pairs of state q that share area and are open by at most `gap` [m].
+    [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(std::span<const double> q, double gap);
+
     /// Mean force of the last step on an obstacle, with local steps of the common one; after `end_force` that at its end
     /// [N].
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
@@ -123,6 +134,12 @@ private:
     [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q, double time);
     void require_list(std::span<const Vector<Dim>> q);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    /// Calls `visit(pair, gap)` for each admitted pair that shares area, as of the last `evaluate_contact`.
+    template <class Visit>
+    void visit_contacts(const Visit& visit) const;
+    [[nodiscard]] std::int32_t boundary_place(std::int32_t surface_face) const {
+        return surface_.view().is_rigid(surface_face) ? no_face : surface_boundary_[surface_face];
+    }
     void fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const;
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force);
