@@ -28,6 +28,8 @@ struct Scene {
     mesh::Mesh<Dim> mesh{};
     dynamics::SolidOptions<Dim> solid{};  ///< all but the choices of RunOptions: contact and Neumann
     std::vector<Vector<Dim>> velocity{};  ///< at the start, one a body [m/s]
+    std::function<Vector<Dim>(const Vector<Dim>& position)> displacement{};  ///< at the start [m]; empty: none
+    bool contact = true;                  ///< false: bodies pass through each other, at no cost
     double time = 0.0;                    ///< end of the run where no option says it [s]
     EnergyScale energy_scale{};           ///< to be given where all is at rest at the start
     std::string remedy_if_overlapping{};  ///< ends the message if bodies overlap at the start
