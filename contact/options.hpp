@@ -30,7 +30,8 @@ struct CandidateOptions {
     double skin = 0.0;
     bool self_contact = false;  ///< also pairs of faces of one body
     /// Faces of one body are no candidates within so many steps from face to face over common corners (corners at exactly
-    /// the same place are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each other.
+    /// the same place are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each
+    /// other.
     int self_contact_rings = 1;
     /// [-] > 0: a face that moves farther within a step than this times the extent of all surfaces together has diverged
     double largest_motion = 1.0;
