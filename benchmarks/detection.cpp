@@ -1,10 +1,10 @@
 // Pairs of triangles of two bodies in near contact: ours and what users would pick instead, in one run.
 //
-// Two cylinders side by side ("press", contact along a line) and a plug in a sleeve ("plug", contact all around), a fifth of a
-// side apart; wanted are all pairs of triangles that come as near as half a side. First one query from nothing, what is built
-// for it included; then, where a finder can follow bodies that move, 100 steps in which one body slides, by 0.002 of a side
-// each. Every answer is checked before it is timed: pairs nearer than wanted that are missing are counted, and a finder that
-// misses one is out of the comparison. Peak memory comes from a process of its own for each finder.
+// Two cylinders side by side ("press", contact along a line) and a plug in a sleeve ("plug", contact all around), a fifth of
+// a side apart; wanted are all pairs of triangles that come as near as half a side. First one query from nothing, what is
+// built for it included; then, where a finder can follow bodies that move, 100 steps in which one body slides, by 0.002 of a
+// side each. Every answer is checked before it is timed: pairs nearer than wanted that are missing are counted, and a finder
+// that misses one is out of the comparison. Peak memory comes from a process of its own for each finder.
 // Expected: the packed tree several times faster than the best rival when contact is local, 1.5 times when it is conforming;
 // a list with a skin tens of times faster a step.
 #include <fmt/core.h>
@@ -187,65 +187,96 @@ private:
     std::vector<Vector<3>> searched_;
 };
 
-nlohmann::json measure_motion(const DetectionScene& at_start, const Choices& choices) {
+/// What a finder costs a step, and whether it is still right.
+struct MotionResult {
+    std::string name;
+    std::size_t pairs = 0;
+    std::size_t missing = 0;
+    double seconds = 0.0;
+    std::int64_t lists = 0;  ///< that ours made
+    double skin = 0.0;       ///< of its last one [m]
+};
+
+Vector<3> way_of_step(const DetectionScene& scene, const Choices& choices) {
+    return choices.speed * scene.side * Vector<3>::UnitZ();
+}
+
+MotionResult follow_by_rival(const benchmark::Rival& rival, DetectionScene scene, const Choices& choices) {
     const auto clock = benchmark::clock_for(choices.threads);
-    const double way = choices.speed * at_start.side;
+    const Vector<3> way = way_of_step(scene, choices);
+    const auto finder = rival.make();
+    auto& [body_1, body_2] = scene.bodies;
+    MotionResult result{.name = rival.name};
+    result.missing = count_missing(finder->find(body_1, body_2, scene.distance), required_pairs(scene));
+    for (int step = 0; step < choices.rival_steps; ++step) {
+        body_2.translate(way);
+        result.seconds +=
+            benchmark::seconds_of([&] { result.pairs = finder->follow(body_1, body_2, scene.distance); }, clock);
+    }
+    result.seconds /= choices.rival_steps;
+    return result;
+}
+
+/// Pairs that are near after the last step and are not in the list, whose faces are numbered through both bodies.
+std::size_t missing_at_end(DetectionScene scene, const Choices& choices, std::span<const IndexPair> list) {
+    scene.bodies[1].translate(choices.steps * way_of_step(scene, choices));
+    const auto n_1 = static_cast<std::int32_t>(scene.bodies[0].triangles.size());
+    Pairs found;
+    for (const auto& [i, j] : list) found.push_back({i, j - n_1});
+    return count_missing(std::move(found), required_pairs(scene));
+}
+
+MotionResult follow_by_list(BroadPhase method, const contact::Surface<3>& surface, const DetectionScene& scene,
+                            const Choices& choices) {
+    const auto clock = benchmark::clock_for(choices.threads);
+    const double way = way_of_step(scene, choices).z();
+    Follower follower(surface, scene.distance, method);
+    std::vector<Vector<3>> u(surface.area.size(), Vector<3>::Zero()), next = u;
+    MotionResult result{.name = std::string(geometry::name(method))};
+    for (int step = 1; step <= choices.steps; ++step) {
+        for (std::size_t face = 0; face < u.size(); ++face)
+            if (surface.body[face] == 1) next[face].z() = step * way;
+        result.seconds += benchmark::seconds_of([&] { follower.step(u, next); }, clock);
+        u.swap(next);
+    }
+    result.seconds /= choices.steps;
+    const auto list = follower.search().candidates();
+    result.pairs = list.size();
+    result.missing = missing_at_end(scene, choices, list);
+    result.lists = follower.search().report().searches;
+    result.skin = follower.search().skin();
+    return result;
+}
+
+void print(const MotionResult& result) {
+    fmt::print("  {:<20}{:>12}{:>10}{:>12.2f}{:>14}\n", result.name, result.pairs, result.missing, 1e3 * result.seconds,
+               result.lists > 0 ? std::to_string(result.lists) : "");
+}
+
+nlohmann::json measure_motion(const DetectionScene& scene, const Choices& choices) {
     nlohmann::json json;
-    std::vector<std::pair<std::string, double>> rival_times, our_times;
+    std::vector<MotionResult> complete_rivals, ours;
     fmt::print("  {:<20}{:>12}{:>10}{:>12}{:>14}\n", "a step of slow motion", "pairs", "missing", "ms", "lists made");
     for (const auto& rival : benchmark::rivals()) {
         if (!choices.wants(rival.name)) continue;
-        DetectionScene scene = at_start;
-        const auto finder = rival.make();
-        const std::size_t missing =
-            count_missing(finder->find(scene.bodies[0], scene.bodies[1], scene.distance), required_pairs(scene));
-        double seconds = 0.0;
-        std::size_t pairs = 0;
-        for (int step = 0; step < choices.rival_steps; ++step) {
-            scene.bodies[1].translate(way * Vector<3>::UnitZ());
-            seconds += benchmark::seconds_of(
-                [&] { pairs = finder->follow(scene.bodies[0], scene.bodies[1], scene.distance); }, clock);
-        }
-        seconds /= choices.rival_steps;
-        fmt::print("  {:<20}{:>12}{:>10}{:>12.2f}{:>14}\n", rival.name, pairs, missing, 1e3 * seconds, "");
-        json[rival.name] = {{"pairs", pairs}, {"missing", missing}, {"ms", 1e3 * seconds}};
-        if (missing == 0) rival_times.emplace_back(rival.name, seconds);
+        const MotionResult result = follow_by_rival(rival, scene, choices);
+        print(result);
+        json[result.name] = {{"pairs", result.pairs}, {"missing", result.missing}, {"ms", 1e3 * result.seconds}};
+        if (result.missing == 0) complete_rivals.push_back(result);
     }
-    const contact::Surface<3> surface = surface_of(at_start);
+    const contact::Surface<3> surface = surface_of(scene);
     for (const BroadPhase method : {BroadPhase::packed_tree, BroadPhase::embree, BroadPhase::fcl}) {
-        const std::string name(geometry::name(method));
-        if (!choices.wants(name)) continue;
-        Follower follower(surface, at_start.distance, method);
-        std::vector<Vector<3>> u(surface.area.size(), Vector<3>::Zero()), next = u;
-        double seconds = 0.0;
-        for (int step = 1; step <= choices.steps; ++step) {
-            for (std::size_t face = 0; face < u.size(); ++face)
-                if (surface.body[face] == 1) next[face].z() = step * way;
-            seconds += benchmark::seconds_of([&] { follower.step(u, next); }, clock);
-            u.swap(next);
-        }
-        seconds /= choices.steps;
-        DetectionScene moved = at_start;
-        moved.bodies[1].translate(choices.steps * way * Vector<3>::UnitZ());
-        const auto n_1 = static_cast<std::int32_t>(moved.bodies[0].triangles.size());
-        Pairs list;
-        for (const auto& [i, j] : follower.search().candidates()) list.push_back({i, j - n_1});
-        const std::size_t missing = count_missing(std::move(list), required_pairs(moved));
-        const auto& report = follower.search().report();
-        fmt::print("  {:<20}{:>12}{:>10}{:>12.2f}{:>14}\n", name, report.candidates, missing, 1e3 * seconds,
-                   report.searches);
-        json[name] = {
-            {"pairs", report.candidates},       {"missing", missing},   {"ms", 1e3 * seconds}, {"lists", report.searches},
-            {"skin", follower.search().skin()}, {"side", at_start.side}};
-        our_times.emplace_back(name, seconds);
+        if (!choices.wants(std::string(geometry::name(method)))) continue;
+        const MotionResult& result = ours.emplace_back(follow_by_list(method, surface, scene, choices));
+        print(result);
+        json[result.name] = {{"pairs", result.pairs}, {"missing", result.missing}, {"ms", 1e3 * result.seconds},
+                             {"lists", result.lists}, {"skin", result.skin},       {"side", scene.side}};
     }
-    const auto least = [](const auto& times) {
-        return *std::ranges::min_element(times, {}, [](const auto& entry) { return entry.second; });
-    };
-    if (!rival_times.empty() && !our_times.empty()) {
-        const auto rival = least(rival_times), ours = our_times.front();
-        json["best_rival_over_default"] = rival.second / ours.second;
-        fmt::print("  a step: {} takes {:.1f} times as long as {}\n", rival.first, rival.second / ours.second, ours.first);
+    if (!complete_rivals.empty() && !ours.empty()) {
+        const MotionResult& rival = *std::ranges::min_element(complete_rivals, {}, &MotionResult::seconds);
+        json["best_rival_over_default"] = rival.seconds / ours.front().seconds;
+        fmt::print("  a step: {} takes {:.1f} times as long as {}\n", rival.name, rival.seconds / ours.front().seconds,
+                   ours.front().name);
     }
     return json;
 }

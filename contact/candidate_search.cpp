@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "abut/contact/messages.hpp"
 #include "abut/contact/neighbours.hpp"
@@ -259,24 +260,37 @@ private:
     void find(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         const Stopwatch watch(report_.seconds_broad_phase);
         counts_.clear();
+        std::vector<IndexPair> list = std::exchange(candidates_, {});  // in its memory; a search that fails leaves none
         for (const auto& [a, b] : body_pairs()) {
             const BodyFaces &body_1 = bodies_[static_cast<std::size_t>(a)], &body_2 = bodies_[static_cast<std::size_t>(b)];
             const RestFace<Dim>*faces_1 = faces_.data() + body_1.begin, *faces_2 = faces_.data() + body_2.begin;
             const auto wanted = [&](std::int32_t i, std::int32_t j) {
                 return is_candidate(faces_1[i], faces_2[j], u_0, u_1);
             };
-            geometry::SearchOptions options{options_.broad_phase, options_.limits, true};
-            options.limits.pairs -= static_cast<std::int64_t>(candidates_.size());
-            const auto found = a == b
-                                   ? geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), wanted)
-                                   : geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), boxes_of(body_2), wanted);
-            for (const auto& [i, j] : found) {
+            for (const auto& [i, j] : pairs_of_boxes(body_1, body_2, wanted, list.size())) {
                 const auto [face_1, face_2] = std::minmax(faces_1[i].face, faces_2[j].face);
-                candidates_.push_back({face_1, face_2});
+                list.push_back({face_1, face_2});
             }
         }
-        geometry::sort_pairs(candidates_, faces_.size());
+        geometry::sort_pairs(list, faces_.size());
+        candidates_ = std::move(list);
         add_up_counts();
+    }
+
+    /// Of two bodies, or of one with itself; `n_before` pairs are in the list already, and count.
+    [[nodiscard]] std::vector<IndexPair> pairs_of_boxes(const BodyFaces& body_1, const BodyFaces& body_2,
+                                                        const geometry::PairFilter& wanted, std::size_t n_before) const {
+        geometry::SearchOptions options{options_.broad_phase, options_.limits, true};
+        options.limits.pairs -= static_cast<std::int64_t>(n_before);
+        try {
+            if (&body_1 == &body_2) return geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), wanted);
+            return geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), boxes_of(body_2), wanted);
+        } catch (const geometry::SearchLimitError& error) {
+            if (n_before == 0) throw;
+            throw geometry::SearchLimitError(error.what() + std::string(" Beside them ") + std::to_string(n_before) +
+                                                 " pairs of other bodies are in the list and count.",
+                                             error.needed, error.allowed);
+        }
     }
 
     bool is_candidate(const RestFace<Dim>& rest_1, const RestFace<Dim>& rest_2, std::span<const Vector<Dim>> u_0,

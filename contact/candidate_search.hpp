@@ -40,8 +40,8 @@ template <int Dim>
 template <int Dim>
 class CandidateSearch {
 public:
-    /// Keeps the view: the host's arrays must outlive it, and stay as they are, or see `surface_changed`. Throws std::invalid_argument for a surface (see `check`) or an option
-    /// that is no good.
+    /// Keeps the view: the host's arrays must outlive it, and stay as they are, or see `surface_changed`. Throws
+    /// std::invalid_argument for a surface (see `check`) or an option that is no good.
     CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options);
     ~CandidateSearch();
     CandidateSearch(CandidateSearch&&) noexcept;
@@ -62,7 +62,7 @@ public:
     /// every pair of faces, whatever their normals, that can come as near as `distance` in space. Rigid faces never pair.
     /// Throws std::runtime_error naming the face if a displacement is not finite, or a face moves farther within the step
     /// than `largest_motion` allows: the run has diverged. geometry::SearchLimitError if there are too many pairs, or too
-    /// little memory is allowed; std::invalid_argument for arrays of the wrong size.
+    /// little memory is allowed; std::invalid_argument for arrays of the wrong size. The list is empty then.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1);
 
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads.

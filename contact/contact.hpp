@@ -42,8 +42,8 @@ public:
     /// [m] since `search`.
     [[nodiscard]] bool covers(double motion) const { return list_holds_ && candidates_.covers(motion); }
 
-    /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws what CandidateSearch::search throws,
-    /// and std::invalid_argument for a coupling out of range; no list holds then until a search ends well.
+    /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws what CandidateSearch::search
+    /// throws, and std::invalid_argument for a coupling out of range; no list holds then until a search ends well.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.

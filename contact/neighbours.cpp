@@ -7,6 +7,7 @@
 #include "abut/geometry/sort_unique.hpp"
 
 namespace abut::contact {
+
 template <int Dim>
 Neighbours::Neighbours(const SurfaceView<Dim>& surface, int rings)
     : rings_(rings), face_offsets_(surface.face_offsets.begin(), surface.face_offsets.end()) {

@@ -18,21 +18,24 @@ enum class OverlapMode {
 
 /// Which pairs of faces a search for candidates lists, and what it may take.
 struct CandidateOptions {
-    geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic;
-    /// n_1 . n_2 below this: the faces look at each other, and gap and shift tell what can touch. From above -1 to 1. With
-    /// 1 normals and the model of contact play no part: what counts is the distance of faces in space
+    geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic;  ///< changes the cost alone
+    /// [-] n_1 . n_2 below this: the faces look at each other, and gap and shift tell what can touch. From above -1 to 1.
+    /// With 1 normals and the model of contact play no part: what counts is the distance of faces in space
     double facing_cosine = -0.5;
     /// [m] >= 0: gaps up to this count besides contact. Contact itself needs 0
     double distance = 0.0;
-    /// [m] how far faces may move, together, before the list is made anew; 0: chosen from the number of faces and pairs and
-    /// from the motion, so that making lists costs as much as the pairs that the skin adds (docs/detection.md)
+    /// [m] how far two faces may move together, each by half of it, before the list is made anew; 0: begins with half the
+    /// mean size of a face, and is then chosen from the numbers of faces and pairs and from the motion, so that a step costs
+    /// least (docs/detection.md)
     double skin = 0.0;
     bool self_contact = false;  ///< also pairs of faces of one body
     /// Faces of one body are no candidates within so many steps from face to face over common corners (corners at exactly
-    /// the same place are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each other.
+    /// the same place are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each
+    /// other.
     int self_contact_rings = 1;
-    /// A face that moves farther within a step has diverged; times the extent of all surfaces together
+    /// [-] > 0: a face that moves farther within a step than this times the extent of all surfaces together has diverged
     double largest_motion = 1.0;
+    /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list
     geometry::SearchLimits limits;
 };
 

@@ -4,7 +4,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -61,6 +61,12 @@ template <int Dim>
     const bool is_first = pair.first < 0 || pair.first >= surface.size();
     throw std::invalid_argument("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
                                 ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.");
+}
+
+template <int Dim>
+void check_pairs(const SurfaceView<Dim>& surface, std::span<const IndexPair> pairs) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
 }
 
 template <int Dim>
@@ -346,8 +352,7 @@ template <int Dim>
 void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                    std::span<const IndexPair> pairs, AreaMethod method, Overlaps<Dim>& overlaps) {
     check_arrays(surface, displacement);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
+    check_pairs(surface, pairs);
 
     overlaps.found.clear();
     overlaps.report = {};
@@ -386,8 +391,7 @@ std::vector<std::vector<Vector<Dim>>> overlap_polygons(const SurfaceView<Dim>& s
                                                        std::span<const Vector<Dim>> displacement,
                                                        std::span<const IndexPair> pairs) {
     check_arrays(surface, displacement);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
+    check_pairs(surface, pairs);
     const Scene<Dim> scene{surface, displacement};
     std::vector<std::vector<Vector<Dim>>> polygons;
     polygons.reserve(pairs.size());

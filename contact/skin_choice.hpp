@@ -14,12 +14,12 @@ namespace abut::contact {
 /// part, so that a run gives the same lists every time.
 class SkinChoice {
 public:
-    /// `fixed` > 0: always that. `face_size`: the mean size of the faces, from which the choice begins [m].
+    /// `fixed` > 0: always that [m]. `face_size`: the mean size of the faces [m]; the choice begins with half of it.
     SkinChoice(int dim, double fixed, double face_size);
 
     [[nodiscard]] double skin() const { return skin_; }
     /// What the last list was like: pairs with this skin and with half of it, faces, and the largest motion of a face in a
-    /// step.
+    /// step [m].
     void learn(std::int64_t pairs, std::int64_t pairs_at_half, std::int64_t faces, double motion);
 
 private:

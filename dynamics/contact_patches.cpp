@@ -1,30 +1,12 @@
 #include "abut/dynamics/contact_patches.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "abut/geometry/disjoint_sets.hpp"
 #include "abut/geometry/sort_unique.hpp"
 
 namespace abut::dynamics {
 namespace {
-
-/// Sets of numbers 0 .. n-1 that grow together.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-    std::int32_t find(std::int32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(std::int32_t a, std::int32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::int32_t> parent_;
-};
 
 /// Cells by their place in an increasing list, joined to patches.
 template <int Dim>

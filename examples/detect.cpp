@@ -9,8 +9,8 @@
 //   detect torus:n=4000 torus:n=4000,x=1,axis=1,tube=0.6 --distance 0.12 --verify
 //
 // Two interlocked tori, R = 1: every point of the one circle has the distance 1 from the other, so that between tubes of
-// 0.3 and 0.6 the gap is 0.1, up to the square of the size of a face: 0.1027 is found here, 0.1008 of 16,000 faces each. No pair
-// is missed.
+// 0.3 and 0.6 the gap is 0.1, up to the square of the size of a face: 0.1027 is found here, 0.1008 of 16,000 faces each.
+// No pair is missed.
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <spdlog/spdlog.h>
@@ -109,8 +109,10 @@ private:
 void warn_of_far_reach(const Bodies& bodies, const Nearness& near) {
     const double size = bodies.mean_face_size(), reach = std::max(near.distance, near.depth);
     if (reach > many_sizes * size)
-        spdlog::warn("distance or depth are {:.3g} times the mean size of a face, {:.4g} m: the search will take long",
-                     reach / size, size);
+        spdlog::warn(
+            "--distance or --depth is {:.3g} m, {:.3g} times the mean size of a face: the search will take long. Give less, "
+            "or bound it by --max-pairs",
+            reach, reach / size);
 }
 
 void throw_if_missed(const Verification& verification) {

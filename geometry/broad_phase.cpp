@@ -1,10 +1,11 @@
 #include "abut/geometry/broad_phase.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "abut/geometry/broad_phase_backends.hpp"
 #include "abut/geometry/messages.hpp"
@@ -142,27 +143,33 @@ double bytes_a_box(BroadPhase method) {
                            needed, allowed);
 }
 
-/// Pairs that may be found, after the memory of the trees.
-std::int64_t pairs_allowed(const SearchLimits& limits, BroadPhase method, std::size_t n_boxes) {
-    constexpr double bytes_a_pair = 2 * sizeof(IndexPair);  // as found, and sorted
+constexpr double bytes_a_pair = 2 * sizeof(IndexPair);  // as found, and sorted
+
+/// Pairs that may be found, and which of the limits says so.
+struct PairLimit {
+    std::int64_t pairs;
+    double bytes_of_trees;
+    bool is_of_memory;
+};
+
+PairLimit pair_limit(const SearchLimits& limits, BroadPhase method, std::size_t n_boxes) {
     const double trees = bytes_a_box(method) * static_cast<double>(n_boxes), allowed = static_cast<double>(limits.bytes);
     if (trees > allowed) refuse_bytes("the trees of " + std::to_string(n_boxes) + " boxes take", trees, allowed);
     const double fitting = std::floor((allowed - trees) / bytes_a_pair);
     const double most = std::min(static_cast<double>(limits.pairs), double{std::numeric_limits<std::uint32_t>::max()});
-    return static_cast<std::int64_t>(std::min(fitting, most));
+    return {static_cast<std::int64_t>(std::min(fitting, most)), trees, fitting < most};
 }
 
-void check_number(const FoundPairs& found, const SearchLimits& limits, std::int64_t allowed) {
+void check_number(const FoundPairs& found, const SearchLimits& limits, const PairLimit& limit) {
     const std::int64_t n = found.count();
-    if (n <= allowed) return;
+    if (n <= limit.pairs) return;
     const std::string pairs = std::to_string(n) + " pairs of boxes or more overlap, ";
-    if (allowed < limits.pairs &&
-        static_cast<double>(limits.bytes) < 2.0 * sizeof(IndexPair) * static_cast<double>(limits.pairs))
-        refuse_bytes(pairs + "they take, sorted,", 2.0 * sizeof(IndexPair) * static_cast<double>(n),
+    if (limit.is_of_memory)
+        refuse_bytes(pairs + "with the trees they take", limit.bytes_of_trees + bytes_a_pair * static_cast<double>(n),
                      static_cast<double>(limits.bytes));
-    throw SearchLimitError("broad phase: " + pairs + std::to_string(allowed) +
+    throw SearchLimitError("broad phase: " + pairs + std::to_string(limit.pairs) +
                                " are allowed. Make the boxes smaller (skin, distance), or raise SearchLimits::pairs.",
-                           static_cast<double>(n), static_cast<double>(allowed));
+                           static_cast<double>(n), static_cast<double>(limit.pairs));
 }
 
 // May take the boxes of the selections with it, to have room for the pairs.
@@ -218,12 +225,12 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     const std::size_t n_1 = count_inside(regions.of_1, boxes_1), n_2 = count_inside(regions.of_2, boxes_2);
     if (n_1 == 0 || n_2 == 0) return {};
     const BroadPhase method = chosen(options.method, n_1 * n_2);
-    const std::int64_t allowed = pairs_allowed(options.limits, method, n_1 + n_2);
+    const PairLimit limit = pair_limit(options.limits, method, n_1 + n_2);
     Selection selection_1 = parts_inside(regions.of_1, boxes_1, n_1);
     Selection selection_2 = parts_inside(regions.of_2, boxes_2, n_2);
-    FoundPairs found(allowed, in_numbers_of_selections(wanted, selection_1, selection_2));
+    FoundPairs found(limit.pairs, in_numbers_of_selections(wanted, selection_1, selection_2));
     find_between(method, selection_1, selection_2, options.in_spatial_order, found);
-    check_number(found, options.limits, allowed);
+    check_number(found, options.limits, limit);
     return in_numbers_of_caller(found.sorted(n_1), selection_1, selection_2);
 }
 
@@ -234,11 +241,11 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     const std::size_t n = count_inside(everywhere<Dim>(), boxes);
     if (n < 2) return {};
     const BroadPhase method = chosen(options.method, n * (n - 1) / 2);
-    const std::int64_t allowed = pairs_allowed(options.limits, method, n);
+    const PairLimit limit = pair_limit(options.limits, method, n);
     Selection selection = parts_inside(everywhere<Dim>(), boxes, n);
-    FoundPairs found(allowed, in_numbers_of_selections(wanted, selection, selection));
+    FoundPairs found(limit.pairs, in_numbers_of_selections(wanted, selection, selection));
     find_within(method, selection, options.in_spatial_order, found);
-    check_number(found, options.limits, allowed);
+    check_number(found, options.limits, limit);
     return in_numbers_of_caller(found.sorted(n), selection, selection);
 }
 

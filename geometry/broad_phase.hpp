@@ -35,8 +35,8 @@ struct IndexPair {
 
 /// What a search may take before it gives up with a SearchLimitError.
 struct SearchLimits {
-    std::int64_t pairs = 250'000'000;  ///< that overlap; at most 2^32 - 1
-    /// Memory for trees and pairs, beside the boxes of the caller. That of the trees is estimated before anything is
+    std::int64_t pairs = 250'000'000;  ///< that overlap and are wanted; at most 2^32 - 1
+    /// Memory for trees and pairs [bytes], beside the boxes of the caller. That of the trees is estimated before anything is
     /// allocated; pairs count twice, since they are sorted.
     std::size_t bytes = std::numeric_limits<std::size_t>::max();
 };
@@ -62,8 +62,9 @@ struct SearchOptions {
 using PairFilter = std::function<bool(std::int32_t, std::int32_t)>;
 
 /// All (i, j) for which boxes_1[i] and boxes_2[j] overlap (closed test, in double), sorted, each once. Empty boxes overlap
-/// nothing, and pairs that `wanted` does not want are left out before anything is kept of them. Throws std::invalid_argument naming the box if a bound is NaN or infinite (an empty box excepted),
-/// SearchLimitError if there are more pairs, or more memory is needed, than `options.limits` allows.
+/// nothing, and pairs that `wanted` does not want are left out before anything is kept of them. Throws std::invalid_argument
+/// naming the box if a bound is NaN or infinite (an empty box excepted), SearchLimitError if there are more pairs, or more
+/// memory is needed, than `options.limits` allows.
 template <int Dim>
 [[nodiscard]] std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span<const Box<Dim>> boxes_1,
                                                        std::span<const Box<Dim>> boxes_2, const PairFilter& wanted = {});

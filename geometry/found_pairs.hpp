@@ -1,6 +1,6 @@
 #pragma once
 // Private to the broad-phase sources; not installed.
-#include <tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <atomic>
 #include <cstdint>
@@ -49,7 +49,7 @@ private:
     std::int64_t most_;
     PairFilter wanted_;
     std::atomic<std::int64_t> in_full_chunks_ = 0;
-    tbb::enumerable_thread_specific<Local> locals_;
+    oneapi::tbb::enumerable_thread_specific<Local> locals_;
 };
 
 }  // namespace abut::geometry

@@ -13,8 +13,7 @@ namespace {
 
 // A height is cross(edge, arm) of coordinates of size E. What was rounded before (three times 2^-53 E, where a is shifted),
 // the differences, the products and their difference make it uncertain by less than 80 * 2^-53 E^2 = 9e-15 E^2. The limit
-// is larger because
-// edges that coincide within the tolerance are not for this kernel: their heights are at most
+// is larger because edges that coincide within the tolerance are not for this kernel: their heights are at most
 // tolerance * (face size <= 2 E) * (edge length <= 2.9 E).
 constexpr double least_certain_height = 8.0 * coincidence_tolerance;
 

@@ -4,8 +4,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -118,7 +118,7 @@ std::vector<Box<3>> boxes_of(std::span<const Vector<3>> vertices, const std::vec
 std::vector<IndexPair> intersecting_faces(const std::vector<IndexPair>& candidates, const std::vector<Piece>& pieces,
                                           const PieceTest& test) {
     std::vector<char> intersect(candidates.size(), 0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, candidates.size(), 1024), [&](const auto& range) {
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, candidates.size(), 1024), [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) {
             const Piece& piece_1 = pieces[static_cast<std::size_t>(candidates[i].first)];
             const Piece& piece_2 = pieces[static_cast<std::size_t>(candidates[i].second)];

@@ -37,6 +37,7 @@ template <class ForEach>
     return pairs;
 }
 
+/// Sorts pairs whose `first` lies in [0, n_first), each once.
 inline void sort_pairs(std::vector<IndexPair>& pairs, std::size_t n_first) {
     pairs = sorted_pairs(pairs.size(), n_first, [&](const auto& use) {
         for (const IndexPair& pair : pairs) use(pair);

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "abut/geometry/disjoint_sets.hpp"
 #include "abut/geometry/overlap.hpp"
 #include "abut/geometry/places.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/geometry/self_intersections.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::geometry {
 namespace {
@@ -18,24 +19,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
-
-/// Sets of indices that grow together; each is known by its smallest member.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::int32_t n) : parent_(at(n)) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    std::int32_t smallest(std::int32_t i) {
-        while (parent_[at(i)] != i) i = parent_[at(i)] = parent_[at(parent_[at(i)])];
-        return i;
-    }
-    void join(std::int32_t i, std::int32_t j) {
-        i = smallest(i), j = smallest(j);
-        parent_[at(std::max(i, j))] = std::min(i, j);
-    }
-
-private:
-    std::vector<std::int32_t> parent_;
-};
 
 /// One face along one edge.
 struct EdgeUse {
@@ -171,14 +154,14 @@ private:
     }
 
     void find_components(const std::vector<EdgeUse>& uses) {
-        DisjointSets sets(health_.n_faces);
+        DisjointSets sets(at(health_.n_faces));
         for_each_edge(uses, [&](std::span<const EdgeUse> along) {
             for (const EdgeUse& use : along.subspan(1)) sets.join(along[0].face, use.face);
         });
         health_.face_component.assign(soup_.face_offsets.empty() ? 0 : at(health_.n_faces), -1);
         for (std::int32_t face = 0; face < health_.n_faces; ++face) {
             if (!is_usable(face)) continue;
-            const std::int32_t first = sets.smallest(face);
+            const std::int32_t first = sets.find(face);
             if (first == face) {
                 health_.face_component[at(face)] = static_cast<std::int32_t>(health_.components.size());
                 health_.components.push_back({.first_face = face});
@@ -205,12 +188,12 @@ private:
     }
 
     void count_holes() {
-        DisjointSets rims(health_.n_vertices);
+        DisjointSets rims(at(health_.n_vertices));
         for (const SurfaceEdge& edge : health_.boundary_edges) rims.join(edge.first, edge.second);
         std::vector<std::int32_t> found;
-        for (const SurfaceEdge& edge : health_.boundary_edges) found.push_back(rims.smallest(edge.first));
-        std::sort(found.begin(), found.end());
-        health_.n_holes = static_cast<std::int32_t>(std::unique(found.begin(), found.end()) - found.begin());
+        for (const SurfaceEdge& edge : health_.boundary_edges) found.push_back(rims.find(edge.first));
+        sort_unique(found);
+        health_.n_holes = static_cast<std::int32_t>(found.size());
     }
 
     /// A sixth of the sum of the determinants about a corner of the component, so that a distant origin costs no digits.

@@ -1,36 +1,22 @@
 #include "abut/mesh/connected_bodies.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
+#include "abut/geometry/disjoint_sets.hpp"
+
 namespace abut::mesh {
-namespace {
-
-/// Representative of a vertex in a forest of parents, paths halved on the way.
-std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t vertex) {
-    while (parent[static_cast<std::size_t>(vertex)] != vertex) {
-        auto& up = parent[static_cast<std::size_t>(vertex)];
-        up = parent[static_cast<std::size_t>(up)];
-        vertex = up;
-    }
-    return vertex;
-}
-
-}  // namespace
 
 template <int Dim>
 void name_connected_bodies(CellSoup<Dim>& soup) {
-    std::vector<std::int32_t> parent(soup.vertices.size());
-    std::iota(parent.begin(), parent.end(), 0);
+    DisjointSets connected(soup.vertices.size());
     const auto n_cells = soup.cell_vertices.size();
     for (std::int32_t cell = 0; cell < n_cells; ++cell) {
         if (soup.cell_body[static_cast<std::size_t>(cell)] >= 0) continue;
         const auto vertices = soup.cell_vertices[cell];
-        for (const std::int32_t vertex : vertices.subspan(1))
-            parent[static_cast<std::size_t>(root(parent, vertex))] = root(parent, vertices[0]);
+        for (const std::int32_t vertex : vertices.subspan(1)) connected.join(vertices[0], vertex);
     }
-    std::unordered_map<std::int32_t, std::int32_t> body_of_root;
+    std::unordered_map<std::int32_t, std::int32_t> body_of_set;
     int number = 0;
     const auto next_free_name = [&] {
         std::string name;
@@ -42,7 +28,7 @@ void name_connected_bodies(CellSoup<Dim>& soup) {
         auto& body = soup.cell_body[static_cast<std::size_t>(cell)];
         if (body >= 0) continue;
         const auto next = static_cast<std::int32_t>(soup.body_names.size());
-        const auto [entry, is_new] = body_of_root.emplace(root(parent, soup.cell_vertices[cell][0]), next);
+        const auto [entry, is_new] = body_of_set.emplace(connected.find(soup.cell_vertices[cell][0]), next);
         body = entry->second;
         if (is_new) soup.body_names.push_back(next_free_name());
     }

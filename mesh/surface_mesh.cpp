@@ -1,12 +1,11 @@
 #include "abut/mesh/surface_mesh.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/geometry/disjoint_sets.hpp"
 #include "abut/geometry/places.hpp"
 #include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/quality.hpp"
@@ -33,11 +32,6 @@ std::vector<std::int32_t> drop_vertices(SurfaceMesh& mesh, const std::vector<cha
     mesh.vertices.resize(at(n));
     if (!mesh.displacement.empty()) mesh.displacement.resize(at(n));
     return number;
-}
-
-std::int32_t root(std::vector<std::int32_t>& parent, std::int32_t i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
 }
 
 std::string unused_name(const std::string& wanted, const std::vector<std::string>& used) {
@@ -175,7 +169,9 @@ std::int32_t weld(SurfaceMesh& mesh) {
 }
 
 void name_connected_bodies(SurfaceMesh& mesh) {
-    std::vector<std::int32_t> parent = geometry::first_at_same_place<3>(mesh.vertices);
+    const std::vector<std::int32_t> places = geometry::first_at_same_place<3>(mesh.vertices);
+    DisjointSets connected(places.size());
+    for (std::size_t v = 0; v < places.size(); ++v) connected.join(places[v], static_cast<std::int32_t>(v));
     const auto first_vertex = [&](std::int32_t face) {
         const auto corners = mesh.faces[face];
         const auto found = std::find_if(corners.begin(), corners.end(), [&](std::int32_t v) { return is_vertex(mesh, v); });
@@ -184,15 +180,15 @@ void name_connected_bodies(SurfaceMesh& mesh) {
     for (std::int32_t face = 0; face < mesh.faces.size(); ++face) {
         const std::int32_t first = first_vertex(face);
         for (const std::int32_t v : mesh.faces[face])
-            if (is_vertex(mesh, v)) parent[at(root(parent, v))] = root(parent, first);
+            if (is_vertex(mesh, v)) connected.join(first, v);
     }
-    std::unordered_map<std::int32_t, std::int32_t> body_of_root;
+    std::unordered_map<std::int32_t, std::int32_t> body_of_set;
     mesh.body_names.clear();
     mesh.face_body.assign(at(mesh.faces.size()), 0);
     for (std::int32_t face = 0; face < mesh.faces.size(); ++face) {
         const std::int32_t first = first_vertex(face);
         const auto next = static_cast<std::int32_t>(mesh.body_names.size());
-        const auto [entry, is_new] = body_of_root.emplace(first < 0 ? -1 : root(parent, first), next);
+        const auto [entry, is_new] = body_of_set.emplace(first < 0 ? -1 : connected.find(first), next);
         if (is_new) mesh.body_names.push_back(std::string("body_") + std::to_string(next + 1));
         mesh.face_body[at(face)] = entry->second;
     }

@@ -139,9 +139,10 @@ private:
 std::vector<std::string> all_names(std::span<const CleanSurface> surfaces) {
     std::vector<std::string> names;
     const auto is_used = [&](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
-    for (const auto& [mesh, input_face, n_skipped, n_cut, n_flat] : surfaces)
-        for (const std::string& body : mesh.body_names) {
-            const std::string wanted = is_used(body) && mesh.body_names.size() > 1 ? mesh.name + "." + body : body;
+    for (const CleanSurface& surface : surfaces)
+        for (const std::string& body : surface.mesh.body_names) {
+            const bool is_one_of_several = surface.mesh.body_names.size() > 1;
+            const std::string wanted = is_used(body) && is_one_of_several ? surface.mesh.name + "." + body : body;
             std::string name = wanted;
             for (int i = 2; is_used(name); ++i) name = fmt::format("{}_{}", wanted, i);
             names.push_back(name);

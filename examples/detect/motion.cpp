@@ -184,7 +184,7 @@ void Motion::read_script(const std::string& path, const Bodies& bodies) {
                                                  step, script.back().first));
         script.emplace_back(step, Pose{turn_of_vector(vector_at(values, 3)), centres_[at(body)], vector_at(values, 0)});
     }
-    if (number < 2)
+    if (std::ranges::all_of(scripts_, &Script::empty))
         throw std::runtime_error(
             fmt::format("{}: no row of numbers. Give a head, {}, and a row a step and body.", path, script_head));
 }

@@ -28,7 +28,7 @@ public:
 
     /// The steps after the start; 0: nothing moves.
     [[nodiscard]] int steps() const { return steps_; }
-    /// Whether no step but those that move bodies without turning or deforming them follows.
+    /// Whether bodies neither turn nor deform in any step.
     [[nodiscard]] bool only_translates() const;
     [[nodiscard]] Pose pose(std::int32_t body, int step) const;
     /// Puts all vertices and faces where they are at a step. Throws std::runtime_error if one moves farther than
@@ -43,7 +43,7 @@ private:
         double angle = 0.0;  ///< [rad]
         Vector<3> centre = Vector<3>::Zero();
     };
-    using Script = std::vector<std::pair<int, Pose>>;  // of one body, by step
+    using Script = std::vector<std::pair<int, Pose>>;  // of one body, by step; each pose holds until the next
 
     void add_translation(const std::string& text, const Bodies& bodies);
     void add_rotation(const std::string& text, const Bodies& bodies);
@@ -53,7 +53,7 @@ private:
     std::vector<Script> scripts_;
     std::vector<Vector<3>> centres_;  // of the boxes at the start
     bool deforms_ = false;
-    double largest_motion_ = 1.0;
+    double largest_motion_ = 1.0;  // in a step, over the extent of all bodies
     int steps_ = 0;
 };
 

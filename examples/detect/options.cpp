@@ -4,23 +4,15 @@
 #include <limits>
 
 #include "detect/shapes.hpp"
-#include "support/choices.hpp"
+#include "support/contact_choices.hpp"
 
 namespace abut::examples {
 namespace {
 
-using geometry::AreaMethod;
-using geometry::BroadPhase;
 using mesh::UnusableFaces;
 
 constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
-const Choices<BroadPhase> broad_phases = [] {
-    Choices<BroadPhase> choices;
-    for (const BroadPhase method : geometry::broad_phases) choices.emplace_back(geometry::name(method), method);
-    return choices;
-}();
-const Choices<AreaMethod> areas = {{"fast", AreaMethod::fast}, {"exact", AreaMethod::exact}};
 const Choices<UnusableFaces> policies = {{"fail", UnusableFaces::fail}, {"skip", UnusableFaces::skip}};
 const Limits length{.unit = "m", .above = 0.0};
 
@@ -83,8 +75,8 @@ void add_search(CLI::App& app, DetectOptions& options) {
     grouped(add_choice(app, "--broad-phase", options.search.broad_phase, "what finds boxes that overlap; all find the same",
                        broad_phases));
     grouped(add_number(app, "--skin", options.skin,
-                       "how far faces may move before candidates are searched anew; by default the mean size of a face, "
-                       "next to nothing where bodies turn, deform or rest",
+                       "how far two faces may move together before candidates are searched anew; by default chosen as the "
+                       "run goes, next to nothing where bodies turn, deform or rest",
                        length));
     grouped(add_number(app, "--max-pairs", options.max_pairs, "candidates at most; by default 250 million",
                        {.above = 0.0, .below = 4294967295.0, .closed = true}));

@@ -106,17 +106,28 @@ FaceFields fields_of_faces(const Bodies& bodies, std::span<const Overlap<3>> ove
     return fields;
 }
 
-/// Per face: 1 a sliver, 2 at an edge of one face, 4 at an edge of three or more, 8 at one that is not oriented,
-/// 16 a flipped duplicate, 32 one of two faces that intersect; added.
+/// What the array "problems" of a picture adds up for a face (docs/detection.md).
+enum Problem {
+    sliver = 1,
+    at_boundary_edge = 2,
+    at_non_manifold_edge = 4,
+    at_inconsistent_edge = 8,
+    flipped_duplicate = 16,
+    self_intersection = 32,
+};
+
 std::vector<double> problems_of_input(const geometry::SurfaceHealth& health) {
-    std::vector<int> flags(at(health.n_faces), 0);
-    for (const std::int32_t face : health.slivers) flags[at(face)] |= 1;
-    for (const auto& edge : health.boundary_edges) flags[at(edge.face)] |= 2;
-    for (const auto& edge : health.non_manifold_edges) flags[at(edge.face)] |= 4;
-    for (const auto& edge : health.inconsistent_edges) flags[at(edge.face)] |= 8;
-    for (const auto& [face, earlier] : health.flipped_duplicates) flags[at(face)] |= 16, flags[at(earlier)] |= 16;
-    for (const auto& [first, second] : health.self_intersections) flags[at(first)] |= 32, flags[at(second)] |= 32;
-    return {flags.begin(), flags.end()};
+    std::vector<int> problems(at(health.n_faces), 0);
+    const auto add = [&](std::int32_t face, Problem problem) { problems[at(face)] |= problem; };
+    for (const std::int32_t face : health.slivers) add(face, sliver);
+    for (const auto& edge : health.boundary_edges) add(edge.face, at_boundary_edge);
+    for (const auto& edge : health.non_manifold_edges) add(edge.face, at_non_manifold_edge);
+    for (const auto& edge : health.inconsistent_edges) add(edge.face, at_inconsistent_edge);
+    for (const auto& [face, earlier] : health.flipped_duplicates)
+        for (const std::int32_t twin : {face, earlier}) add(twin, flipped_duplicate);
+    for (const auto& [first, second] : health.self_intersections)
+        for (const std::int32_t face : {first, second}) add(face, self_intersection);
+    return {problems.begin(), problems.end()};
 }
 
 std::vector<double> problems_of(const Bodies& bodies) {

@@ -4,11 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <stdexcept>
+#include <variant>
+#include <vector>
 
 #include "abut/mesh/surface_shapes.hpp"
 #include "support/choices.hpp"
@@ -20,7 +21,7 @@ using mesh::SurfaceMesh;
 
 constexpr double most_count = 1e8;
 
-/// The keys of one shape with their values; what is read is taken out.
+/// "shape:key=value,key=value". What is read keeps its value where its key is not given.
 class Keys {
 public:
     explicit Keys(std::string text) : text_(std::move(text)) {
@@ -34,39 +35,45 @@ public:
         }
     }
 
-    void take(const std::string& key, std::string& value) {
-        if (const auto entry = values_.find(key); entry != values_.end()) value = values_.extract(entry).mapped();
+    void read(const std::string& key, std::string& value) const {
+        if (const auto entry = values_.find(key); entry != values_.end()) value = entry->second;
     }
-    void take(const std::string& key, double& value) {
-        std::string text;
-        take(key, text);
-        if (!text.empty()) value = parse(key, text, {});
-    }
-    void take(const std::string& key, int& value) {
-        std::string text;
-        take(key, text);
-        if (text.empty()) return;
-        const double number = parse(key, text, {.above = -1.0, .below = most_count});
-        if (number != std::floor(number)) refuse(fmt::format("'{}={}' is no whole number", key, text));
+    void read(const std::string& key, double& value) const { read(key, value, {}); }
+    void read(const std::string& key, int& value) const {
+        double number = value;
+        read(key, number, {.above = -1.0, .below = most_count});
+        if (number != std::floor(number)) refuse(fmt::format("'{}={}' is no whole number", key, values_.at(key)));
         value = static_cast<int>(number);
     }
-    /// About how many faces are asked for; 0: not said.
-    [[nodiscard]] double faces() {
-        std::string text;
-        take("n", text);
-        return text.empty() ? 0.0 : parse("n", text, {.above = 0.0, .below = most_count});
+    void read(const std::string& key, bool& value) const {
+        int number = value ? 1 : 0;
+        read(key, number);
+        value = number != 0;
     }
-    void check_all_taken(const std::string& known) const {
-        if (!values_.empty())
-            refuse(fmt::format("'{}' is no key of this shape; it knows {}", values_.begin()->first, known));
+    void read(const std::string& key, std::uint64_t& value) const {
+        int number = static_cast<int>(value);
+        read(key, number);
+        value = static_cast<std::uint64_t>(number);
+    }
+    /// About how many faces are asked for; 0: not said.
+    [[nodiscard]] double faces() const {
+        double n = 0.0;
+        read("n", n, {.above = 0.0, .below = most_count});
+        return n;
+    }
+    void check_known(const std::vector<std::string>& known) const {
+        for (const auto& [key, value] : values_)
+            if (std::ranges::find(known, key) == known.end())
+                refuse(fmt::format("'{}' is no key of this shape; it knows {}", key, fmt::join(known, ", ")));
     }
 
 private:
     [[noreturn]] void refuse(const std::string& what) const {
         throw std::invalid_argument(fmt::format("{}: {}. (--help lists shapes and keys.)", text_, what));
     }
-    double parse(const std::string& key, const std::string& text, const Limits& limits) const {
-        return parse_number(text, fmt::format("{}: {}", text_, key), limits);
+    void read(const std::string& key, double& value, const Limits& limits) const {
+        if (const auto entry = values_.find(key); entry != values_.end())
+            value = parse_number(entry->second, fmt::format("{}: {}", text_, key), limits);
     }
     void add(const std::string& entry) {
         const auto equals = entry.find('=');
@@ -80,109 +87,114 @@ private:
     std::map<std::string, std::string> values_;
 };
 
-int rounded(double value, int least) { return std::max(least, static_cast<int>(std::lround(value))); }
-
-SurfaceMesh torus(Keys& keys) {
-    mesh::TorusOptions options;
-    if (const double n = keys.faces(); n > 0.0) {
-        options.n_tube = rounded(std::sqrt(n / 6.0), 3);
-        options.n_around = 3 * options.n_tube;
-    }
-    keys.take("n_around", options.n_around);
-    keys.take("n_tube", options.n_tube);
-    keys.take("radius", options.radius);
-    keys.take("tube", options.tube_radius);
-    keys.take("axis", options.axis);
-    return mesh::torus_surface(options);
-}
-
-SurfaceMesh gear(Keys& keys) {
-    mesh::GearOptions options;
-    keys.take("teeth", options.n_teeth);
-    if (const double n = keys.faces(); n > 0.0) {
-        options.n_flank = rounded(std::sqrt(n / (56.0 * options.n_teeth)), 1);
-        options.n_radial = rounded(1.5 * options.n_flank, 1);
-        options.n_axial = 2 * options.n_flank;
-    }
-    keys.take("n_flank", options.n_flank);
-    keys.take("n_radial", options.n_radial);
-    keys.take("n_axial", options.n_axial);
-    keys.take("bore", options.bore_radius);
-    keys.take("root", options.root_radius);
-    keys.take("tip", options.tip_radius);
-    keys.take("share", options.tooth_share);
-    keys.take("thickness", options.thickness);
-    keys.take("turn", options.turn);
-    keys.take("axis", options.axis);
-    return mesh::gear_surface(options);
-}
-
-SurfaceMesh sphere(Keys& keys) {
-    mesh::SphereSurfaceOptions options;
-    if (const double n = keys.faces(); n > 0.0) options.n_subdivisions = rounded(std::log(n / 20.0) / std::log(4.0), 0);
-    keys.take("subdivisions", options.n_subdivisions);
-    keys.take("radius", options.radius);
-    return mesh::sphere_surface(options);
-}
-
-SurfaceMesh sheet(Keys& keys) {
-    mesh::SheetOptions options;
-    if (const double n = keys.faces(); n > 0.0) options.n_x = options.n_y = rounded(std::sqrt(n / 2.0), 1);
-    keys.take("n_x", options.n_x);
-    keys.take("n_y", options.n_y);
-    keys.take("size_x", options.size_x);
-    keys.take("size_y", options.size_y);
-    keys.take("amplitude", options.amplitude);
-    keys.take("waves", options.n_waves);
-    return mesh::sheet_surface(options);
-}
-
-SurfaceMesh barrel(Keys& keys) {
-    mesh::BarrelOptions options;
-    if (const double n = keys.faces(); n > 0.0) {
-        options.n_side = rounded(std::sqrt(n / 20.0), 1);
-        options.n_along = 2 * options.n_side;
-    }
-    int closed = 1;
-    keys.take("n_side", options.n_side);
-    keys.take("n_along", options.n_along);
-    keys.take("radius", options.radius);
-    keys.take("length", options.length);
-    keys.take("closed", closed);
-    keys.take("axis", options.axis);
-    options.closed = closed != 0;
-    return mesh::barrel_surface(options);
-}
-
-SurfaceMesh soup(Keys& keys) {
-    mesh::RandomTrianglesOptions options;
-    if (const double n = keys.faces(); n > 0.0) options.n = rounded(n, 1);
-    int seed = 1;
-    keys.take("seed", seed);
-    keys.take("box", options.box_size);
-    keys.take("size", options.size);
-    options.seed = static_cast<std::uint64_t>(seed);
-    options.name = "soup";
-    return mesh::random_triangles(options);
-}
+/// A key and the argument of the library that it sets.
+template <class Options>
+struct Argument {
+    const char* key;
+    std::variant<double Options::*, int Options::*, bool Options::*, std::uint64_t Options::*> member;
+};
 
 struct Shape {
-    const char* name;
-    const char* keys;  ///< besides those that all shapes know
-    SurfaceMesh (*make)(Keys&);
+    std::string name;
+    std::vector<std::string> keys;  ///< besides those that all shapes know
+    std::function<SurfaceMesh(const Keys&)> make;
 };
-constexpr const char* common_keys = "n, x, y, z, flip, name";
-constexpr std::array<Shape, 6> shapes = {
-    {{"torus", "radius, tube, axis, n_around, n_tube", torus},
-     {"gear", "teeth, bore, root, tip, share, thickness, turn, axis, n_flank, n_radial, n_axial", gear},
-     {"sphere", "radius, subdivisions", sphere},
-     {"sheet", "size_x, size_y, amplitude, waves, n_x, n_y", sheet},
-     {"barrel", "radius, length, closed, axis, n_side, n_along", barrel},
-     {"soup", "box, size, seed", soup}}};
+
+/// `choose` sets the counts that give about n faces. A count that is given by its own key has the last word.
+template <class Options>
+Shape shape(const char* name, SurfaceMesh (*make)(const Options&), void (*choose)(Options&, double n),
+            const std::vector<Argument<Options>>& arguments) {
+    std::vector<std::string> names;
+    for (const Argument<Options>& argument : arguments) names.emplace_back(argument.key);
+    return {name, names, [=](const Keys& keys) {
+                Options options;
+                options.name = name;
+                const auto read_all = [&] {
+                    for (const Argument<Options>& argument : arguments)
+                        std::visit([&](auto member) { keys.read(argument.key, options.*member); }, argument.member);
+                };
+                read_all();
+                if (const double n = keys.faces(); n > 0.0) {
+                    choose(options, n);
+                    read_all();
+                }
+                return make(options);
+            }};
+}
+
+int rounded(double value, int least) { return std::max(least, static_cast<int>(std::lround(std::min(value, most_count)))); }
+
+void choose_counts(mesh::TorusOptions& options, double n) {
+    options.n_tube = rounded(std::sqrt(n / 6.0), 3);
+    options.n_around = 3 * options.n_tube;
+}
+void choose_counts(mesh::GearOptions& options, double n) {
+    options.n_flank = rounded(std::sqrt(n / (56.0 * options.n_teeth)), 1);
+    options.n_radial = rounded(1.5 * options.n_flank, 1);
+    options.n_axial = 2 * options.n_flank;
+}
+void choose_counts(mesh::SphereSurfaceOptions& options, double n) {
+    options.n_subdivisions = rounded(std::log(n / 20.0) / std::log(4.0), 0);
+}
+void choose_counts(mesh::SheetOptions& options, double n) { options.n_x = options.n_y = rounded(std::sqrt(n / 2.0), 1); }
+void choose_counts(mesh::BarrelOptions& options, double n) {
+    options.n_side = rounded(std::sqrt(n / 20.0), 1);
+    options.n_along = 2 * options.n_side;
+}
+void choose_counts(mesh::RandomTrianglesOptions& options, double n) { options.n = rounded(n, 1); }
+
+/// A function, for --help asks for it before main begins.
+const std::vector<Shape>& shapes() {
+    using Torus = mesh::TorusOptions;
+    using Gear = mesh::GearOptions;
+    using Sphere = mesh::SphereSurfaceOptions;
+    using Sheet = mesh::SheetOptions;
+    using Barrel = mesh::BarrelOptions;
+    using Soup = mesh::RandomTrianglesOptions;
+    static const std::vector<Shape> table = {
+        shape<Torus>("torus", mesh::torus_surface, choose_counts,
+                     {{"radius", &Torus::radius},
+                      {"tube", &Torus::tube_radius},
+                      {"axis", &Torus::axis},
+                      {"n_around", &Torus::n_around},
+                      {"n_tube", &Torus::n_tube}}),
+        shape<Gear>("gear", mesh::gear_surface, choose_counts,
+                    {{"teeth", &Gear::n_teeth},
+                     {"bore", &Gear::bore_radius},
+                     {"root", &Gear::root_radius},
+                     {"tip", &Gear::tip_radius},
+                     {"share", &Gear::tooth_share},
+                     {"thickness", &Gear::thickness},
+                     {"turn", &Gear::turn},
+                     {"axis", &Gear::axis},
+                     {"n_flank", &Gear::n_flank},
+                     {"n_radial", &Gear::n_radial},
+                     {"n_axial", &Gear::n_axial}}),
+        shape<Sphere>("sphere", mesh::sphere_surface, choose_counts,
+                      {{"radius", &Sphere::radius}, {"subdivisions", &Sphere::n_subdivisions}}),
+        shape<Sheet>("sheet", mesh::sheet_surface, choose_counts,
+                     {{"size_x", &Sheet::size_x},
+                      {"size_y", &Sheet::size_y},
+                      {"amplitude", &Sheet::amplitude},
+                      {"waves", &Sheet::n_waves},
+                      {"n_x", &Sheet::n_x},
+                      {"n_y", &Sheet::n_y}}),
+        shape<Barrel>("barrel", mesh::barrel_surface, choose_counts,
+                      {{"radius", &Barrel::radius},
+                       {"length", &Barrel::length},
+                       {"closed", &Barrel::closed},
+                       {"axis", &Barrel::axis},
+                       {"n_side", &Barrel::n_side},
+                       {"n_along", &Barrel::n_along}}),
+        shape<Soup>("soup", mesh::random_triangles, choose_counts,
+                    {{"box", &Soup::box_size}, {"size", &Soup::size}, {"seed", &Soup::seed}})};
+    return table;
+}
+
+std::vector<std::string> common_keys() { return {"n", "x", "y", "z", "flip", "name"}; }
 
 auto find_shape(const std::string& text) {
-    const std::string name = text.substr(0, text.find(':'));
-    return std::ranges::find_if(shapes, [&](const Shape& shape) { return name == shape.name; });
+    return std::ranges::find(shapes(), text.substr(0, text.find(':')), &Shape::name);
 }
 
 void flip(SurfaceMesh& surface) {
@@ -193,31 +205,34 @@ void flip(SurfaceMesh& surface) {
 
 }  // namespace
 
-bool is_shape(const std::string& text) { return find_shape(text) != shapes.end(); }
+bool is_shape(const std::string& text) { return find_shape(text) != shapes().end(); }
 
 SurfaceMesh make_shape(const std::string& text) {
     const Shape& shape = *find_shape(text);
-    Keys keys(text);
+    const Keys keys(text);
+    std::vector<std::string> known = common_keys();
+    known.insert(known.end(), shape.keys.begin(), shape.keys.end());
+    keys.check_known(known);
     Vector<3> moved = Vector<3>::Zero();
-    int flipped = 0;
+    bool is_flipped = false;
     std::string name = shape.name;
-    keys.take("x", moved[0]);
-    keys.take("y", moved[1]);
-    keys.take("z", moved[2]);
-    keys.take("flip", flipped);
-    keys.take("name", name);
+    keys.read("x", moved[0]);
+    keys.read("y", moved[1]);
+    keys.read("z", moved[2]);
+    keys.read("flip", is_flipped);
+    keys.read("name", name);
     SurfaceMesh surface = shape.make(keys);
-    keys.check_all_taken(fmt::format("{}, {}", common_keys, shape.keys));
     for (Vector<3>& x : surface.vertices) x += moved;
-    if (flipped != 0) flip(surface);
+    if (is_flipped) flip(surface);
     surface.name = name;
     surface.body_names = {name};
     return surface;
 }
 
 std::string shapes_help() {
-    std::string text = fmt::format("Shapes: all know {} (about n faces; flip=1 turns faces round); besides\n", common_keys);
-    for (const Shape& shape : shapes) text += fmt::format("  {:<8}{}\n", shape.name, shape.keys);
+    std::string text = fmt::format("Shapes: all know {} (about n faces; flip=1 turns faces round); besides\n",
+                                   fmt::join(common_keys(), ", "));
+    for (const Shape& shape : shapes()) text += fmt::format("  {:<8}{}\n", shape.name, fmt::join(shape.keys, ", "));
     return text;
 }
 

@@ -11,11 +11,11 @@ namespace abut::examples {
 
 /// Which pairs must be found.
 struct Requirement {
-    double distance;       ///< [m]
-    double depth;          ///< [m]
-    double facing_cosine;  ///< [-]
-    bool within_bodies = false;
-    int rings = 1;  ///< of faces of one body that are left out
+    double distance;             ///< [m] gaps up to here
+    double depth;                ///< [m] gaps above minus this
+    double facing_cosine;        ///< [-] n_1 . n_2 below this
+    bool within_bodies = false;  ///< also pairs of faces of one body
+    int rings = 1;               ///< of faces of one body that are left out
 };
 
 /// How many pairs may be tested, and which faces if that is not all.

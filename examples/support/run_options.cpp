@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "support/choices.hpp"
+#include "support/contact_choices.hpp"
 
 namespace abut::examples {
 namespace {
@@ -11,17 +11,9 @@ namespace {
 using contact::OverlapMode;
 using contact::Weights;
 using dynamics::Neumann;
-using geometry::AreaMethod;
-using geometry::BroadPhase;
 
-const Choices<BroadPhase> broad_phases = [] {
-    Choices<BroadPhase> choices;
-    for (const BroadPhase method : geometry::broad_phases) choices.emplace_back(geometry::name(method), method);
-    return choices;
-}();
 const Choices<OverlapMode> overlap_modes = {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}};
 const Choices<Weights> weights = {{"half", Weights::half}, {"stiffness", Weights::stiffness}};
-const Choices<AreaMethod> areas = {{"fast", AreaMethod::fast}, {"exact", AreaMethod::exact}};
 const Choices<SolidIntegrator> integrators = {{"memm", SolidIntegrator::memm},
                                               {"memm_async", SolidIntegrator::memm_async},
                                               {"leapfrog", SolidIntegrator::leapfrog},

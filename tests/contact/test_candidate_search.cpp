@@ -363,8 +363,8 @@ TEST_CASE("a host whose faces turn changes its arrays, says so, and searches ane
 }
 
 TEST_CASE("the chosen skin costs little more than the best fixed one", "[contact][candidates][skin]") {
-    // A sheet slides over another one, pressed a little into it. The cost of a run by the model of the choice: a list costs 4 a face and 10 a pair, a
-    // pair in a step 1. Some lists, by which the choice learns, come first.
+    // A sheet slides over another one, pressed a little into it. The cost of a run by the model of the choice: a list costs
+    // 4 a face and 10 a pair, a pair in a step 1. Some lists, by which the choice learns, come first.
     const double speed = GENERATE(5e-5, 5e-4, 5e-3);  // m a step; faces of 0.04 m
     const auto flat = [](double, double) { return 0.0; };
     const auto surface = together(sheet(17, 0, true, flat), sheet(15, 1, false, [](double, double) { return -0.0001; }));
@@ -439,6 +439,22 @@ TEST_CASE("more candidates than allowed are an error, and leave no list", "[cont
     CHECK(tight.candidates().empty());
     contact::CandidateSearch<3> small(surface.view(), {.skin = 0.01, .limits = {.bytes = 1000}});
     CHECK_THROWS_AS(small.search(u, u), geometry::SearchLimitError);
+}
+
+TEST_CASE("a limit that is met between the second two bodies leaves no part of a list, and says what was there before",
+          "[contact][errors]") {
+    using Catch::Matchers::Contains;
+    const auto at_height = [](double z) { return [z](double, double) { return z; }; };
+    const auto two = together(sheet(10, 0, true, at_height(0.0)), sheet(10, 1, false, at_height(0.001)));
+    const auto three = together(two, sheet(10, 2, false, at_height(0.002)));
+    const auto u_of_two = at_rest(two), u = at_rest(three);
+    contact::CandidateSearch<3> of_two(two.view(), {.skin = 0.01});
+    of_two.search(u_of_two, u_of_two);
+    const auto n = static_cast<std::int64_t>(of_two.candidates().size());
+    contact::CandidateSearch<3> search(three.view(), {.skin = 0.01, .limits = {.pairs = n + 1}});
+    CHECK_THROWS_WITH(search.search(u, u), Contains(" 1 are allowed") && Contains("Beside them " + std::to_string(n)));
+    CHECK_FALSE(search.covers(0.0));
+    CHECK(search.candidates().empty());
 }
 
 TEST_CASE("options of a search that are no good are refused by name", "[contact][errors]") {

@@ -209,6 +209,63 @@ TEST_CASE("detect: a list with a skin lasts for steps that only translate, and i
     CHECK(read_summary(turned)["verification"]["required"] > 100);
 }
 
+TEST_CASE("a shape has about n faces, unless a count is given by its own key, and stands where it is told to",
+          "[examples][detect]") {
+    const double n = 5000.0;
+    for (const std::string shape : {"torus", "gear", "sheet", "barrel", "soup"}) {
+        CAPTURE(shape);
+        const double found = make_shape(shape + ":n=5000").faces.size();
+        CHECK(found > n / 1.5);
+        CHECK(found < n * 1.5);
+    }
+    CHECK(make_shape("sphere:n=5000").faces.size() == 20 * 256);  // the nearest power of four
+    CHECK(make_shape("gear:teeth=7,n_flank=3,n=5000,n_radial=2,n_axial=1").faces.size() == 16 * 7 * 3 * (2 + 1));
+    CHECK(make_shape("barrel:n_side=2,n_along=3").faces.size() == 8 * 2 * 3 + 4 * 2 * 2);
+    CHECK(make_shape("barrel:n_side=2,n_along=3,closed=0").faces.size() == 8 * 2 * 3);
+    const auto volume = [](const std::string& text) {
+        return geometry::examine(make_shape(text).soup()).components.at(0).volume;
+    };
+    CHECK(volume("sphere:n=1280,radius=2") == Approx(8.0 * volume("sphere:n=1280")));
+    CHECK(volume("sphere:n=1280,flip=1") == Approx(-volume("sphere:n=1280")));
+    const auto moved = make_shape("sphere:x=1,y=-2,z=3,name=ball"), sphere = make_shape("sphere");
+    CHECK(moved.body_names == std::vector<std::string>{"ball"});
+    CHECK(moved.vertices[0] == sphere.vertices[0] + Vector<3>(1.0, -2.0, 3.0));
+    CHECK(make_shape("soup:seed=1").vertices == make_shape("soup").vertices);
+    CHECK(make_shape("soup:seed=2").vertices != make_shape("soup").vertices);
+}
+
+TEST_CASE("detect: --connected makes bodies of the parts of one file", "[examples][detect]") {
+    const Folder folder("two_parts");
+    std::ofstream file(folder.path() / "squares.obj");
+    file << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.25 0 0.05\nv 1.25 0 0.05\nv 1.25 1 0.05\nv 0.25 1 0.05\n";
+    file << "f 1 2 3 4\nf 8 7 6 5\n";
+    file.close();
+    const std::string arguments = fmt::format("'{}' --distance 0.1 --verify ", (folder.path() / "squares.obj").string());
+    const auto as_one = detect(arguments, "one_body");
+    CHECK(read_summary(as_one)["bodies"] == std::vector<std::string>{"squares"});
+    CHECK(last_step(as_one)["overlaps"] == 0);
+    const auto as_two = detect(arguments + "--connected", "two_bodies");
+    CHECK(read_summary(as_two)["bodies"] == std::vector<std::string>{"body_1", "body_2"});
+    CHECK(last_step(as_two)["area"].get<double>() == Approx(0.75).epsilon(1e-14));
+}
+
+TEST_CASE("detect: --self-intersections counts faces that cross, and shows them; without it nobody looks",
+          "[examples][detect]") {
+    const Folder folder("crossing");
+    std::ofstream file(folder.path() / "crossing.obj");  // the second goes through the first, the third stands aside
+    file << "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0.5 0.5 -1\nv 0.5 0.5 1\nv 3 3 0\nv 5 5 0\nv 6 5 0\nv 5 6 0\n";
+    file << "f 1 2 3\nf 4 5 6\nf 7 8 9\n";
+    file.close();
+    const std::string arguments = fmt::format("'{}' --self ", (folder.path() / "crossing.obj").string());
+    const auto count = [](const Outcome& outcome) {
+        return read_summary(outcome)["inputs"][0]["health"]["self_intersections"];
+    };
+    const auto looked = detect(arguments + "--self-intersections", "looked");
+    CHECK(count(looked) == 1);
+    CHECK_THAT(looked.out, Contains("1 pair of faces intersects: first face 0 and face 1"));
+    CHECK(count(detect(arguments, "not_looked")).is_null());
+}
+
 TEST_CASE("detect: --verify passes on every shape and every sample", "[examples][detect]") {
     const std::string scene = GENERATE(
         "torus torus:x=1,axis=1,tube=0.6", "gear gear:x=1.9,turn=0.1571", "sphere sphere:x=1.99",
@@ -333,6 +390,7 @@ TEST_CASE("detect: bad input ends with one message that names place, value, limi
         {two + "--script " + file("back.csv", head + "2,0,0,0,0,0,0,0\n1,0,0,0,0,0,0,0\n"),
          {"line 3, column step", "1 follows 2"}},
         {two + "--script " + file("empty.csv", head), {"empty.csv", "no row"}},
+        {two + "--script " + file("blank.csv", head + "\n\n"), {"blank.csv", "no row"}},
         {two + "--steps 1 --script " + file("late.csv", head + "9,0,0,0,0,0,0,0\n"), {"--steps 1", "step 9"}},
         {"torus torus:x=0.1 --distance 0.5 --max-pairs 10", {"step 0", "10 are allowed", "--max-pairs"}},
         {"torus torus:x=0.1 --max-memory 0.001", {"step 0", "bytes", "--max-memory"}},

@@ -250,8 +250,8 @@ TEST_CASE("queries from several threads at once give the same answers", "[broad_
 }
 
 TEST_CASE("a thousand random soups of triangles: no broad phase misses a pair", "[broad_phase][soup]") {
-    // Triangles of sizes from 1e-6 to 3 times the scene, many of them flat along an axis; scenes from 1e-9 to 1e9 in size, up to
-    // 1e7 away from the origin.
+    // Triangles of sizes from 1e-6 to 3 times the scene, many of them flat along an axis; scenes from 1e-9 to 1e9 in size,
+    // up to 1e7 away from the origin.
     std::mt19937 random(2026);
     const auto number = [&](double lower, double upper) {
         return std::uniform_real_distribution<double>(lower, upper)(random);
@@ -364,6 +364,14 @@ TEST_CASE("a search that would take more memory than allowed is refused", "[broa
     CHECK_THROWS_WITH(between<3>(allowing(4'000'000), boxes, boxes),
                       Contains("pairs of boxes or more overlap") && Contains("SearchLimits::bytes"));
     CHECK(between<3>(allowing(80'000'000), boxes, boxes).size() == 4'000'000);
+    // Room for all pairs at 16 bytes each, but for no tree beside them.
+    try {
+        (void)between<3>(allowing(64'000'000), boxes, boxes);
+        FAIL("no error where the trees do not fit beside the pairs");
+    } catch (const SearchLimitError& error) {
+        CHECK(error.allowed == 64e6);
+        CHECK(error.needed > error.allowed);
+    }
 }
 
 TEST_CASE("broad phases have names", "[broad_phase]") {

@@ -41,8 +41,8 @@ bool is_permutation(std::vector<std::int32_t> order) {
 
 TEMPLATE_TEST_CASE_SIG("every point comes once, and neighbours in the order are near", "[spatial_order]", ((int Dim), Dim),
                        2, 3) {
-    // A curve that visits cell after cell of a grid makes n steps of about the spacing n^(-1/Dim), here up to three times that;
-    // points in random order are 0.5 or more apart on average.
+    // A curve that visits cell after cell of a grid makes n steps of about the spacing n^(-1/Dim), here up to three times
+    // that; points in random order are 0.5 or more apart on average.
     const int n = 20000;
     const auto points = random_points<Dim>(n);
     const auto order = spatial_order<Dim>(points);
