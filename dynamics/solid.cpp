@@ -560,7 +560,7 @@ std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double
     if (!contact_) return touching;
     evaluate_contact(as_vectors<Dim>(q));
     visit_contacts([&](const contact::ContactPair<Dim>& pair, double open) {
-        if (open <= gap) touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2), pair.frame.normal()});
+        if (open <= gap) touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2), pair.frame.normal(), open});
     });
     return touching;
 }

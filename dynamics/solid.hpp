@@ -31,6 +31,7 @@ struct TouchingPair {
     std::int32_t face_1;
     std::int32_t face_2;
     Vector<Dim> normal;  ///< from the body of face 1 into that of face 2
+    double gap;          ///< [m]
 };
 
 /// Where the time of all steps of a Solid went [s].

@@ -13,6 +13,7 @@
 #include "abut/dynamics/rigid_motions.hpp"
 #include "abut/dynamics/sparse.hpp"
 #include "abut/geometry/messages.hpp"
+#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -24,15 +25,29 @@ enum class Descent {
     slope,  ///< V from the last state by the trapezoidal rule on its slope (the approximate Wolfe conditions of Hager and Zhang)
 };
 
+/// Why a descent ends.
+enum class Ending {
+    balanced,    ///< all forces are as small as they should be
+    lowest,      ///< V falls no more
+    stuck,       ///< no step goes down any more
+    iterations,  ///< all of them are used up
+};
+
 /// Ends the minimiser from inside: it has no other way.
 struct Finished {
-    bool converged;
+    Ending ending;
 };
+
+constexpr int window = 100;             // iterations within which V must fall
+constexpr double nearly_closed = 1e-6;  // of the smallest depth: a gap this small may close
 
 void check(const StaticOptions& options) {
     const auto refuse = [](const std::string& what) { throw std::invalid_argument("statics: " + what); };
     if (!(options.tolerance > 0.0))
         refuse("tolerance is " + number(options.tolerance) + "; it must be > 0. 1e-8 is the default.");
+    if (!(options.potential_tolerance >= 0.0))
+        refuse("potential_tolerance is " + number(options.potential_tolerance) +
+               "; it must be 0 or more. 1e-11 is the default.");
     if (options.iterations < 1) refuse("iterations is " + std::to_string(options.iterations) + "; at least 1 is needed.");
     if (options.history < 1)
         refuse("history is " + std::to_string(options.history) + "; at least 1 is needed. 20 is the default.");
@@ -96,7 +111,7 @@ public:
             const double value = evaluate(x, gradient);
             error_ = nullptr;
             return value;
-        } catch (const std::runtime_error&) {
+        } catch (const std::exception&) {
             error_ = std::current_exception();
             return std::numeric_limits<double>::quiet_NaN();
         }
@@ -121,12 +136,39 @@ public:
         if (const auto* contact = solid_.contact()) report_.compression = contact->result().compression();
         report_.iterations.push_back(
             {report_.evaluations, residual_, descent_ == Descent::potential ? value : solid_.potential(q_)});
-        if (residual_ <= options_.tolerance) throw Finished{true};
-        if (std::cmp_greater(report_.iterations.size(), options_.iterations)) throw Finished{false};
+        if (residual_ <= options_.tolerance) throw Finished{Ending::balanced};
+        if (std::cmp_greater(report_.iterations.size(), options_.iterations)) throw Finished{Ending::iterations};
+        if (falls_no_more()) throw Finished{Ending::lowest};
         return descent_ == Descent::potential ? value : 0.0;
     }
 
+    /// Goes back to a state where V was lower.
+    void go_back(const Eigen::VectorXd& x) { base_ = x; }
+
+    /// Brings the report to the state reached. Whether bodies touch in it.
+    bool look_around() {
+        const std::vector<double> reached = q();
+        std::vector<std::int32_t> faces;
+        for (const TouchingPair<Dim>& pair : solid_.touching_pairs(reached, nearly_closed * smallest_depth(solid_.mesh())))
+            for (const std::int32_t face : {pair.face_1, pair.face_2})
+                if (face != no_face) faces.push_back(face);
+        sort_unique(faces);
+        solid_.force(reached, force_);
+        report_.residual = residual();
+        report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).loaded_cells);
+        return !faces.empty();
+    }
+    /// V of the state reached [J].
+    [[nodiscard]] double potential() const { return report_.iterations.back().potential; }
+
 private:
+    [[nodiscard]] bool falls_no_more() const {
+        const auto& steps = report_.iterations;
+        if (descent_ != Descent::potential || steps.size() <= window) return false;
+        const double fallen = steps[steps.size() - 1 - window].potential - steps.back().potential;
+        return fallen < options_.potential_tolerance * (steps.front().potential - steps.back().potential);
+    }
+
     double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) {
         solid_.force(q_, force_);
         gradient = -scale_.cwiseProduct(dense(std::span<const double>(force_)));
@@ -135,14 +177,17 @@ private:
         return 0.5 * (gradient + base_gradient_).dot(x - base_);
     }
 
-    [[nodiscard]] double residual() const {
+    /// Of all cells but some, which are given in increasing order.
+    [[nodiscard]] double residual(std::span<const std::int32_t> left_out = {}) const {
         const mesh::Mesh<Dim>& mesh = solid_.mesh();
+        const auto force = as_vectors<Dim>(std::span<const double>(force_));
         double left = 0.0, stress = 0.0;
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+            stress = std::max(stress, solid_.ccg().stress(c).norm());
+            if (std::ranges::binary_search(left_out, c)) continue;
             double area = 0.0;
             for (const std::int32_t f : mesh.cell_faces[c]) area += mesh.face_measure[f];
-            left = std::max(left, as_vectors<Dim>(std::span<const double>(force_))[c].norm() / area);
-            stress = std::max(stress, solid_.ccg().stress(c).norm());
+            left = std::max(left, force[c].norm() / area);
         }
         return left == 0.0 ? 0.0 : left / stress;
     }
@@ -179,49 +224,64 @@ LBFGSpp::LBFGSParam<double> parameters(const StaticOptions& options) {
     result.epsilon = 0.0;  // the objective decides
     result.epsilon_rel = 0.0;
     result.max_iterations = 0;
-    result.linesearch = LBFGSpp::LBFGS_LINESEARCH_BACKTRACKING_STRONG_WOLFE;
+    result.linesearch = LBFGSpp::LBFGS_LINESEARCH_BACKTRACKING_WOLFE;
     result.max_linesearch = 20;
     return result;
 }
 
-/// Goes down until no step goes down any more. Whether it got as far as it should.
 template <int Dim>
-bool descend(Objective<Dim>& objective, const StaticOptions& options) {
+Ending descend(Objective<Dim>& objective, const StaticOptions& options) {
     const auto settings = parameters(options);
     LBFGSpp::LBFGSSolver<double, ToldLineSearch> solver(settings);
     Eigen::VectorXd x = objective.base();
     double value = 0.0;
     try {
         solver.minimize(objective, x, value);
-        return true;  // not a force at all
+        return Ending::balanced;  // not a force at all
     } catch (const Finished& finished) {
-        return finished.converged;
+        return finished.ending;
     } catch (const std::runtime_error&) {  // of the line search
-        return false;
+        return Ending::stuck;
     } catch (const std::logic_error&) {
-        return false;
+        return Ending::stuck;
     }
 }
 
-/// Descents, each from where the last one ended, as long as they bring it closer.
+/// Down by values of V first, then by slopes, as long as these bring it closer. Where V has edges these do not, and may lead
+/// up: then what was reached before counts.
 template <int Dim>
-bool approach(Objective<Dim>& objective, const StaticOptions& options) {
+Ending approach(Objective<Dim>& objective, const StaticOptions& options) {
     StaticReport& report = objective.report();
-    double last = std::numeric_limits<double>::infinity();
-    for (;; ++report.restarts) {
-        if (descend(objective, options)) return true;
-        if (objective.error() && report.iterations.empty()) std::rethrow_exception(objective.error());
-        if (std::cmp_greater(report.iterations.size(), options.iterations)) {
-            report.ending = std::to_string(options.iterations) + " iterations were not enough. Allow more, or ask for less.";
-            return false;
-        }
-        if (report.restarts > 0 && !(report.residual < 0.1 * last)) {
-            report.ending = "No step goes down any more: rounding allows no better solution, or there is none.";
-            return false;
-        }
+    const Ending first = descend(objective, options);
+    if (objective.error() && report.iterations.empty()) std::rethrow_exception(objective.error());
+    if (first == Ending::balanced || first == Ending::iterations) return first;
+    const Eigen::VectorXd lowest = objective.base();
+    const double potential = objective.potential();
+    for (double last = std::numeric_limits<double>::infinity(); report.residual < 0.1 * last;) {
         last = report.residual;
+        ++report.restarts;
         objective.begin_descent(Descent::slope);
+        const Ending ending = descend(objective, options);
+        if (ending == Ending::balanced || ending == Ending::iterations) return ending;
     }
+    if (objective.potential() > potential) objective.go_back(lowest);
+    return objective.look_around() ? Ending::lowest : Ending::stuck;
+}
+
+std::string text(Ending ending, const StaticOptions& options) {
+    switch (ending) {
+        case Ending::balanced:
+            return "The forces are in balance.";
+        case Ending::lowest:
+            return "The potential falls no more; around contacts that just open, or whose overlap changes its formula, "
+                   "forces "
+                   "have no balance.";
+        case Ending::stuck:
+            return "No step goes down any more: rounding allows no better solution, or there is none.";
+        case Ending::iterations:
+            return std::to_string(options.iterations) + " iterations were not enough. Allow more, or ask for less.";
+    }
+    throw std::invalid_argument("not an Ending");
 }
 
 template <int Dim>
@@ -241,11 +301,12 @@ StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const S
     require_held<Dim>(solid, q_0);
     Objective<Dim> objective(solid, options, q_0);
     StaticReport& report = objective.report();
-    report.converged = approach(objective, options);
+    const Ending ending = approach(objective, options);
+    report.converged = ending == Ending::balanced || ending == Ending::lowest;
+    report.ending = text(ending, options);
     std::vector<double> q = objective.q();
-    if (report.converged)
-        report.ending = "The forces are in balance.";
-    else if (const auto motion = free_rigid_motion(solid, std::span<const double>(q)))
+    if (report.converged) return {std::move(q), std::move(report)};
+    if (const auto motion = free_rigid_motion(solid, std::span<const double>(q)))
         throw std::runtime_error(
             "statics: after " + std::to_string(report.iterations.size()) + " iterations " + *motion +
             ": its contact has opened, and the loads carry it away. Prescribe a displacement that stops "

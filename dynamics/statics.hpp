@@ -10,6 +10,9 @@ namespace abut::dynamics {
 struct StaticOptions {
     /// [-] > 0: the largest force left on a cell, over the area of its faces, in units of the largest stress
     double tolerance = 1e-8;
+    /// [-] >= 0: where V has an edge at its minimum (a pair of faces just opens there, or its overlap changes its formula)
+    /// forces never balance; the search ends when V falls by less than this part of its whole fall within 100 iterations
+    double potential_tolerance = 1e-11;
     int iterations = 100'000;  ///< at most
     int history = 20;          ///< last steps that the curvature is learned from
     /// [m] >= 0: how far a cell moves at most in the first iteration, so that a bad start does not throw a body through
@@ -30,6 +33,8 @@ struct StaticReport {
     int evaluations = 0;
     int restarts = 0;          ///< times the curvature was forgotten because no step went down any more
     double residual = 0.0;     ///< [-]
+    /// The same over the cells that feel no contact: at an edge of V those around it stay out of balance [-]
+    double residual_elsewhere = 0.0;
     double compression = 0.0;  ///< largest |g|/D of a pair in contact: above 0.3 the result is that of the skin's cells
     std::vector<StaticIteration> iterations;
 };

@@ -48,6 +48,9 @@ void check_common(const Options& options) {
     check_positive(options.name, "refinement.size", options.refinement->size);
     check_positive(options.name, "refinement.distance", options.refinement->distance);
     check_finite(options.name, "refinement.point", options.refinement->point);
+    if (!(options.refinement->uniform >= 0.0 && std::isfinite(options.refinement->uniform)))
+        throw MeshError(options.name + ": refinement.uniform is " + number(options.refinement->uniform) +
+                        " m, 0 or more is needed. Leave it out for cells that grow from the point on.");
     if (options.refinement->size > options.size)
         throw MeshError(options.name + ": refinement.size is " + number(options.refinement->size) + " m, at most size = " +
                         number(options.size) + " m is allowed. Lower it, or leave the refinement out.");
@@ -61,7 +64,8 @@ struct SizeField {
 
     [[nodiscard]] double operator()(const Vector<Dim>& x) const {
         if (!refinement) return size;
-        const double way = std::min(1.0, (x - refinement->point).norm() / refinement->distance);
+        const double way =
+            std::clamp(((x - refinement->point).norm() - refinement->uniform) / refinement->distance, 0.0, 1.0);
         return refinement->size + way * (size - refinement->size);
     }
 };
@@ -83,7 +87,7 @@ double expected_cells(const SizeField<Dim>& field, double volume) {
     double units = volume / std::pow(field.size, Dim);
     if (field.refinement) {
         constexpr int n_shells = 1000;
-        const double thickness = field.refinement->distance / n_shells;
+        const double thickness = (field.refinement->uniform + field.refinement->distance) / n_shells;
         double rest = volume;
         for (int i = 0; i < n_shells; ++i) {
             const double radius = (i + 0.5) * thickness;
@@ -102,7 +106,7 @@ void choose_algorithms(const std::string& name, const SizeField<Dim>& field, dou
     const double cells = expected_cells(field, volume);
     if (!(cells <= most_cells))
         throw MeshError(name + ": the sizes asked for make about " + number(cells) + " cells, at most " +
-                        number(most_cells) + " are meshed. Raise size or refinement.size, or lower refinement.distance.");
+                        number(most_cells) + " are meshed. Raise size or refinement.size, or lower refinement.distance or refinement.uniform.");
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
     gmsh::option::setNumber("Mesh.Algorithm3D", Dim == 3 && cells > many_tetrahedra ? hxt_3d : delaunay_3d);
     gmsh::option::setNumber("Mesh.Optimize", 1);

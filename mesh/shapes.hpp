@@ -17,13 +17,14 @@
 /// unstructured box gets a cell size that puts at least `variant` cells more on each edge. The refined place does not move.
 namespace abut::mesh {
 
-/// Smaller cells near a point: `size` [m] there, no more than the part's own size, growing linearly to it over `distance`
-/// [m].
+/// Smaller cells near a point: `size` [m], no more than the part's own size, up to `uniform` [m] from it, then growing
+/// linearly to the part's own size over `distance` [m].
 template <int Dim>
 struct Refinement {
     Vector<Dim> point;
     double size;
     double distance;
+    double uniform = 0.0;
 };
 
 struct DiscOptions {

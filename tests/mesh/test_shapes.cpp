@@ -98,6 +98,15 @@ TEST_CASE("cells have the wanted size, and are smaller where refinement is asked
         CHECK(smallest == Approx(0.01).epsilon(0.3));
         CHECK((where - refinement.point).norm() < 0.05);
     }
+    const auto patch = disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.01, 0.5, 0.3}});
+    double length = 0.0;
+    int n_faces = 0;
+    for (const std::int32_t face : patch.boundary_faces)
+        if ((patch.face_centroid[static_cast<std::size_t>(face)] - Vector<2>(0, -1)).norm() < 0.3) {
+            length += patch.face_measure[static_cast<std::size_t>(face)];
+            ++n_faces;
+        }
+    CHECK(length / n_faces == Approx(0.01).epsilon(0.1));
     const auto solid = cylinder({.size = 0.3, .refinement = Refinement<3>{{1, 0, 0}, 0.05, 0.5}, .variant = 1});
     const auto smallest = quality(solid).smallest_cell;
     CHECK((solid.cell_centroid[static_cast<std::size_t>(smallest)] - Vector<3>(1, 0, 0)).norm() < 0.3);
@@ -152,6 +161,8 @@ TEST_CASE("sizes and places that make no mesh are refused before Gmsh tries", "[
                       Contains("sphere: the z coordinate of refinement.point is nan"));
     CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.2, 0.5}}),
                       Contains("disc: refinement.size is 0.2 m, at most size = 0.1 m is allowed. Lower it"));
+    CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.01, 0.5, -0.1}}),
+                      Contains("disc: refinement.uniform is -0.1 m, 0 or more is needed"));
     CHECK_THROWS_WITH(
         cylinder({.size = 1e-4}),
         Contains("cylinder: the sizes asked for make about 1.44513e+13 cells, at most 1e+08 are meshed. Raise size"));
