@@ -135,14 +135,23 @@ double distance_from_axis(const Vector<Dim>& x) {
     return x.template head<Dim - 1>().norm();
 }
 
-/// Of a face of the upper body.
+/// Mean over a face of the upper body: exact in 2D, of many equal small triangles in 3D [Pa].
 template <int Dim>
 double exact_pressure(const HertzSolution& exact, const mesh::Mesh<Dim>& mesh, std::int32_t face) {
-    if constexpr (Dim == 3) {
-        return exact.pressure(distance_from_axis<3>(mesh.face_centroid[face]));
+    const auto corners = mesh.face_vertices[face];
+    const auto corner = [&](std::size_t i) { return mesh.vertices[corners[i]]; };
+    if constexpr (Dim == 2) {
+        return exact.mean_pressure(corner(0).x(), corner(1).x());
     } else {
-        const auto corners = mesh.face_vertices[face];
-        return exact.mean_pressure(mesh.vertices[corners[0]].x(), mesh.vertices[corners[1]].x());
+        constexpr int parts = 8;
+        const Vector<3> a = (corner(1) - corner(0)) / parts, b = (corner(2) - corner(0)) / parts;
+        double sum = 0.0;
+        for (int i = 0; i < parts; ++i)
+            for (int j = 0; j < 2 * (parts - i) - 1; ++j) {  // triangles of a row, every other one upside down
+                const double third = j % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0;
+                sum += exact.pressure(distance_from_axis<3>(corner(0) + (i + third) * a + (j / 2 + third) * b));
+            }
+        return sum / (parts * parts);
     }
 }
 

@@ -48,7 +48,7 @@ struct HertzFace {
     double measure;
     double pressure;  ///< from the pair forces [Pa]
     double traction;  ///< -n . sigma n of its cell [Pa]
-    double exact;     ///< of the pressure: mean over the face in 2D, at the centroid in 3D [Pa]
+    double exact;     ///< mean of the exact pressure over the face [Pa]
 };
 
 template <int Dim>

@@ -68,17 +68,25 @@ void add_time_options(CLI::App& app, RunOptions& options, const std::string& def
         ->group("Time");
 }
 
+void add_model_options(CLI::App& app, RunOptions& options) {
+    auto& contact = options.contact;
+    const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
+    grouped(add_choice(app, "--weights", contact.weights,
+                       "share of a correction between two faces: halves or by their stiffness", weights));
+    grouped(add_choice(app, "--area", contact.area, "arithmetic of overlap areas: filtered doubles or CGAL's exact numbers",
+                       areas));
+    grouped(add_choice(app, "--neumann", options.neumann,
+                       "displacement of free faces; extrapolate and adjacent are there for comparison", neumanns));
+}
+
 void add_contact_options(CLI::App& app, RunOptions& options) {
+    add_model_options(app, options);
     auto& contact = options.contact;
     const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
     grouped(add_choice(app, "--broad-phase", contact.search.broad_phase,
                        "what finds faces that are near; all give the same bits", broad_phases));
     grouped(add_choice(app, "--overlap", contact.overlap,
                        "area that follows the motion in a step (energy exact) or is frozen (cheaper)", overlap_modes));
-    grouped(add_choice(app, "--weights", contact.weights,
-                       "share of a correction between two faces: halves or by their stiffness", weights));
-    grouped(add_choice(app, "--area", contact.area, "arithmetic of overlap areas: filtered doubles or CGAL's exact numbers",
-                       areas));
     grouped(add_choice(app, "--events", contact.events,
                        "cut steps where a pair opens, closes or changes its overlap (energy exact)", switches));
     grouped(add_choice(app, "--quadrature", contact.quadrature,
@@ -87,8 +95,6 @@ void add_contact_options(CLI::App& app, RunOptions& options) {
                        "how far faces move before the list of near faces is made anew; 0: chosen from the number of faces "
                        "and pairs and the motion",
                        {.unit = "m", .above = 0.0, .zero = true}));
-    grouped(add_choice(app, "--neumann", options.neumann,
-                       "displacement of free faces; extrapolate and adjacent are there for comparison", neumanns));
     add_compression_limit(app, options);
 }
 
@@ -107,6 +113,12 @@ void add_output_options(CLI::App& app, RunOptions& options) {
                       0));
     grouped(add_count(app, "--frames", options.frames, "frames for ParaView, first and last included; 0: none", 0));
     grouped(add_count(app, "--threads", options.threads, "threads; 0: all. The results do not depend on it", 0));
+}
+
+nlohmann::ordered_json model_json(const RunOptions& options) {
+    return {{"weights", name_of(weights, options.contact.weights)},
+            {"area", name_of(areas, options.contact.area)},
+            {"neumann", name_of(neumanns, options.neumann)}};
 }
 
 nlohmann::ordered_json to_json(const RunOptions& options) {

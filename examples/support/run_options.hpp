@@ -44,11 +44,13 @@ struct RunOptions {
 /// the run is by default.
 void add_time_options(CLI::App& app, RunOptions& options, const std::string& default_of_time);
 void add_contact_options(CLI::App& app, RunOptions& options);
+void add_model_options(CLI::App& app, RunOptions& options);  ///< of these, what bodies at rest depend on, too
 void add_compression_limit(CLI::App& app, RunOptions& options);
 void add_output_options(CLI::App& app, RunOptions& options);
 
 /// The options as given, by the names of the command line: either --dt or --cfl, whichever decided. Of the end of the run,
 /// skin and threads only the run knows what they were.
 [[nodiscard]] nlohmann::ordered_json to_json(const RunOptions& options);
+[[nodiscard]] nlohmann::ordered_json model_json(const RunOptions& options);  ///< of `add_model_options` alone
 
 }  // namespace abut::examples
