@@ -4,6 +4,8 @@
 // rollers or nu = 0. Everything else is measured: the table has the largest error of each choice.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "abut/geometry/stopwatch.hpp"
 #include "scenes/contact_patch.hpp"
 #include "support/choices.hpp"
@@ -20,6 +22,7 @@ const Program program{
 struct Options {
     int dim = 2;
     double strain = PatchOptions{}.strain;
+    std::vector<std::string> meshes;  // by name; empty: all
     std::filesystem::path out = "out/" + program.name;
 };
 
@@ -68,7 +71,8 @@ Study solve(const Options& options) {
     Study study{.title = fmt::format("two blocks under uniform pressure, {}D, strain {:g}", Dim, options.strain),
                 .reference = "uniform stress",
                 .options = {{"dim", Dim}, {"strain", options.strain}}};
-    for (const auto& [mesh_name, mesh] : meshes)
+    for (const auto& [mesh_name, mesh] : meshes) {
+        if (!options.meshes.empty() && std::ranges::find(options.meshes, mesh_name) == options.meshes.end()) continue;
         for (const auto& [weight_name, weight] : weights)
             for (const auto& [neumann_name, neumann] : neumanns)
                 for (const Sides& sides : all_sides) {
@@ -78,6 +82,7 @@ Study solve(const Options& options) {
                     patch.neumann = neumann;
                     study.levels.push_back(level<Dim>(patch, sides));
                 }
+    }
     return study;
 }
 
@@ -89,6 +94,11 @@ int main(int argc, char** argv) {
     Options options;
     const auto add_options = [&](CLI::App& app) {
         add_choice(app, "--dim", options.dim, "squares in plane strain, or cubes", Choices<int>{{"2", 2}, {"3", 3}})
+            ->group("Scene");
+        app.add_option("--mesh", options.meshes, "meshes of the two blocks; by default all")
+            ->delimiter(',')
+            ->check(one_of({"matching", "non-matching", "unstructured"}))
+            ->type_name("NAME,...")
             ->group("Scene");
         add_number(app, "--strain", options.strain, "pressure over the wave modulus of the lower block", {.above = 0.0})
             ->group("Scene");
