@@ -1,0 +1,122 @@
+// A disc falls on a rigid plane: when it touches, and how fast it is then.
+//
+// R = 20, lambda = mu = 20, rho = 1, body force 0.1, lowest point 5 above the plane: it touches at t = 10 at the speed 1. The
+// disc of the mesh is a polygon whose faces feel the plane at their centroids: it is late by the time in which it falls by
+// what these are higher than the circle, at most h^2/(8R), and by a step.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "abut/geometry/stopwatch.hpp"
+#include "scenes/impacts.hpp"
+#include "support/choices.hpp"
+#include "validation/study.hpp"
+
+namespace abut::examples {
+namespace {
+
+const Program program{
+    .name = "disc_on_plane",
+    .purpose = "Disc that falls on a rigid plane: time and speed of first contact, energies of the rebound.",
+    .footer = "The disc: R = 20 m, lambda = mu = 20 Pa, rho = 1 kg/m^3, 0.1 m/s^2, 5 m above the plane."};
+
+struct Options {
+    std::vector<double> cells{5.0, 10.0, 20.0};  // in the radius, one a level
+    RunOptions run{.out = "out/" + program.name};
+};
+
+std::string curve_name(double cells) { return fmt::format("fall_{:g}", cells); }
+
+struct Fall {
+    Level level;
+    Table curve;
+};
+
+Fall fall(const DroppedDisc& disc, const RunOptions& options) {
+    double seconds = 0.0;
+    ImpactObserver<2> observer;
+    RunResult<2> result;
+    const Scene<2> scene = dropped_disc(disc);
+    {
+        const Stopwatch watch(seconds);
+        result = simulate<2>(scene, options, observer);
+    }
+    const double time = std::sqrt(2.0 * disc.height / disc.gravity), speed = disc.gravity * time;
+    const double late = disc.size * disc.size / (8.0 * disc.radius) / speed + result.dt;
+    Fall fall;
+    double speed_at_contact = 0.0;
+    for (const auto& sample : observer.samples()) {
+        if (sample.time <= observer.first_contact()) speed_at_contact = -sample.velocity[0].y();
+        fall.curve.rows.push_back({sample.time, sample.displacement[0].y(), sample.velocity[0].y(), sample.force.y()});
+    }
+    fall.curve.columns = {"time", "displacement", "velocity", "force"};
+    fall.level = {
+        .name = fmt::format("R/h = {:g}, {} cells, {} steps", disc.radius / disc.size, scene.mesh.n_cells(), result.steps),
+        .size = disc.size,
+        .quantities = {{"first contact", "s", observer.first_contact(), time, 0.0, late / time},
+                       {"speed at first contact", "m/s", speed_at_contact, speed, 0.0, late / time},
+                       {"energy at the end, true error", "", result.ledger.energy_drift() / result.scale.value, 0.0, 1.0}},
+        .energies = energy_figures(result),
+        .seconds = seconds};
+    return fall;
+}
+
+Picture picture(const std::vector<double>& cells) {
+    std::string script = R"gp(set title "disc that falls on a plane" font ",15"
+set xlabel "time [s]"
+set ylabel "velocity of the centre of mass [m/s]"
+set key top left samplen 2 opaque
+set samples 1000
+plot [0:*] (x <= 10 ? -0.1*x : 1/0) with lines lw 5 lc rgb "#b9b8b4" title "free fall, until 10 s")gp";
+    static constexpr std::array<const char*, 3> colours{"#eb6834", "#3c9d5b", "#2a78d6"};
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        script += fmt::format(
+            ", \\\n     \"{}.csv\" using \"time\":\"velocity\" with lines lw 1.5 lc rgb \"{}\" title \"R/h = {:g}\"",
+            curve_name(cells[i]), colours[i % colours.size()], cells[i]);
+    return {.name = "fall",
+            .purpose = "Velocity of the disc, from the .csv files beside this file",
+            .height = 800,
+            .script = script + "\n"};
+}
+
+void check(const Options& options) {
+    for (const double cells : options.cells)
+        if (!(cells >= 2.0 && cells <= 1000.0))
+            throw std::invalid_argument(fmt::format("--cells: {:g} cells in the radius, 2 to 1000 are allowed.", cells));
+}
+
+}  // namespace
+}  // namespace abut::examples
+
+int main(int argc, char** argv) {
+    using namespace abut::examples;
+    Options options;
+    const auto add_options = [&](CLI::App& app) {
+        app.add_option("--cells", options.cells, "cells in the radius, a number a level")
+            ->delimiter(',')
+            ->type_name("N,N,...")
+            ->capture_default_str()
+            ->group("Scene");
+        add_time_options(app, options.run, "4 times the fall");
+        add_contact_options(app, options.run);
+        add_output_options(app, options.run);
+    };
+    return run_program(program, argc, argv, add_options, [&] {
+        check(options);
+        std::vector<std::string> curves;
+        for (const double cells : options.cells) curves.push_back(curve_name(cells));
+        prepare_study(options.run.out, curves, {"fall"});
+        Study study{.title = "disc that falls on a rigid plane", .reference = "free fall: t = sqrt(2 h/g), v = g t"};
+        for (const double cells : options.cells) {
+            DroppedDisc disc;
+            disc.size = disc.radius / cells;
+            Fall one = fall(disc, options.run);
+            study.levels.push_back(std::move(one.level));
+            study.curves.emplace_back(curve_name(cells), std::move(one.curve));
+        }
+        study.pictures = {picture(options.cells)};
+        study.options = to_json(options.run);
+        study.options["cells"] = options.cells;
+        report(program, options.run.out, study);
+    });
+}

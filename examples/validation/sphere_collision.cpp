@@ -1,0 +1,149 @@
+// Two spheres of aluminium run into each other: approach, force and duration against Hertz's quasi-static impact.
+//
+// R = 0.1 m, E = 70 GPa, nu = 0.3, rho = 2700 kg/m^3, coming closer at 0.5 m/s: 118.9 um, 14.86 kN, 700 us. Waves cross a
+// sphere ten times in that time, so that the impact is nearly quasi-static. The contact is 2.4 mm in radius: cells are 0.4 mm
+// there and grow with the distance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "abut/geometry/stopwatch.hpp"
+#include "scenes/impacts.hpp"
+#include "support/choices.hpp"
+#include "validation/study.hpp"
+
+namespace abut::examples {
+namespace {
+
+const Program program{.name = "sphere_collision",
+                      .purpose = "Two spheres of aluminium that collide: approach, force and duration against Hertz.",
+                      .footer = "The spheres: R = 0.1 m, E = 70 GPa, nu = 0.3, rho = 2700 kg/m^3, 0.5 m/s."};
+
+struct Options {
+    std::vector<double> faces{2.0, 4.0};
+    TwoSpheres spheres;
+    RunOptions run{.out = "out/" + program.name};
+};
+
+constexpr double target = 0.03;
+
+std::string curve_name(double faces) { return fmt::format("impact_{:g}", faces); }
+
+struct Impact {
+    Level level;
+    Table curve;
+};
+
+Impact collide(const TwoSpheres& spheres, const RunOptions& options) {
+    double seconds = 0.0;
+    ImpactObserver<3> observer;
+    RunResult<3> result;
+    const Scene<3> scene = two_spheres(spheres);
+    {
+        const Stopwatch watch(seconds);
+        result = simulate<3>(scene, options, observer);
+    }
+    const HertzImpact hertz = hertz_impact(spheres);
+    Impact impact;
+    impact.curve.columns = {"time", "approach", "force"};
+    double approach = 0.0, force = 0.0;
+    for (const auto& sample : observer.samples()) {
+        const double closer = (sample.displacement[0] - sample.displacement[1]).x() - spheres.gap * hertz.approach;
+        impact.curve.rows.push_back({sample.time - observer.first_contact(), closer, -sample.force.x()});
+        approach = std::max(approach, closer);
+        force = std::max(force, -sample.force.x());
+    }
+    const double rebound = (observer.samples().back().velocity[1] - observer.samples().back().velocity[0]).x();
+    const double asked = spheres.faces >= 6.0 ? target : std::numeric_limits<double>::infinity();
+    impact.level = {
+        .name = fmt::format("a/h = {:g}, {} cells, {} steps", spheres.faces, scene.mesh.n_cells(), result.steps),
+        .size = hertz.contact_radius / spheres.faces,
+        .quantities = {{"largest approach", "m", approach, hertz.approach, 0.0, asked},
+                       {"largest force", "N", force, hertz.force, 0.0, asked},
+                       {"duration", "s", observer.last_contact() - observer.first_contact(), hertz.duration, 0.0, asked},
+                       {"speed of separation", "m/s", rebound, spheres.speed},
+                       {"momentum, largest change", "",
+                        result.ledger.momentum_drift() / (0.5 * spheres.speed * result.start[0].mass), 0.0, 1.0, 1e-12}},
+        .energies = energy_figures(result),
+        .seconds = seconds};
+    return impact;
+}
+
+/// Hertz's law of motion, m* d'' = -k d^1.5, integrated by small steps: time, approach, force.
+Table exact_curve(const TwoSpheres& spheres) {
+    constexpr int steps = 4000, rows = 200;
+    const HertzImpact hertz = hertz_impact(spheres);
+    const double k = hertz.force / std::pow(hertz.approach, 1.5);
+    const double mass =
+        0.8 * k * std::pow(hertz.approach, 2.5) / (spheres.speed * spheres.speed);  // all energy in d at rest
+    const double dt = hertz.duration / steps;
+    Table table{.columns = {"time", "approach", "force"}};
+    double d = 0.0, v = spheres.speed;
+    for (int i = 0; i <= steps; ++i) {
+        const double force = k * std::pow(std::max(0.0, d), 1.5);
+        if (i % (steps / rows) == 0) table.rows.push_back({i * dt, d, force});
+        v -= 0.5 * dt * force / mass;
+        d += dt * v;
+        v -= 0.5 * dt * k * std::pow(std::max(0.0, d), 1.5) / mass;
+    }
+    return table;
+}
+
+Picture picture(const std::vector<double>& faces) {
+    std::string script = R"gp(set title "two spheres of aluminium, 0.5 m/s" font ",15"
+set xlabel "time since first contact [us]"
+set ylabel "force [kN]"
+set key top right samplen 2 opaque
+set xrange [0:*]
+plot "hertz.csv" using (1e6*column("time")):(1e-3*column("force")) with lines lw 4 lc rgb "#b9b8b4" title "Hertz")gp";
+    static constexpr std::array<const char*, 3> colours{"#eb6834", "#2a78d6", "#3c9d5b"};
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        script += fmt::format(
+            ", \\\n     \"{}.csv\" using (1e6*column(\"time\")):(1e-3*column(\"force\")) with lines lw 1.5 lc rgb \"{}\" "
+            "title \"a/h = {:g}\"",
+            curve_name(faces[i]), colours[i % colours.size()], faces[i]);
+    return {.name = "impact",
+            .purpose = "Force between the spheres, from the .csv files beside this file",
+            .height = 800,
+            .script = script + "\n"};
+}
+
+}  // namespace
+}  // namespace abut::examples
+
+int main(int argc, char** argv) {
+    using namespace abut::examples;
+    Options options;
+    const auto add_options = [&](CLI::App& app) {
+        app.add_option("--faces", options.faces, "faces in the largest contact radius, a number a level; 6 has targets")
+            ->delimiter(',')
+            ->check(CLI::Range(1.0, 100.0))
+            ->type_name("N,N,...")
+            ->capture_default_str()
+            ->group("Scene");
+        add_number(app, "--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
+                   {.above = 0.0, .below = 1.0})
+            ->group("Scene");
+        add_time_options(app, options.run, "1.2 times Hertz's duration");
+        add_contact_options(app, options.run);
+        add_output_options(app, options.run);
+    };
+    return run_program(program, argc, argv, add_options, [&] {
+        std::vector<std::string> curves{"hertz"};
+        for (const double faces : options.faces) curves.push_back(curve_name(faces));
+        prepare_study(options.run.out, curves, {"impact"});
+        Study study{.title = "two spheres that collide", .reference = "Hertz: m* d'' = -4/3 E* sqrt(R*) d^1.5"};
+        study.curves.emplace_back("hertz", exact_curve(options.spheres));
+        for (const double faces : options.faces) {
+            options.spheres.faces = faces;
+            Impact impact = collide(options.spheres, options.run);
+            study.levels.push_back(std::move(impact.level));
+            study.curves.emplace_back(curve_name(faces), std::move(impact.curve));
+        }
+        study.pictures = {picture(options.faces)};
+        study.options = to_json(options.run);
+        study.options.update({{"faces", options.faces}, {"coarse", options.spheres.coarse}});
+        report(program, options.run.out, study);
+    });
+}
