@@ -132,7 +132,7 @@ public:
         descent_begins_ = false;
         base_ = x;
         base_gradient_ = gradient;
-        report_.residual = residual_;
+        report_.residual = report_.residual_elsewhere = residual_;
         if (const auto* contact = solid_.contact()) report_.compression = contact->result().compression();
         report_.iterations.push_back(
             {report_.evaluations, residual_, descent_ == Descent::potential ? value : solid_.potential(q_)});

@@ -193,11 +193,38 @@ TEST_CASE("a body that its load pulls off its support is named") {
                Catch::Contains("body 0 ('block') is free to move along (0,") && Catch::Contains("its contact has opened"));
 }
 
+/// A disc that its weight presses onto a plane, kept from rolling where it is highest.
+TEST_CASE("where V has an edge at its minimum no state near it is lower, and all else is in balance") {
+    auto mesh = unit_disc(0.15);
+    mesh.groups.push_back({"top", {}});
+    for (const std::int32_t face : mesh.boundary_faces)
+        if (mesh.face_centroid[face].y() > 0.8) mesh.groups.back().faces.push_back(face);
+    auto options = bodies<2>(1);
+    options.acceleration = {{0.0, -0.02}};
+    options.obstacles = {contact::plane_obstacle<2>({0.0, -1.0}, {0.0, 1.0}, 3.0)};
+    options.boundary.dirichlet = {{.group = "top", .constraint = Constraint::components, .components = {true, false}}};
+    Solid<2> solid(mesh, options);
+    std::vector<double> start(solid.size(), 0.0);
+    for (std::size_t i = 1; i < start.size(); i += 2) start[i] = -0.005;  // its lowest faces lie above -1
+    const StaticSolution solution = solve_statics(solid, start, {.tolerance = 1e-10, .potential_tolerance = 1e-14});
+    REQUIRE(solution.report.converged);
+    REQUIRE(solution.report.residual > 1e-6);  // or there is no edge, and this test shows nothing
+    CHECK(solution.report.residual_elsewhere < 1e-4);
+    const double lowest = solid.potential(solution.q);
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        std::vector<double> near = random_state(solid.size(), seed, seed % 2 == 0 ? 1e-5 : 1e-7);
+        for (std::size_t i = 0; i < near.size(); ++i) near[i] += solution.q[i];
+        CHECK(solid.potential(near) > lowest);
+    }
+}
+
 TEST_CASE("static options out of range are refused with value and limit") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {2, 2}, CellShape::quadrangle);
     Solid<2> solid(mesh, pulled_bar<2>({}, 0.1));
     const std::vector<double> start(solid.size(), 0.0);
     CHECK_THROWS_WITH(solve_statics(solid, start, {.tolerance = 0.0}), Catch::Contains("tolerance is 0; it must be > 0"));
+    CHECK_THROWS_WITH(solve_statics(solid, start, {.potential_tolerance = -1.0}),
+                      Catch::Contains("potential_tolerance is -1; it must be 0 or more"));
     CHECK_THROWS_WITH(solve_statics(solid, start, {.iterations = 0}), Catch::Contains("iterations is 0; at least 1"));
     CHECK_THROWS_WITH(solve_statics(solid, start, {.history = 0}), Catch::Contains("history is 0; at least 1"));
     CHECK_THROWS_WITH(solve_statics(solid, start, {.first_step = -1.0}), Catch::Contains("first_step is -1 m"));
