@@ -19,7 +19,7 @@ template <int Dim>
 [[nodiscard]] std::vector<BoxCells> all_box_cells();
 
 /// A box with groups xmin, xmax, ymin, ...: bricks whose edges are nearest to `size` [m], at least one along each, or cells
-/// from Gmsh with edges of about `size`. Throws mesh::MeshError, and std::invalid_argument for shapes of the other dimension.
+/// from Gmsh with edges of about `size`. Throws mesh::MeshError, and std::invalid_argument for a shape of another dimension.
 template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> box_of(BoxCells cells, const Vector<Dim>& lower, const Vector<Dim>& upper, double size);
 
