@@ -85,7 +85,8 @@ Picture picture(const Study& study, const std::string& title) {
     std::string script = fmt::format(
         "set title \"{}\" font \",15\" noenhanced\nset logscale xy\nset key outside right top samplen 2\n"
         "set xlabel \"mean size of the cells, (|box|/number)^{{1/d}} [m]\"\nset ylabel \"relative error\"\n"
-        "set format y \"10^{{%L}}\"\nset mxtics 10\nset xrange [{:.17g}:{:.17g}]\n"
+        "set format y \"10^{{%L}}\"\nset mxtics 10\nset xrange [{:.17g}:{:.17g}]\nset xtics (0.005, 0.01, 0.02, 0.05, 0.1, "
+        "0.2, 0.5, 1)\n"
         "set rmargin 30\nplot ",
         title, smallest / 1.3, largest * 1.3);
     for (std::size_t i = 0; i < study.curves.size(); ++i) {

