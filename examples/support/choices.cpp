@@ -71,6 +71,16 @@ std::string default_text(const BodyValues& values) {
     return values[0] == values[1] ? shown(values[0]) : shown(values[0]) + "," + shown(values[1]);
 }
 
+/// What commas separate.
+std::vector<std::string_view> parts_of(std::string_view text) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+        end = text.find(',', begin);
+        parts.push_back(text.substr(begin, end - begin));
+    }
+    return parts;
+}
+
 }  // namespace
 
 std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, "|")); }
@@ -126,14 +136,22 @@ CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, con
         ->default_str(fmt::format("{}", value));
 }
 
+CLI::Option* add_numbers(CLI::App& app, const std::string& option, std::vector<double>& values, const std::string& help,
+                         const Limits& limits) {
+    const auto read = [&values, option, limits](const std::string& text) {
+        values.clear();
+        for (const std::string_view part : parts_of(text)) values.push_back(parse_number(std::string(part), option, limits));
+    };
+    auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X[,X...]");
+    if (!values.empty()) added->default_str(fmt::format("{}", fmt::join(values, ",")));
+    return added;
+}
+
 CLI::Option* add_counts(CLI::App& app, const std::string& option, std::vector<int>& values, const std::string& help,
                         int least) {
     const auto read = [&values, option, least](const std::string& text) {
         values.clear();
-        for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-            end = text.find(',', begin);
-            values.push_back(parse_count(std::string_view(text).substr(begin, end - begin), option, least));
-        }
+        for (const std::string_view part : parts_of(text)) values.push_back(parse_count(part, option, least));
     };
     return app.add_option_function<std::string>(option, read, unit_after(help, {}))
         ->type_name("N[,N...]")

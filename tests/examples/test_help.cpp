@@ -94,6 +94,17 @@ TEST_CASE("--help explains every option in one line with unit and default", "[ex
          {"fpu",
           {"--omega", "--dt", "--time", "--integrator", "--mean", "--gauge", "--parts", "--fast", "--start", "--out",
            "--interval"}},
+         {"hertz",
+          {"--dim", "--support", "--load", "--radius", "--young", "--poisson", "--ratio", "--coarse", "--faces",
+           "--tolerance", "--weights", "--area", "--neumann", "--out"}},
+         {"contact_patch", {"--dim", "--mesh", "--strain", "--out"}},
+         {"disc_on_plane", {"--cells", "--cfl", "--integrator", "--weights", "--events", "--neumann", "--out"}},
+         {"disc_collision", {"--size", "--cfl", "--integrator", "--weights", "--events", "--neumann", "--out"}},
+         {"sphere_collision", {"--faces", "--coarse", "--cfl", "--integrator", "--weights", "--out"}},
+         {"manufactured", {"--dim", "--cells", "--levels", "--tolerance", "--out"}},
+         {"bulk_patch", {"--cells", "--mode-cells", "--out"}},
+         {"spectrum", {"--cells", "--poisson", "--eta", "--out"}},
+         {"wave_speeds", {"--case", "--mesh", "--cells", "--levels", "--cfl", "--out"}},
          {"slow_fast_wave", {"--cells", "--cfl", "--time", "--ratio", "--integrator", "--refinements", "--out"}}}));
     const auto outcome = run_program(program, "--help", "");
     CHECK(outcome.exit_code == 0);
