@@ -71,6 +71,14 @@ double figure(const Outcome& outcome, const std::string& scheme, const std::stri
     return read_summary(outcome).at("schemes").at(scheme).at(name).get<double>();
 }
 
+StudyQuantity study_quantity(const Outcome& outcome, std::size_t level, const std::string& name) {
+    const nlohmann::json summary = read_summary(outcome);
+    for (const auto& quantity : summary["levels"][level]["quantities"])
+        if (quantity["name"] == name) return {quantity["value"].get<double>(), quantity["error"].get<double>()};
+    throw std::runtime_error("level " + std::to_string(level) + " of " + summary["program"].get<std::string>() +
+                             " has no quantity '" + name + "'");
+}
+
 std::vector<std::string> files_in(const fs::path& directory) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());

@@ -46,6 +46,13 @@ struct Outcome {
 /// A number that summary.json of a comparison holds of a scheme: figure(outcome, "memm", "seconds").
 [[nodiscard]] double figure(const Outcome& outcome, const std::string& scheme, const std::string& name);
 
+/// What summary.json of a study holds of a quantity at a level. Throws std::runtime_error if there is none of that name.
+struct StudyQuantity {
+    double value;
+    double error;
+};
+[[nodiscard]] StudyQuantity study_quantity(const Outcome& outcome, std::size_t level, const std::string& name);
+
 /// Names of all files in a folder, in order.
 [[nodiscard]] std::vector<std::string> files_in(const std::filesystem::path& directory);
 

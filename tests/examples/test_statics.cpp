@@ -10,7 +10,8 @@ using namespace abut::examples::test;
 /// Quantities with a target at all levels of a study; all of them must be met.
 int check_targets(const Outcome& outcome) {
     int n = 0;
-    for (const auto& level : read_summary(outcome)["levels"])
+    const auto summary = read_summary(outcome);
+    for (const auto& level : summary["levels"])
         for (const auto& quantity : level["quantities"]) {
             if (!quantity.contains("met")) continue;
             CAPTURE(level["name"].get<std::string>(), quantity.dump());
@@ -22,9 +23,7 @@ int check_targets(const Outcome& outcome) {
 }
 
 double error_of(const Outcome& outcome, std::size_t level, const std::string& name) {
-    for (const auto& quantity : read_summary(outcome)["levels"][level]["quantities"])
-        if (quantity["name"] == name) return quantity["error"].get<double>();
-    throw std::runtime_error("no quantity " + name);
+    return study_quantity(outcome, level, name).error;
 }
 
 }  // namespace
