@@ -18,8 +18,7 @@
 namespace abut::dynamics {
 namespace {
 
-/// Gradient and value of what is minimised change with every evaluation, but the values lose their meaning near the minimum:
-/// there they differ by less than their rounding.
+/// What a step is judged by. Near the minimum values of V differ by less than their rounding.
 enum class Descent {
     potential,  ///< V itself
     slope,  ///< V from the last state by the trapezoidal rule on its slope (the approximate Wolfe conditions of Hager and Zhang)
@@ -38,8 +37,9 @@ struct Finished {
     Ending ending;
 };
 
-constexpr int window = 100;             // iterations within which V must fall
-constexpr double nearly_closed = 1e-6;  // of the smallest depth: a gap this small may close
+constexpr int window = 100;                  // iterations within which V must fall
+constexpr double nearly_closed = 1e-6;       // of the smallest depth: a gap this small may close
+constexpr double balanced_elsewhere = 1e-3;  // of the largest stress: where more is left away from contact, V is not lowest
 
 void check(const StaticOptions& options) {
     const auto refuse = [](const std::string& what) { throw std::invalid_argument("statics: " + what); };
@@ -145,8 +145,8 @@ public:
     /// Goes back to a state where V was lower.
     void go_back(const Eigen::VectorXd& x) { base_ = x; }
 
-    /// Brings the report to the state reached. Whether bodies touch in it.
-    bool look_around() {
+    /// Brings the report to the state reached. Whether all that is out of balance there is around contacts.
+    bool is_balanced_elsewhere() {
         const std::vector<double> reached = q();
         std::vector<std::int32_t> faces;
         for (const TouchingPair<Dim>& pair : solid_.touching_pairs(reached, nearly_closed * smallest_depth(solid_.mesh())))
@@ -154,9 +154,10 @@ public:
                 if (face != no_face) faces.push_back(face);
         sort_unique(faces);
         solid_.force(reached, force_);
+        if (const auto* contact = solid_.contact()) report_.compression = contact->result().compression();
         report_.residual = residual();
         report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).loaded_cells);
-        return !faces.empty();
+        return !faces.empty() && report_.residual_elsewhere <= balanced_elsewhere;
     }
     /// V of the state reached [J].
     [[nodiscard]] double potential() const { return report_.iterations.back().potential; }
@@ -265,7 +266,7 @@ Ending approach(Objective<Dim>& objective, const StaticOptions& options) {
         if (ending == Ending::balanced || ending == Ending::iterations) return ending;
     }
     if (objective.potential() > potential) objective.go_back(lowest);
-    return objective.look_around() ? Ending::lowest : Ending::stuck;
+    return objective.is_balanced_elsewhere() ? Ending::lowest : Ending::stuck;
 }
 
 std::string text(Ending ending, const StaticOptions& options) {
@@ -273,9 +274,8 @@ std::string text(Ending ending, const StaticOptions& options) {
         case Ending::balanced:
             return "The forces are in balance.";
         case Ending::lowest:
-            return "The potential falls no more; around contacts that just open, or whose overlap changes its formula, "
-                   "forces "
-                   "have no balance.";
+            return "The potential falls no more: around contacts that just open, or whose overlap changes its formula, "
+                   "forces have no balance.";
         case Ending::stuck:
             return "No step goes down any more: rounding allows no better solution, or there is none.";
         case Ending::iterations:

@@ -28,6 +28,7 @@ struct StaticIteration {
 };
 
 struct StaticReport {
+    /// The forces are in balance to `tolerance`; or V falls no more and, but for the cells that feel contact, they are to 1e-3
     bool converged = false;
     std::string ending;  ///< why it stopped, in a sentence
     int evaluations = 0;

@@ -106,7 +106,8 @@ void choose_algorithms(const std::string& name, const SizeField<Dim>& field, dou
     const double cells = expected_cells(field, volume);
     if (!(cells <= most_cells))
         throw MeshError(name + ": the sizes asked for make about " + number(cells) + " cells, at most " +
-                        number(most_cells) + " are meshed. Raise size or refinement.size, or lower refinement.distance or refinement.uniform.");
+                        number(most_cells) +
+                        " are meshed. Raise size or refinement.size, or lower refinement.distance or refinement.uniform.");
     gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
     gmsh::option::setNumber("Mesh.Algorithm3D", Dim == 3 && cells > many_tetrahedra ? hxt_3d : delaunay_3d);
     gmsh::option::setNumber("Mesh.Optimize", 1);

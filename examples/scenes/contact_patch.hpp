@@ -35,7 +35,7 @@ struct PatchErrors {
     dynamics::StaticReport report;
 };
 
-/// Throws what `solve_statics` throws, and std::runtime_error if the forces do not come into balance.
+/// Throws what `solve_statics` throws. The choices that are there for comparison may not come into balance: see the report.
 template <int Dim>
 [[nodiscard]] PatchErrors solve_patch(const PatchOptions& options);
 
