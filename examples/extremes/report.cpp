@@ -27,12 +27,13 @@ std::string quoted(const std::string& text) {
 std::string csv_text(const std::vector<Row>& rows) {
     std::string text =
         "family,value,outcome,finite,pseudo_energy_drift,energy_excess_max,parasitic_max,events,momentum_drift,"
-        "lost_contacts,compression_max,deviation,cells,steps,active_pairs_max,message\n";
+        "lost_contacts,compression_max,deviation,cells,steps,active_pairs_max,blind_corners,message\n";
     for (const Row& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
                             name_of(row.verdict), row.is_finite ? 1 : 0, exact(row.drift), exact(row.excess),
                             exact(row.parasitic), row.events, exact(row.momentum), row.lost_contacts, exact(row.compression),
-                            exact(row.deviation), row.cells, row.steps, row.active_pairs_max, quoted(row.message));
+                            exact(row.deviation), row.cells, row.steps, row.active_pairs_max, row.blind_corners,
+                            quoted(row.message));
     return text;
 }
 
@@ -52,6 +53,7 @@ Json to_json(const Row& row) {
             {"cells", row.cells},
             {"steps", row.steps},
             {"active_pairs_max", row.active_pairs_max},
+            {"blind_corners", row.blind_corners},
             {"message", row.message}};
 }
 

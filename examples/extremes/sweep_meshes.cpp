@@ -43,6 +43,10 @@ void sweep_aspect(const SweepOptions& options, const Sink& sink) {
                     fmt::format("{} {:g} {}", mesh::name(shape), aspect, thin == 0 ? "along the normal" : "across it");
                 const std::array<Block<2>, 2> pair{{{sides, {6, 6}, shape}, {sides, {5, 5}, shape}}};
                 sink(attempt(meeting_of_blocks<2>("aspect", value, meeting, pair, run)));
+                if (thin == 1) continue;
+                RunOptions filtered = run;
+                filtered.filter = true;
+                sink(attempt(meeting_of_blocks<2>("aspect", value + ", filter", meeting, pair, filtered)));
             }
     for (const CellShape shape : solid_shapes)
         for (const double aspect : aspects) {
@@ -92,17 +96,22 @@ void sweep_thickness(const SweepOptions& options, const Sink& sink) {
     }
 }
 
+/// A tip below 60 degrees looks at a flat face with no face of its own by the default facing cosine: -0.02 lets it.
 void sweep_wedge(const SweepOptions& options, const Sink& sink) {
-    for (const double degrees : {120.0, 60.0, 20.0, 5.0})
-        for (const bool on_plane : {true, false}) {
-            const Meeting<2> meeting{.aside = 0.03, .time = 6.0};
-            sink(attempt<2>({.family = "wedge",
-                             .value = fmt::format("{:g} degrees on a {}", degrees, on_plane ? "plane" : "block"),
-                             .speed = meeting.speed,
-                             .keeps_momentum = !on_plane,
-                             .make = [=] { return wedge(meeting, degrees * std::numbers::pi / 180.0, on_plane); },
-                             .run = options.run}));
-        }
+    for (const double degrees : {120.0, 90.0, 60.0, 20.0, 5.0})
+        for (const double facing : {options.run.contact.search.facing_cosine, -0.02})
+            for (const bool on_plane : {true, false}) {
+                const Meeting<2> meeting{.aside = 0.03, .time = 6.0};
+                RunOptions run = options.run;
+                run.contact.search.facing_cosine = facing;
+                sink(attempt<2>(
+                    {.family = "wedge",
+                     .value = fmt::format("{:g} degrees on a {}, {:g}", degrees, on_plane ? "plane" : "block", facing),
+                     .speed = meeting.speed,
+                     .keeps_momentum = !on_plane,
+                     .make = [=] { return wedge(meeting, degrees * std::numbers::pi / 180.0, on_plane); },
+                     .run = run}));
+            }
 }
 
 void sweep_edge(const SweepOptions& options, const Sink& sink) {

@@ -16,7 +16,7 @@ enum class Verdict {
 };
 [[nodiscard]] std::string name_of(Verdict verdict);
 
-/// What is asked of a run for `held`. Pairs of contact that were lost: none.
+/// What is asked of a run for `held`, beside that the bodies meet and no contact is lost.
 inline constexpr double largest_drift = 1e-10;           ///< of H~ over the scale of the scene
 inline constexpr double largest_momentum_drift = 1e-10;  ///< over the sum of m |v| at the start
 inline constexpr double largest_excess = 1.0;      ///< H - H~ over the scale: the parasitic mode owns less than the run
@@ -33,6 +33,12 @@ struct Trial {
     RunOptions run;
 };
 
+/// A number without a unit.
+struct Number {
+    std::string name;
+    double value;
+};
+
 /// A line of the table. Numbers of a refused run are NaN or 0.
 struct Row {
     std::string family, value;
@@ -44,17 +50,17 @@ struct Row {
     double parasitic = not_given;    ///< max |e|/m over the speed of the trial
     double momentum = not_given;     ///< drift over the sum of m |v| at the start
     double compression = not_given;  ///< largest |g|/D
-    double deviation = not_given;    ///< from the same run in other units
-    std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0;
-    /// Of the run: no number of it has a unit.
-    std::vector<double> numbers;
+    double deviation = not_given;    ///< from the same run in other units or at another place
+    std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
+    std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts
 };
 
 /// Runs it; every exception becomes a row.
 template <int Dim>
 [[nodiscard]] Row attempt(const Trial<Dim>& trial);
 
-/// Sets `deviation`, and `failed` where it is too large.
-void compare(Row& row, const Row& reference);
+/// Sets `deviation`: the largest difference of the first `how_many` numbers from those of the reference, over 1 or the number,
+/// whichever is larger; and `failed` where it is more than `allowed`.
+void compare(Row& row, const Row& reference, std::size_t how_many, double allowed);
 
 }  // namespace abut::examples::extremes
