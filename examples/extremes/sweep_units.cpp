@@ -22,7 +22,7 @@ Trial<Dim> trial_in(const Units& units, const std::string& value, const RunOptio
     if constexpr (Dim == 3) meeting.time = 5.0;
     const auto scene = [meeting]() -> Scene<Dim> {
         if constexpr (Dim == 2)
-            return discs(meeting);
+            return discs(meeting, {0.3, 0.27});  // equal faces pass each other with both ends at once: one event or two
         else
             return blocks<3>(meeting, small_blocks());
     };
