@@ -10,28 +10,25 @@
 #include <array>
 #include <cmath>
 
-#include "abut/dynamics/particles.hpp"
+#include "scenes/bars.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
 
 namespace abut::examples {
 namespace {
 
-using Chain = dynamics::Particles<dynamics::LineSpring>;
 using Json = nlohmann::ordered_json;
 
-constexpr double bar_length = 10.0, young = 900.0, density = 1.0, height = 5.0, impact_speed = 10.0;  // SI
-constexpr double mass = density * bar_length;
-constexpr double wave_speed = 30.0;                             // sqrt(E / rho)
-constexpr double contact_time = 2.0 * bar_length / wave_speed;  // [s]
-constexpr double impact_energy = 0.5 * mass * impact_speed * impact_speed;
-constexpr double period = 16.0 / 3.0;  // under gravity [s]
+const Bar the_bar;
+constexpr double height = ExactBounce::height, impact_speed = ExactBounce::speed, period = ExactBounce::period;  // SI
+const double contact_time = the_bar.contact_time();                                                              // [s]
+const double impact_energy = 0.5 * the_bar.mass() * impact_speed * impact_speed;
 
 const Program program{.name = "bouncing_bar",
                       .purpose = "Chain of masses that bounces on a rigid wall, under all integrators.",
                       .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3; it hits the wall, 5 m away, at 10 m/s."};
 
-struct BarOptions {
+struct BounceOptions {
     SchemeOptions schemes{.gauge = 2.0 * impact_energy, .fast = 4, .parts = 4};  // V sinks by H0 as the bar falls
     int cells = 100;
     double gravity = 10.0;  // [m/s^2]
@@ -43,7 +40,7 @@ struct BarOptions {
     int interval = 0;
 };
 
-void add_options(CLI::App& app, BarOptions& options) {
+void add_options(CLI::App& app, BounceOptions& options) {
     add_count(app, "--cells", options.cells, "cells of the bar, a mass each", 4)->group("Bar");
     add_choice(app, "--gravity", options.gravity, "towards the wall, in m/s^2: what closed forms are known for",
                Choices<double>{{"0", 0.0}, {"10", 10.0}})
@@ -66,17 +63,6 @@ void add_options(CLI::App& app, BarOptions& options) {
     add_interval_option(app, options.interval);
 }
 
-Chain chain(const BarOptions& options) {
-    const double h = bar_length / options.cells;
-    std::vector<dynamics::Bond<dynamics::LineSpring>> bonds = {{dynamics::Bond<dynamics::LineSpring>::fixed,
-                                                                0,
-                                                                {.stiffness = 2.0 * young / h, .one_sided = true},
-                                                                Vector<1>(height)}};
-    for (std::int32_t i = 0; i + 1 < options.cells; ++i) bonds.push_back({i, i + 1, {.stiffness = young / h}});
-    const auto n = static_cast<std::size_t>(options.cells);
-    return {std::vector<double>(n, 1.0 / (density * h)), bonds, std::vector<double>(n, -density * h * options.gravity)};
-}
-
 /// Whether the lowest mass, displaced by q, presses on the wall.
 bool touches(double q) { return q + height < 0.0; }
 
@@ -86,7 +72,7 @@ bool touches(double q) { return q + height < 0.0; }
 /// e and v. Of one mass it would take nothing.
 class PatchFilter {
 public:
-    PatchFilter(Chain& chain, int masses) : chain_(chain), masses_(static_cast<std::size_t>(masses)), e_(chain.size()) {}
+    PatchFilter(BarChain& chain, int masses) : chain_(chain), masses_(static_cast<std::size_t>(masses)), e_(chain.size()) {}
 
     void operator()(std::span<const double> q, double dt, std::span<const double> before, std::span<double> after) {
         const std::vector<double>& inverse_mass = chain_.inverse_mass();
@@ -103,46 +89,15 @@ public:
     }
 
 private:
-    Chain& chain_;
+    BarChain& chain_;
     std::size_t masses_;
     std::vector<double> e_;
-};
-
-/// The exact motion.
-class ExactBounce {
-public:
-    explicit ExactBounce(double gravity) : gravity_(gravity) {}
-
-    /// Of the first impact [s].
-    double hit() const { return gravity_ == 0.0 ? height / impact_speed : impact_speed / gravity_; }
-    /// Of the wall, at a time after the first hit [Pa].
-    double pressure(double time) const { return density * wave_speed * (impact_speed + gravity_ * time); }
-    /// Of the lower end over the wall.
-    double height_at(double time) const {
-        if (gravity_ == 0.0)
-            return std::max({0.0, height - impact_speed * time, impact_speed * (time - hit() - contact_time)});
-        // There and back about the middle of the period, when the bar is as high as it gets between two impacts.
-        double t = std::fmod(time, period);
-        t = std::min(t, period - t);
-        const double release = hit() + contact_time;
-        if (t <= hit()) return height - 0.5 * gravity_ * t * t;
-        return t <= release ? 0.0 : flight(t - release);
-    }
-
-private:
-    /// Between the impacts the bar vibrates: under its own weight it was pressed by 2 rho g (L - x) when it was released.
-    double flight(double t) const {
-        const double way = std::fmod(wave_speed * t, 2.0 * bar_length), x = std::min(way, 2.0 * bar_length - way);
-        const double vibration = -2.0 * gravity_ / (wave_speed * wave_speed) * (bar_length * x - 0.5 * x * x);
-        return impact_speed * t - 0.5 * gravity_ * t * t + vibration;
-    }
-    double gravity_;
 };
 
 /// What happens at the wall.
 class Impacts : public Watcher {
 public:
-    explicit Impacts(double gravity) : exact_(gravity), weight_(mass * gravity) {}
+    explicit Impacts(double gravity) : exact_(gravity), weight_(the_bar.mass() * gravity) {}
 
     void look(const Node& node) override {
         double momentum = 0.0;
@@ -192,7 +147,7 @@ private:
             open_ = true;
             present_.end = time_ + dt;
             present_.impulse += pressure_ * dt;
-            present_.speed = momentum / mass;
+            present_.speed = momentum / the_bar.mass();
         } else if (open_ && time_ + dt - present_.end > 0.5 * contact_time) {
             close();
         }
@@ -266,7 +221,7 @@ Picture picture(const std::vector<SchemeRun>& runs, double end) {
         .name = program.name, .purpose = "The bar, from the .csv files beside this file", .height = 1500, .script = script};
 }
 
-Json to_json(const BarOptions& options, std::int64_t steps) {
+Json to_json(const BounceOptions& options, std::int64_t steps) {
     Json json = {{"cells", options.cells}, {"gravity", options.gravity}, {"cfl", options.cfl}, {"steps", steps}};
     json.update(examples::to_json(options.schemes));
     json["filter"] = options.filter ? "neutral" : "none";
@@ -275,15 +230,15 @@ Json to_json(const BarOptions& options, std::int64_t steps) {
     return json;
 }
 
-void check(const BarOptions& options) {
+void check(const BounceOptions& options) {
     check(options.schemes);
     if (options.patch > options.cells)
         throw std::invalid_argument(
             fmt::format("--patch: {} masses, the bar has {}. Give at most that many.", options.patch, options.cells));
 }
 
-SchemeRun run_scheme(Scheme scheme, const BarOptions& options, const Start& start, const Schedule& schedule) {
-    Chain bar = chain(options);
+SchemeRun run_scheme(Scheme scheme, const BounceOptions& options, const Start& start, const Schedule& schedule) {
+    BarChain bar = bar_chain({.gap = height, .gravity = options.gravity}, options.cells);
     Impacts impacts(options.gravity);
     const bool filtered = options.filter && scheme == Scheme::memm;
     return follow(scheme, bar, start, options.schemes, schedule, impacts, [&]<class Integrator>(Integrator& integrator) {
@@ -292,14 +247,14 @@ SchemeRun run_scheme(Scheme scheme, const BarOptions& options, const Start& star
     });
 }
 
-void run(const BarOptions& options) {
+void run(const BounceOptions& options) {
     check(options);
     prepare_results(program, options.out);
     const auto n = static_cast<std::size_t>(options.cells);
-    const double h = bar_length / options.cells, dt = options.cfl * h / wave_speed;
+    const double h = the_bar.length / options.cells, dt = options.cfl * h / the_bar.wave_speed();
     const double speed = options.gravity > 0.0 ? 0.0 : -impact_speed;
     const Start start{.q = std::vector<double>(n, 0.0),
-                      .p = std::vector<double>(n, density * h * speed),
+                      .p = std::vector<double>(n, the_bar.density * h * speed),
                       .dt = dt,
                       .local_steps = local_steps_of_first(options.schemes, n)};
     Schedule schedule{.steps = options.steps, .energy_scale = impact_energy};
@@ -320,7 +275,7 @@ void run(const BarOptions& options) {
 
 int main(int argc, char** argv) {
     using namespace abut::examples;
-    BarOptions options;
+    BounceOptions options;
     return run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
 }

@@ -5,22 +5,19 @@
 // speed 10; a pressure wave takes 2L/c to run up and down, pressure 300 rising to 500: impulse 266.667 an impact.
 // H~ stays exact whatever happens, but each contact event kicks the undamped alternating mode of MEMM: watch |e| and
 // H - H~ over a million steps (--steps 1000000) with and without the energy-neutral filter. docs/filter.md has the table.
-#include <cmath>
 #include <vector>
 
-#include "abut/contact/obstacle.hpp"
-#include "abut/mesh/shapes.hpp"
+#include "scenes/bars.hpp"
 #include "support/choices.hpp"
 #include "support/run.hpp"
 
 namespace abut::examples {
 namespace {
 
-constexpr double bar_length = 10.0, young = 900.0, density = 1.0, gravity = 10.0, height = 5.0;  // SI
-const double crossing = bar_length / std::sqrt(young / density);                                 // L/c [s]
-const double impact_speed = std::sqrt(2.0 * gravity * height);
-const double exact_impulse =
-    2.0 * density * bar_length * (impact_speed + gravity * crossing);  // an impact, per area of the bar
+constexpr double gravity = 10.0;  // [m/s^2]
+const Bar the_bar;
+const double crossing = 0.5 * the_bar.contact_time();         // L/c [s]
+const double exact_impulse = ExactBounce(gravity).impulse();  // an impact, per area of the bar [N s/m]
 
 const Program program{
     .name = "bouncing_strip",
@@ -29,13 +26,13 @@ const Program program{
     .series = "strip",
     .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2."};
 
-struct BarOptions {
+struct StripOptions {
     int cells = 100;
     double eta = 0.0;  // [Pa], 0: E
     RunOptions run{.steps = 10'000, .filter = true, .out = "out/" + program.name, .interval = 100};
 };
 
-void add_options(CLI::App& app, BarOptions& options) {
+void add_options(CLI::App& app, StripOptions& options) {
     const Limits eta{.unit = "Pa", .above = 0.0, .zero = true};
     add_count(app, "--cells", options.cells, "cells along the bar; two across it", 4)->group("Bar");
     add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus", eta)->group("Bar");
@@ -43,8 +40,6 @@ void add_options(CLI::App& app, BarOptions& options) {
     add_compression_limit(app, options.run);
     add_output_options(app, options.run);
 }
-
-double width(const BarOptions& options) { return 2.0 * bar_length / options.cells; }
 
 /// Impulses of the wall, one an impact: contacts less than a wave's way through the bar apart belong together.
 class Impacts {
@@ -84,24 +79,15 @@ std::vector<Finding> findings(const Impacts& impacts, const RunResult<2>& result
             {"pseudo_energy_drift_relative", "drift / largest energy", result.ledger.pseudo_energy_drift() / largest}};
 }
 
-/// A strip of squares, two across, that falls on a wall at y = 0.
-Scene<2> bar(const BarOptions& options, Impacts& impacts) {
-    const double half = 0.5 * width(options);
-    const double eta = options.eta == 0.0 ? young : options.eta;
-    Scene<2> scene;
-    scene.mesh = mesh::structured_box<2>({-half, height}, {half, height + bar_length}, {2, options.cells},
-                                         mesh::CellShape::quadrangle, "bar");
-    scene.solid.materials = {{.young = young, .poisson = 0.0, .density = density, .eta = eta}};
-    scene.solid.acceleration = {Vector<2>(0.0, -gravity)};
-    for (const char* side : {"xmin", "xmax"})  // rollers: with nu = 0 they carry nothing, and the bar stays upright for ever
-        scene.solid.boundary.dirichlet.push_back({.group = side, .constraint = dynamics::Constraint::normal});
-    scene.solid.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), bar_length)};
-    scene.velocity = {Vector<2>::Zero()};
-    scene.energy_scale = {"H0",
-                          density * bar_length * width(options) * gravity * height};  // all kinetic at the first impact
-    scene.remedy_if_overlapping = "The bar is one body.";
-    scene.options = {{"cells", options.cells}, {"eta", eta}};
-    scene.after_step = [&impacts, area = width(options)](const dynamics::Solid<2>& solid, double dt) {
+Scene<2> bar(const StripOptions& options, Impacts& impacts) {
+    Scene<2> scene =
+        bar_strip<2>({.bar = the_bar,
+                      .gap = ExactBounce::height,
+                      .gravity = gravity,
+                      .energy = the_bar.mass() * gravity * ExactBounce::height,  // all kinetic at the first impact
+                      .eta = options.eta},
+                     options.cells);
+    scene.after_step = [&impacts, area = strip_width(the_bar, options.cells)](const dynamics::Solid<2>& solid, double dt) {
         impacts.add(-solid.obstacle_force(0).y() * dt / area, dt);
     };
     scene.findings = [&impacts](const RunResult<2>& result) { return findings(impacts, result); };
@@ -113,11 +99,11 @@ Scene<2> bar(const BarOptions& options, Impacts& impacts) {
 
 int main(int argc, char** argv) {
     using namespace abut::examples;
-    BarOptions options;
+    StripOptions options;
     // An impact at a third of the wave speed: the foot gives way by up to twice its cell, and more when vibration adds up.
     options.run.contact.compression_limit = 10.0;
     // Only the foot of the bar faces the wall: a thick skin costs nothing and lasts long.
-    options.run.contact.search.skin = 0.1 * bar_length;
+    options.run.contact.search.skin = 0.1 * the_bar.length;
     Impacts impacts;
     return run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); },

@@ -1,5 +1,7 @@
 #include "scenes/impacts.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -126,6 +128,11 @@ Scene<3> two_spheres(const TwoSpheres& options) {
     scene.time = gap / options.speed + 1.2 * hertz.duration;
     scene.remedy_if_overlapping = "Raise the gap.";
     return scene;
+}
+
+template <int Dim>
+void ImpactObserver<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    spdlog::info("{} cells; {} steps of {:.4g} s", scene.mesh.n_cells(), result.steps, result.dt);
 }
 
 template <int Dim>

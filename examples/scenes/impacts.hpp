@@ -52,6 +52,7 @@ struct HertzImpact {
 template <int Dim>
 class ImpactObserver : public Observer<Dim> {
 public:
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;  ///< logs how much there is to do
     void look(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid) override;
 
     struct Sample {

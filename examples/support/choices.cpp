@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 namespace abut::examples {
 namespace {
@@ -52,6 +53,15 @@ BodyValues parse_body_values(const std::string& text, const std::string& option,
     return {parse_number(text.substr(0, comma), option, limits), parse_number(text.substr(comma + 1), option, limits)};
 }
 
+int parse_count(std::string_view text, const std::string& option, int least) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < least)
+        throw CLI::ValidationError(
+            option, fmt::format("'{}' is not allowed; it must be a whole number of at least {}.", text, least));
+    return value;
+}
+
 std::string unit_after(const std::string& help, const Limits& limits) {
     return fmt::format("{} [{}]", help, *limits.unit == '\0' ? "-" : limits.unit);
 }
@@ -59,6 +69,16 @@ std::string unit_after(const std::string& help, const Limits& limits) {
 std::string default_text(const BodyValues& values) {
     if (std::isnan(values[0])) return "";
     return values[0] == values[1] ? shown(values[0]) : shown(values[0]) + "," + shown(values[1]);
+}
+
+/// What commas separate.
+std::vector<std::string_view> parts_of(std::string_view text) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+        end = text.find(',', begin);
+        parts.push_back(text.substr(begin, end - begin));
+    }
+    return parts;
 }
 
 }  // namespace
@@ -110,15 +130,32 @@ CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValue
 }
 
 CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least) {
-    const auto read = [&value, option, least](const std::string& text) {
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || value < least)
-            throw CLI::ValidationError(
-                option, fmt::format("'{}' is not allowed; it must be a whole number of at least {}.", text, least));
-    };
+    const auto read = [&value, option, least](const std::string& text) { value = parse_count(text, option, least); };
     return app.add_option_function<std::string>(option, read, unit_after(help, {}))
         ->type_name("N")
         ->default_str(fmt::format("{}", value));
+}
+
+CLI::Option* add_numbers(CLI::App& app, const std::string& option, std::vector<double>& values, const std::string& help,
+                         const Limits& limits) {
+    const auto read = [&values, option, limits](const std::string& text) {
+        values.clear();
+        for (const std::string_view part : parts_of(text)) values.push_back(parse_number(std::string(part), option, limits));
+    };
+    auto* added = app.add_option_function<std::string>(option, read, unit_after(help, limits))->type_name("X[,X...]");
+    if (!values.empty()) added->default_str(fmt::format("{}", fmt::join(values, ",")));
+    return added;
+}
+
+CLI::Option* add_counts(CLI::App& app, const std::string& option, std::vector<int>& values, const std::string& help,
+                        int least) {
+    const auto read = [&values, option, least](const std::string& text) {
+        values.clear();
+        for (const std::string_view part : parts_of(text)) values.push_back(parse_count(part, option, least));
+    };
+    return app.add_option_function<std::string>(option, read, unit_after(help, {}))
+        ->type_name("N[,N...]")
+        ->default_str(fmt::format("{}", fmt::join(values, ",")));
 }
 
 }  // namespace abut::examples

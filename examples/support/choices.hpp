@@ -32,6 +32,12 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, double& value,
 CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help,
                              const Limits& limits);
 CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least);
+/// Numbers separated by commas; no default is shown of an empty list.
+CLI::Option* add_numbers(CLI::App& app, const std::string& option, std::vector<double>& values, const std::string& help,
+                         const Limits& limits);
+/// One or several whole numbers, separated by commas.
+CLI::Option* add_counts(CLI::App& app, const std::string& option, std::vector<int>& values, const std::string& help,
+                        int least);
 
 /// "1", "0.25": as --help shows a default.
 [[nodiscard]] std::string shown(double value);

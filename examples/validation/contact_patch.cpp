@@ -9,6 +9,7 @@
 #include "abut/geometry/stopwatch.hpp"
 #include "scenes/contact_patch.hpp"
 #include "support/choices.hpp"
+#include "support/comparison.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -98,14 +99,11 @@ int main(int argc, char** argv) {
         app.add_option("--mesh", options.meshes, "meshes of the two blocks; by default all")
             ->delimiter(',')
             ->check(one_of({"matching", "non-matching", "unstructured"}))
-            ->type_name("NAME,...")
+            ->type_name("NAME[,NAME...]")
             ->group("Scene");
         add_number(app, "--strain", options.strain, "pressure over the wave modulus of the lower block", {.above = 0.0})
             ->group("Scene");
-        app.add_option("--out", options.out, "folder of all results; made if it is not there")
-            ->type_name("DIR")
-            ->capture_default_str()
-            ->group("Output");
+        add_out_option(app, options.out);
     };
     return run_program(program, argc, argv, add_options, [&] {
         prepare_study(options.out, {}, {});

@@ -10,6 +10,7 @@
 #include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
+#include "support/comparison.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -60,15 +61,11 @@ int main(int argc, char** argv) {
     using namespace abut::examples;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        app.add_option("--size", options.sizes, "sizes of cells [m], one a level")
-            ->delimiter(',')
-            ->check(CLI::Range(1e-3, 1.0))
-            ->type_name("X,X,...")
-            ->capture_default_str()
+        add_numbers(app, "--size", options.sizes, "sizes of cells, one a level", {.unit = "m", .above = 0.0, .below = 1.0})
             ->group("Scene");
         add_time_options(app, options.run, "the approach and 6 crossings of a disc by a wave");
         add_contact_options(app, options.run);
-        add_output_options(app, options.run);
+        add_out_option(app, options.run.out);
     };
     return run_program(program, argc, argv, add_options, [&] {
         prepare_study(options.run.out, {}, {});

@@ -10,6 +10,7 @@
 #include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
+#include "support/comparison.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -79,12 +80,6 @@ plot [0:*] (x <= 10 ? -0.1*x : 1/0) with lines lw 5 lc rgb "#b9b8b4" title "free
             .script = script + "\n"};
 }
 
-void check(const Options& options) {
-    for (const double cells : options.cells)
-        if (!(cells >= 2.0 && cells <= 1000.0))
-            throw std::invalid_argument(fmt::format("--cells: {:g} cells in the radius, 2 to 1000 are allowed.", cells));
-}
-
 }  // namespace
 }  // namespace abut::examples
 
@@ -92,17 +87,13 @@ int main(int argc, char** argv) {
     using namespace abut::examples;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        app.add_option("--cells", options.cells, "cells in the radius, a number a level")
-            ->delimiter(',')
-            ->type_name("N,N,...")
-            ->capture_default_str()
+        add_numbers(app, "--cells", options.cells, "cells in the radius, a number a level", {.above = 1.0, .below = 1000.0})
             ->group("Scene");
         add_time_options(app, options.run, "4 times the fall");
         add_contact_options(app, options.run);
-        add_output_options(app, options.run);
+        add_out_option(app, options.run.out);
     };
     return run_program(program, argc, argv, add_options, [&] {
-        check(options);
         std::vector<std::string> curves;
         for (const double cells : options.cells) curves.push_back(curve_name(cells));
         prepare_study(options.run.out, curves, {"fall"});

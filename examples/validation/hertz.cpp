@@ -12,6 +12,7 @@
 
 #include "abut/geometry/stopwatch.hpp"
 #include "support/choices.hpp"
+#include "support/comparison.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -35,7 +36,7 @@ void add_options(CLI::App& app, Options& options) {
     const auto grouped = [](CLI::Option* option) { option->group("Scene"); };
     grouped(add_choice(app, "--dim", options.dim, "cylinder or sphere", Choices<int>{{"2", 2}, {"3", 3}}));
     grouped(add_choice(app, "--support", options.hertz.support, "what it lies on", supports));
-    grouped(add_number(app, "--load", options.hertz.load, "P [N/m] in 2D, F [N] in 3D", {.above = 0.0}));
+    grouped(add_number(app, "--load", options.hertz.load, "P, in 3D F", {.unit = "N/m, N", .above = 0.0}));
     grouped(add_number(app, "--radius", options.hertz.radius, "of each round body", {.unit = "m", .above = 0.0}));
     grouped(add_body_values(app, "--young", options.hertz.young, "Young's modulus, upper and lower",
                             {.unit = "Pa", .above = 0.0}));
@@ -45,18 +46,13 @@ void add_options(CLI::App& app, Options& options) {
                        {.above = 0.0}));
     grouped(add_number(app, "--coarse", options.hertz.coarse, "size of cells far from the contact over the radius",
                        {.above = 0.0, .below = 1.0}));
-    grouped(app.add_option("--faces", options.faces,
-                           "faces in the contact radius, a number a level; by default 2.5,5,10, in 3D 2.5,5")
-                ->delimiter(',')
-                ->type_name("N,N,..."));
+    grouped(add_numbers(app, "--faces", options.faces,
+                        "faces in the contact radius, a number a level; by default 2.5,5,10, in 3D 2.5,5", {.above = 0.0}));
     add_number(app, "--tolerance", options.hertz.statics.tolerance, "largest force left, over the largest stress",
                {.above = 0.0})
         ->group("Statics");
     add_model_options(app, options.run);
-    app.add_option("--out", options.run.out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
+    add_out_option(app, options.run.out);
 }
 
 /// Targets of the reference case, for 5 faces in a and for 10.

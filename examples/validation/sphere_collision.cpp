@@ -11,6 +11,7 @@
 #include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
+#include "support/comparison.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -116,18 +117,16 @@ int main(int argc, char** argv) {
     using namespace abut::examples;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        app.add_option("--faces", options.faces, "faces in the largest contact radius, a number a level; 6 has targets")
-            ->delimiter(',')
-            ->check(CLI::Range(1.0, 100.0))
-            ->type_name("N,N,...")
-            ->capture_default_str()
+        add_numbers(app, "--faces", options.faces,
+                    "faces in the largest contact radius, a number a level; from 6 on there are targets",
+                    {.above = 1.0, .below = 100.0})
             ->group("Scene");
         add_number(app, "--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
                    {.above = 0.0, .below = 1.0})
             ->group("Scene");
         add_time_options(app, options.run, "1.2 times Hertz's duration");
         add_contact_options(app, options.run);
-        add_output_options(app, options.run);
+        add_out_option(app, options.run.out);
     };
     return run_program(program, argc, argv, add_options, [&] {
         std::vector<std::string> curves{"hertz"};

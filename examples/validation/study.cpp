@@ -41,9 +41,21 @@ void print_energies(const EnergyFigures& energies) {
                            energies.scale_name, energies.excess, energies.scale_name, energies.parasitic, energies.events));
 }
 
+std::optional<double> least_order(const Study& study, const std::string& quantity) {
+    for (const OrderTarget& target : study.orders)
+        if (target.quantity == quantity) return target.least;
+    return std::nullopt;
+}
+
 void print_orders(const Study& study) {
-    for (const std::string& name : quantity_names(study))
-        if (const auto order = fitted_order(study, name)) fmt::print("  {:<46}error ~ size^{:.2f}\n", name, *order);
+    for (const std::string& name : quantity_names(study)) {
+        const auto order = fitted_order(study, name);
+        if (!order) continue;
+        fmt::print("  {:<46}error ~ size^{:.2f}", name, *order);
+        if (const auto least = least_order(study, name))
+            fmt::print(", at least {:g} is asked for: {}", *least, *order >= *least ? "met" : "MISSED");
+        fmt::print("\n");
+    }
 }
 
 Json to_json(const Quantity& quantity) {
@@ -81,6 +93,7 @@ Json summary(const Program& program, const Study& study) {
     json["orders"] = Json::object();
     for (const std::string& name : quantity_names(study))
         if (const auto order = fitted_order(study, name)) json["orders"][name] = *order;
+    for (const OrderTarget& target : study.orders) json["orders_least"][target.quantity] = target.least;
     return json;
 }
 

@@ -52,6 +52,12 @@ struct Level {
     double seconds = 0.0;                   ///< of the computation, with its set-up
 };
 
+/// The least order of convergence that counts as reproduced.
+struct OrderTarget {
+    std::string quantity;
+    double least;
+};
+
 /// A case with known answers, computed on finer and finer meshes, or with several choices.
 struct Study {
     std::string title;
@@ -60,6 +66,7 @@ struct Study {
     std::vector<std::pair<std::string, Table>> curves;  ///< "pressure" is left as pressure.csv
     std::vector<Picture> pictures;
     nlohmann::ordered_json options;  ///< as they were used
+    std::vector<OrderTarget> orders{};
 };
 
 /// Order p of the error ~ size^p of a quantity: least squares over the logarithms at all levels with a size and an error
@@ -71,7 +78,7 @@ void prepare_study(const std::filesystem::path& out, const std::vector<std::stri
                    const std::vector<std::string>& pictures);
 
 /// Leaves values.csv (a row a quantity and level), the curves, the pictures and summary.json; prints the table: value,
-/// reference, error, target and whether it is met, orders of convergence, energies.
+/// reference, error, target and whether it is met, orders of convergence with theirs, energies.
 void report(const Program& program, const std::filesystem::path& out, const Study& study);
 
 }  // namespace abut::examples
