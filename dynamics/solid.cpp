@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "abut/contact/blind_corners.hpp"
 #include "abut/geometry/messages.hpp"
 #include "abut/geometry/parallel.hpp"
 #include "abut/geometry/sort_unique.hpp"
@@ -563,6 +564,15 @@ std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double
         if (open <= gap) touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2), pair.frame.normal(), open});
     });
     return touching;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const {
+    std::vector<Vector<Dim>> places;
+    if (!contact_) return places;
+    for (const std::int32_t vertex : contact::blind_corners(surface_.view(), options_.contact->search.facing_cosine))
+        places.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
+    return places;
 }
 
 template <int Dim>

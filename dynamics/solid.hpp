@@ -120,6 +120,8 @@ public:
     [[nodiscard]] contact::ContactReport contact_report() const;
     [[nodiscard]] const contact::Contact<Dim>* contact() const { return contact_ ? &*contact_ : nullptr; }
     [[nodiscard]] std::int64_t contact_faces_left_out() const { return left_out_; }
+    /// Places of corners that are too sharp for contact to see them coming; empty without contact. contact/blind_corners.hpp.
+    [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
 
 private:

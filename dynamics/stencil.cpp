@@ -21,6 +21,7 @@ inline constexpr std::size_t n_nearest = Dim == 2 ? 10 : 14;
 inline constexpr double volume_floor = 0.05;  // of the volume of the face's first cell
 inline constexpr int max_floor_halvings = 20;
 inline constexpr double extrapolation_step = 1e-3;
+inline constexpr double resolution = 1e-6;  // relative: numbers nearer to each other are equal but for rounding
 
 /// Centroids of one body's cells (a contiguous range), as nanoflann wants them.
 template <int Dim>
@@ -57,18 +58,24 @@ public:
         }
     }
 
-    /// The nearest `wanted` cells of a body, or all if it has fewer, by distance, then number.
+    /// The nearest `wanted` cells of a body, or all if it has fewer, by distance, then number. Distances are whole multiples
+    /// of `resolution` times the least one: which of two equal ones rounding made the smaller does not count, so that a mesh
+    /// has the same stencils in any unit of length and anywhere.
     [[nodiscard]] std::vector<Near> find(std::int32_t body, const Vector<Dim>& point, std::size_t wanted) const {
         const BodyTree& tree = *bodies_[body];
-        std::vector<std::uint32_t> index(wanted);
-        std::vector<double> squared(wanted);
-        const std::size_t n = tree.index.knnSearch(point.data(), wanted, index.data(), squared.data());
+        const std::size_t with_ties = 2 * wanted;
+        std::vector<std::uint32_t> index(with_ties);
+        std::vector<double> squared(with_ties);
+        const std::size_t n = tree.index.knnSearch(point.data(), with_ties, index.data(), squared.data());
+        const double unit = n > 0 && squared[0] > 0.0 ? resolution * std::sqrt(squared[0]) : 1.0;
         std::vector<Near> near;
         near.reserve(n);
         for (std::size_t i = 0; i < n; ++i)
-            near.push_back({std::sqrt(squared[i]), tree.centroids.first_cell + static_cast<std::int32_t>(index[i])});
+            near.push_back(
+                {std::round(std::sqrt(squared[i]) / unit), tree.centroids.first_cell + static_cast<std::int32_t>(index[i])});
         std::sort(near.begin(), near.end(),
                   [](const Near& a, const Near& b) { return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell); });
+        near.resize(std::min(n, wanted));
         return near;
     }
 
@@ -122,7 +129,8 @@ private:
             stencil.weights[j] = j == 0 ? 1.0 - coordinates.sum() : coordinates[j - 1];
         }
         const double lowest = *std::min_element(stencil.weights.begin(), stencil.weights.end());
-        const double extrapolation = extrapolation_step * std::floor(std::max(0.0, -lowest) / extrapolation_step);
+        const double extrapolation =
+            extrapolation_step * std::floor(std::max(0.0, -lowest) / extrapolation_step + resolution);
         auto cells = stencil.cells;
         std::sort(cells.begin(), cells.end());
         if (std::tie(extrapolation, sum, cells) >= std::tie(best_extrapolation_, best_sum_, best_cells_)) return;

@@ -27,7 +27,7 @@ struct StencilReport {
 
 /// A simplex for each of `faces`, out of the nearest cell centroids of the same body (10 in 2D, 14 in 3D, up to four times
 /// as many where these span none): least extrapolation (in whole steps of 1e-3, rounded down), then smallest sum of
-/// distances to x_f, then cell numbers (only where sums are equal to the last bit: on a regular grid rounding may decide);
+/// distances to x_f, then cell numbers (where sums are equal to a millionth of the least distance: rounding has no say);
 /// its volume at least 0.05 of the face's first cell, and if there is none, half of that again and again. The choice decides
 /// the stable step. docs/method.md, Space. Throws std::runtime_error naming the face when the centroids near it span no
 /// simplex (a body one cell thick).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "abut/geometry/box.hpp"
@@ -12,6 +13,9 @@ namespace {
 
 /// In mean distances between centroids.
 inline constexpr double layer_thickness = 1.0;
+/// Places that differ by less are one: rounding, and so the unit of length, has no say in the order. In mean distances
+/// between centroids; of extents, in the longest.
+inline constexpr double resolution = 1e-6;
 
 /// New number of each used vertex, -1 for the others.
 template <int Dim>
@@ -55,16 +59,23 @@ std::vector<std::int32_t> layer_order(const std::vector<Vector<Dim>>& points) {
     geometry::Box<Dim> box;
     for (const Vector<Dim>& point : points) box.extend(point);
     const Vector<Dim> extent = box.upper - box.lower;
+    const double longest = extent.maxCoeff(), unit = longest > 0.0 ? longest : 1.0;
+    const Vector<Dim> relative = extent / unit;
     std::array<Eigen::Index, Dim> axis;
     std::iota(axis.begin(), axis.end(), 0);
-    std::stable_sort(axis.begin(), axis.end(), [&](Eigen::Index a, Eigen::Index b) { return extent[a] > extent[b]; });
-    const double spacing = layer_thickness * std::pow(extent.prod() / static_cast<double>(points.size()), 1.0 / Dim);
+    std::ranges::stable_sort(axis, std::greater{}, [&](Eigen::Index k) { return std::round(relative[k] / resolution); });
+    const double spacing =
+        layer_thickness * unit * std::pow(relative.prod() / static_cast<double>(points.size()), 1.0 / Dim);
 
     std::vector<std::array<double, Dim>> keys(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         for (int k = 0; k < Dim; ++k) {
             const double along = points[i][axis[k]] - box.lower[axis[k]];
-            keys[i][k] = k + 1 < Dim && spacing > 0.0 ? std::floor(along / spacing) : along;
+            if (!(spacing > 0.0))
+                keys[i][k] = along;
+            else
+                keys[i][k] =
+                    k + 1 < Dim ? std::floor(along / spacing + resolution) : std::round(along / spacing / resolution);
         }
     std::vector<std::int32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0);

@@ -136,6 +136,7 @@ void name_parts(int tag, const std::string& body_name, const NameOfSide& name_of
 }
 
 /// Meshes the part that `add_part` adds to an empty OpenCASCADE model; it returns the tag of its volume (surface in 2D).
+/// Gmsh and OpenCASCADE measure with lengths of their own (1e-7 and the like): the part must be of about unit size.
 template <int Dim>
 CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, const std::function<int()>& add_part,
                           const NameOfSide& name_of_side) {
@@ -158,14 +159,29 @@ CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, 
     return soup;
 }
 
-/// Meshes the part in the frame in which it is not turned yet, around the origin, then turns and moves the vertices.
+/// From the frame and the unit in which Gmsh meshes a part to where it belongs: x -> origin + turn (unit x).
 template <int Dim>
-Mesh<Dim> turned_part(const std::string& name, const Vector<Dim>& centre, const Matrix<Dim>& turn, SizeField<Dim> field,
+struct Placement {
+    double unit;  ///< [m]
+    Vector<Dim> origin;
+    Matrix<Dim> turn = Matrix<Dim>::Identity();
+};
+
+/// Meshes the part in units of its own size, not turned yet and around the origin, then puts the vertices in their place.
+template <int Dim>
+Mesh<Dim> placed_part(const std::string& name, const Placement<Dim>& placement, SizeField<Dim> field,
                       const std::function<int()>& add_part, const NameOfSide& name_of_side,
                       const MeshOptions& mesh_options) {
-    if (field.refinement) field.refinement->point = turn.transpose() * (field.refinement->point - centre);
+    const auto& [unit, origin, turn] = placement;
+    field.size /= unit;
+    if (auto& refinement = field.refinement) {
+        refinement->point = turn.transpose() * (refinement->point - origin) / unit;
+        refinement->size /= unit;
+        refinement->distance /= unit;
+        refinement->uniform /= unit;
+    }
     auto soup = meshed_part<Dim>(name, field, add_part, name_of_side);
-    for (Vector<Dim>& vertex : soup.vertices) vertex = centre + turn * vertex;
+    for (Vector<Dim>& vertex : soup.vertices) vertex = origin + turn * (unit * vertex);
     return build_mesh(std::move(soup), mesh_options);
 }
 
@@ -173,13 +189,14 @@ Matrix<3> turn_about(const Vector<3>& axis, int variant) {
     return Eigen::AngleAxisd(variant * golden_angle, axis.normalized()).toRotationMatrix();
 }
 
+/// Of a box with one corner at the origin.
 template <int Dim>
-std::string side_of_box(const Vector<3>& centre, const Vector<Dim>& lower, const Vector<Dim>& upper) {
+std::string side_of_box(const Vector<3>& centre, const Vector<Dim>& sides) {
     static const std::array<std::string, 6> names = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
     std::size_t best = 0;
     double smallest = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 2 * Dim; ++i) {
-        const double distance = std::abs(centre[i / 2] - (i % 2 == 0 ? lower : upper)[i / 2]);
+        const double distance = std::abs(centre[i / 2] - (i % 2 == 0 ? 0.0 : sides[i / 2]));
         if (distance >= smallest) continue;
         smallest = distance;
         best = static_cast<std::size_t>(i);
@@ -194,10 +211,9 @@ Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
     check_finite(options.name, "centre", options.centre);
     check_positive(options.name, "radius", options.radius);
     const Matrix<2> turn = turn_about(Vector<3>::UnitZ(), options.variant).topLeftCorner<2, 2>();
-    return turned_part<2>(
-        options.name, options.centre, turn, {options.size, options.refinement},
-        [&] { return gmsh::model::occ::addDisk(0, 0, 0, options.radius, options.radius); },
-        [](const Vector<3>&) { return "boundary"; }, mesh_options);
+    return placed_part<2>(
+        options.name, {options.radius, options.centre, turn}, {options.size, options.refinement},
+        [] { return gmsh::model::occ::addDisk(0, 0, 0, 1, 1); }, [](const Vector<3>&) { return "boundary"; }, mesh_options);
 }
 
 Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options) {
@@ -205,14 +221,14 @@ Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options
     check_finite(options.name, "centre", options.centre);
     check_positive(options.name, "radius", options.radius);
     check_positive(options.name, "length", options.length);
-    const double half = 0.5 * options.length;
+    const double length = options.length / options.radius, half = 0.5 * length;
     const auto side = [half](const Vector<3>& at) {
         return at.z() < -0.5 * half ? "bottom" : at.z() > 0.5 * half ? "top" : "side";
     };
-    return turned_part<3>(
-        options.name, options.centre, turn_about(Vector<3>::UnitZ(), options.variant), {options.size, options.refinement},
-        [&] { return gmsh::model::occ::addCylinder(0, 0, -half, 0, 0, options.length, options.radius); }, side,
-        mesh_options);
+    return placed_part<3>(
+        options.name, {options.radius, options.centre, turn_about(Vector<3>::UnitZ(), options.variant)},
+        {options.size, options.refinement}, [&] { return gmsh::model::occ::addCylinder(0, 0, -half, 0, 0, length, 1); },
+        side, mesh_options);
 }
 
 Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
@@ -220,10 +236,10 @@ Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
     check_finite(options.name, "centre", options.centre);
     check_positive(options.name, "radius", options.radius);
     const Vector<3> skew(1.0, std::numbers::sqrt2, std::numbers::pi);
-    return turned_part<3>(
-        options.name, options.centre, turn_about(skew, options.variant), {options.size, options.refinement},
-        [&] { return gmsh::model::occ::addSphere(0, 0, 0, options.radius); }, [](const Vector<3>&) { return "boundary"; },
-        mesh_options);
+    return placed_part<3>(
+        options.name, {options.radius, options.centre, turn_about(skew, options.variant)},
+        {options.size, options.refinement}, [] { return gmsh::model::occ::addSphere(0, 0, 0, 1); },
+        [](const Vector<3>&) { return "boundary"; }, mesh_options);
 }
 
 template <int Dim>
@@ -237,15 +253,16 @@ Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options) {
     const double shrink = 1.0 / (1.0 + options.variant * options.size / sides.minCoeff());
     SizeField<Dim> field{options.size * shrink, options.refinement};
     if (field.refinement) field.refinement->size *= shrink;
-    const Vector<Dim>& a = options.lower;
+    const double unit = sides.maxCoeff();
+    const Vector<Dim> relative = sides / unit;
     const auto add_part = [&] {
         if constexpr (Dim == 2)
-            return gmsh::model::occ::addRectangle(a[0], a[1], 0, sides[0], sides[1]);
+            return gmsh::model::occ::addRectangle(0, 0, 0, relative[0], relative[1]);
         else
-            return gmsh::model::occ::addBox(a[0], a[1], a[2], sides[0], sides[1], sides[2]);
+            return gmsh::model::occ::addBox(0, 0, 0, relative[0], relative[1], relative[2]);
     };
-    const auto side = [&](const Vector<3>& centre) { return side_of_box<Dim>(centre, options.lower, options.upper); };
-    return build_mesh(meshed_part<Dim>(options.name, field, add_part, side), mesh_options);
+    const auto side = [&](const Vector<3>& centre) { return side_of_box<Dim>(centre, relative); };
+    return placed_part<Dim>(options.name, {unit, options.lower}, field, add_part, side, mesh_options);
 }
 
 template Mesh<2> box<2>(const BoxOptions<2>&, const MeshOptions&);

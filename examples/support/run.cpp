@@ -47,6 +47,11 @@ void log_start(const Scene<Dim>& scene, const RunResult<Dim>& result) {
             stencils.extrapolated, stencils.faces, stencils.worst_weight);
     if (result.contact_faces_left_out > 0)
         spdlog::info("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out);
+    if (const auto& corners = result.blind_corners; !corners.empty())
+        spdlog::warn(
+            "{} corners, one of them at ({:g}), are so sharp that contact does not see them meet a flat face: bodies pass "
+            "through each other there. Blunt them, or take a --facing-cosine nearer to 0.",
+            corners.size(), fmt::join(corners.front(), ", "));
 }
 
 template <int Dim>

@@ -62,6 +62,7 @@ struct RunResult {
     int threads = 0;    ///< allowed
     contact::ContactReport contact;
     std::int64_t not_admitted_max = 0;          ///< most pairs at a record that face each other inside and are no contacts
+    std::vector<Vector<Dim>> blind_corners;     ///< too sharp for contact to see them [m]
     std::int64_t contact_faces_left_out = 0;    ///< their displacement is prescribed
     dynamics::StencilReport stencils;           ///< of the faces between cells
     dynamics::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined

@@ -91,6 +91,10 @@ void add_contact_options(CLI::App& app, RunOptions& options) {
                        "cut steps where a pair opens, closes or changes its overlap (energy exact)", switches));
     grouped(add_choice(app, "--quadrature", contact.quadrature,
                        "Gauss points on each part of a step; by default the exact number: 2 in 2D, 3 in 3D", quadratures));
+    grouped(add_number(
+        app, "--facing-cosine", contact.search.facing_cosine,
+        "faces look at each other where the cosine between their normals is below it; nearer to 0 sharper tips are seen",
+        {.above = -1.0, .below = 0.0}));
     grouped(add_number(app, "--skin", contact.search.skin,
                        "how far faces move before the list of near faces is made anew; 0: chosen from the number of faces "
                        "and pairs and the motion",
@@ -141,6 +145,7 @@ nlohmann::ordered_json to_json(const RunOptions& options) {
                  {"area", name_of(areas, contact.area)},
                  {"events", name_of(switches, contact.events)},
                  {"quadrature", contact.quadrature},
+                 {"facing_cosine", contact.search.facing_cosine},
                  {"compression_limit", contact.compression_limit},
                  {"neumann", name_of(neumanns, options.neumann)},
                  {"out", options.out.string()},

@@ -82,6 +82,7 @@ struct Start {
         result.stencils = solid.ccg().stencil_report();
         result.boundary_stencils = solid.ccg().boundary().report;
         result.contact_faces_left_out = solid.contact_faces_left_out();
+        result.blind_corners = solid.blind_corners();
         q.assign(solid.size(), 0.0);
         if (scene.displacement) {
             const auto u = dynamics::as_vectors<Dim>(std::span<double>(q));

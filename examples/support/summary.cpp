@@ -102,6 +102,7 @@ Json counts_json(const RunResult<Dim>& result) {
             {"candidates", contact.candidates_max},
             {"rebuilds", contact.rebuilds},
             {"contact_faces_left_out", result.contact_faces_left_out},
+            {"blind_corners", result.blind_corners.size()},
             {"compression_max", contact.compression_max},
             {"compressed_steps", contact.compressed_steps},
             {"stencil_faces", result.stencils.faces},

@@ -46,7 +46,7 @@ struct Simplex {
     double volume = 0.0;                                ///< in parts of the face's first cell
     double distances = 0.0;                             ///< their sum
     [[nodiscard]] double thousandths_outside() const {  // whole ones
-        return std::floor(1e3 * std::max(0.0, -*std::min_element(stencil.weights.begin(), stencil.weights.end())));
+        return std::floor(1e3 * std::max(0.0, -*std::min_element(stencil.weights.begin(), stencil.weights.end())) + 1e-6);
     }
 };
 
@@ -208,6 +208,24 @@ TEMPLATE_TEST_CASE_SIG("the report counts the faces that extrapolate and names t
     CHECK(report.extrapolated >= static_cast<std::int64_t>(mesh.boundary_faces.size()));
     CHECK(report.worst_weight == worst);
     CHECK(report.worst_face == worst_face);
+}
+
+TEST_CASE("a mesh has the same stencils in any unit of length and anywhere, also where simplices are equally good",
+          "[stencil]") {
+    const auto stencils_of = [](double unit, const Vector<3>& place) {
+        const auto mesh = mesh::structured_box<3>(unit * place, unit * (place + Vector<3>(1.0, 0.9, 1.1)), {3, 3, 3},
+                                                  mesh::CellShape::hexahedron);
+        dynamics::StencilReport report;
+        std::vector<std::array<std::int32_t, 4>> cells;
+        for (const auto& stencil : dynamics::select_stencils<3>(mesh, all_faces<3>(mesh), report)) {
+            cells.push_back(stencil.cells);
+            std::sort(cells.back().begin(), cells.back().end());
+        }
+        return cells;
+    };
+    const auto plain = stencils_of(1.0, Vector<3>::Zero());
+    for (const double unit : {1e-9, 1e-3, 1e9}) CHECK(stencils_of(unit, Vector<3>::Zero()) == plain);
+    for (const double offset : {1.0, 1e2, 1e6}) CHECK(stencils_of(1.0, offset * Vector<3>(1.0, -0.7, 0.3)) == plain);
 }
 
 TEST_CASE("no interior face of a uniform grid extrapolates", "[dynamics][stencil]") {

@@ -1,6 +1,7 @@
 #include "mesh/laws.hpp"
 
 #include <clocale>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <thread>
@@ -110,6 +111,33 @@ TEST_CASE("cells have the wanted size, and are smaller where refinement is asked
     const auto solid = cylinder({.size = 0.3, .refinement = Refinement<3>{{1, 0, 0}, 0.05, 0.5}, .variant = 1});
     const auto smallest = quality(solid).smallest_cell;
     CHECK((solid.cell_centroid[static_cast<std::size_t>(smallest)] - Vector<3>(1, 0, 0)).norm() < 0.3);
+}
+
+TEST_CASE("a part has the same mesh in any unit of length, and anywhere", "[mesh][shapes]") {
+    const double unit = GENERATE(1e-9, 1e9, 0x1p-30, 0x1p30);
+    const auto refined = [](double u) { return Refinement<2>{u * Vector<2>(0, -1), 0.05 * u, 0.5 * u, 0.1 * u}; };
+    const auto check_scaled = [unit]<int Dim>(const Mesh<Dim>& scaled, const Mesh<Dim>& plain) {
+        REQUIRE(scaled.vertices.size() == plain.vertices.size());
+        CHECK(scaled.cell_vertices.values == plain.cell_vertices.values);
+        const bool is_exact = std::log2(unit) == std::floor(std::log2(unit));
+        double worst = 0.0;
+        for (std::size_t i = 0; i < plain.vertices.size(); ++i)
+            worst = std::max(worst, (scaled.vertices[i] / unit - plain.vertices[i]).norm());
+        CHECK(worst <= (is_exact ? 0.0 : 1e-12));
+    };
+    const auto disc_in = [&](double u) { return disc({.radius = u, .size = 0.3 * u, .refinement = refined(u)}); };
+    check_scaled(disc_in(unit), disc_in(1.0));
+    const auto sphere_in = [](double u) { return sphere({.radius = u, .size = 0.7 * u}); };
+    check_scaled(sphere_in(unit), sphere_in(1.0));
+    const auto cylinder_in = [](double u) { return cylinder({.radius = u, .length = 2 * u, .size = 0.8 * u}); };
+    check_scaled(cylinder_in(unit), cylinder_in(1.0));
+    const auto box_in = [](double u) { return box<3>({.lower = {0, u, 0}, .upper = {u, 2 * u, 3 * u}, .size = u}); };
+    check_scaled(box_in(unit), box_in(1.0));
+    const Vector<2> corner(1e6, -1e6);
+    const auto far = box<2>({.lower = corner, .upper = corner + Vector<2>(1, 2), .size = 0.3});
+    const auto near = box<2>({.lower = {0, 0}, .upper = {1, 2}, .size = 0.3});
+    CHECK(far.cell_vertices.values == near.cell_vertices.values);
+    CHECK(test::total_measure(far) == Approx(2.0).epsilon(1e-9));
 }
 
 TEST_CASE("equal parts of different variants do not match", "[mesh][shapes]") {
