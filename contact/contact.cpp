@@ -183,6 +183,7 @@ void Contact<Dim>::report_step() {
     report_.active_pairs_max = std::max(report_.active_pairs_max, report_.active_pairs);
     report_.events += integral_.events();
     report_.compression_max = std::max(report_.compression_max, integral_.compression());
+    report_.sliding_ratio_max = std::max(report_.sliding_ratio_max, integral_.sliding_ratio());
     if (integral_.compression() > options_.compression_warning) ++report_.compressed_steps;
     if (integral_.compression() > options_.compression_limit) {
         const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];

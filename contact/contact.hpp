@@ -21,6 +21,7 @@ struct ContactReport {
     std::int64_t not_admitted = 0;      ///< pairs of the current list with A > 0 and g < 0 that are no contacts
     std::int64_t compressed_steps = 0;  ///< steps with |g|/D above the warning
     double compression_max = 0.0;       ///< largest |g|/D
+    double sliding_ratio_max = 0.0;     ///< largest |g| |dA/ds| over the smaller face of a pair
 };
 
 /// The contact of a set of surfaces, for any solver that moves its bodies along straight lines during a step.

@@ -138,16 +138,28 @@ void PathIntegral<Dim>::find_active(const Step& step) {
         for (std::size_t i = begin; i < end; ++i) append_pair(step.pairs, closing_[i], found);
     });
     join_found();
-    compression_ = 0.0;
+    measure_active(step);
+}
+
+/// How deep and how far aside active pairs are pressed.
+template <int Dim>
+void PathIntegral<Dim>::measure_active(const Step& step) {
+    compression_ = sliding_ratio_ = 0.0;
     most_compressed_ = -1;
     std::size_t i = 0;
-    for (const std::int32_t p : active_) {
-        while (closing_[i].pair != p) ++i;
-        const double compression =
-            -std::min(closing_[i].motion.at_0.gap, closing_[i].motion.at_1.gap) / step.pairs.pairs()[p].depth;
-        if (compression <= compression_) continue;
-        compression_ = compression;
-        most_compressed_ = p;
+    for (std::size_t a = 0; a < active_.size(); ++a) {
+        while (closing_[i].pair != active_[a]) ++i;
+        const ContactPair<Dim>& pair = step.pairs.pairs()[active_[a]];
+        const double compression = -std::min(closing_[i].motion.at_0.gap, closing_[i].motion.at_1.gap) / pair.depth;
+        if (compression > compression_) {
+            compression_ = compression;
+            most_compressed_ = active_[a];
+        }
+        const double face = std::min(step.surface.area[pair.face_1], step.surface.area[pair.face_2]);
+        for (const PathPiece<Dim>& piece : row<Dim>(pieces_, piece_offsets_, static_cast<std::int32_t>(a))) {
+            const double depth = -std::min(piece.depth[0], polynomial(piece.depth, 1.0));
+            sliding_ratio_ = std::max(sliding_ratio_, depth * piece.shift_derivative[0].norm() / face);
+        }
     }
 }
 

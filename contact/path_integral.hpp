@@ -69,6 +69,9 @@ public:
     /// Largest |g|/D of an active pair at the ends of the step, and which pair (-1: none).
     [[nodiscard]] double compression() const { return compression_; }
     [[nodiscard]] std::int32_t most_compressed() const { return most_compressed_; }
+    /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over that
+    /// which the whole face would carry.
+    [[nodiscard]] double sliding_ratio() const { return sliding_ratio_; }
 
 private:
     using Position = PairPosition<Dim>;
@@ -125,6 +128,7 @@ private:
     void append_sampled_piece(const PairList<Dim>& pairs, const ContactPair<Dim>& pair, const Motion& motion,
                               Found& found) const;
     void join_found();
+    void measure_active(const Step& step);
     void link_faces(const Step& step);
     void add_mean_corrections(const PairList<Dim>& pairs);
     [[nodiscard]] PairForce pair_force(const Step& step, std::int32_t active, Scratch& scratch) const;
@@ -149,6 +153,7 @@ private:
     std::vector<double> mean_normal_force_;
     double compression_ = 0.0;
     std::int32_t most_compressed_ = -1;
+    double sliding_ratio_ = 0.0;
 };
 
 }  // namespace abut::contact

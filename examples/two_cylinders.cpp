@@ -10,6 +10,7 @@
 
 #include "abut/mesh/read_mesh.hpp"
 #include "abut/mesh/shapes.hpp"
+#include "support/preset.hpp"
 
 namespace abut::examples {
 namespace {
@@ -230,6 +231,7 @@ int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
             ->group("Scene");
         add_body_options(app, scene);
         add_place_options(app, scene, cylinders.offset_over_radius);
+        add_preset_option(app, options);
         add_time_options(app, options, fmt::format("the approach and {:g} R/sqrt(E/rho)", default_crossings));
         add_contact_options(app, options);
         add_output_options(app, options);

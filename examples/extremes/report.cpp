@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "support/csv.hpp"
 #include "support/files.hpp"
 
 namespace abut::examples::extremes {
@@ -17,23 +18,16 @@ std::string shown(double number) { return std::isnan(number) ? "-" : fmt::format
 std::string exact(double number) { return std::isnan(number) ? "" : fmt::format("{:.17g}", number); }
 Json json_number(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
-/// As a field of CSV: quotation marks inside are doubled.
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return result + "\"";
-}
-
 std::string csv_text(const std::vector<Row>& rows) {
     std::string text =
         "family,value,outcome,finite,pseudo_energy_drift,energy_excess_max,parasitic_max,events,momentum_drift,"
-        "lost_contacts,compression_max,deviation,cells,steps,active_pairs_max,blind_corners,message\n";
+        "lost_contacts,compression_max,sliding_ratio_max,deviation,cells,steps,active_pairs_max,blind_corners,message\n";
     for (const Row& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
                             name_of(row.verdict), row.is_finite ? 1 : 0, exact(row.drift), exact(row.excess),
                             exact(row.parasitic), row.events, exact(row.momentum), row.lost_contacts, exact(row.compression),
-                            exact(row.deviation), row.cells, row.steps, row.active_pairs_max, row.blind_corners,
-                            quoted(row.message));
+                            exact(row.sliding), exact(row.deviation), row.cells, row.steps, row.active_pairs_max,
+                            row.blind_corners, quoted(row.message));
     return text;
 }
 
@@ -49,6 +43,7 @@ Json to_json(const Row& row) {
             {"momentum_drift", json_number(row.momentum)},
             {"lost_contacts", row.lost_contacts},
             {"compression_max", json_number(row.compression)},
+            {"sliding_ratio_max", json_number(row.sliding)},
             {"deviation", json_number(row.deviation)},
             {"cells", row.cells},
             {"steps", row.steps},
@@ -98,15 +93,16 @@ Json summary(const Program& program, const SweepOptions& options, const std::vec
 
 void print_head(const Family& family) {
     fmt::print("{}: {}\n", family.name, family.question);
-    fmt::print("  {:<38}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}\n", "", "outcome", "drift", "H - H~", "|e|/m v",
-               "events", "momentum", "lost", "|g|/D", "units");
+    fmt::print("  {:<38}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}\n", "", "outcome", "drift", "H - H~", "|e|/m v",
+               "events", "momentum", "lost", "|g|/D", "sliding", "units");
 }
 
 void print(const Row& row) {
     fmt::print("  {:<38}{:<9}", row.value, name_of(row.verdict));
     if (row.verdict != Verdict::refused)
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}", shown(row.drift), shown(row.excess), shown(row.parasitic),
-                   row.events, shown(row.momentum), row.lost_contacts, shown(row.compression), shown(row.deviation));
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}", shown(row.drift), shown(row.excess),
+                   shown(row.parasitic), row.events, shown(row.momentum), row.lost_contacts, shown(row.compression),
+                   shown(row.sliding), shown(row.deviation));
     fmt::print("\n");
     if (!row.message.empty()) fmt::print("      {}\n", row.message);
     std::fflush(stdout);

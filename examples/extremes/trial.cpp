@@ -68,7 +68,10 @@ std::string defect(const Row& row, bool keeps_momentum) {
     if (keeps_momentum && !(row.momentum <= largest_momentum_drift))
         return fmt::format("momentum drifts by {:.2g}, {:g} is allowed", row.momentum, largest_momentum_drift);
     if (!(row.excess <= largest_excess))
-        return fmt::format("H - H~ reaches {:.2g} of the scale, {:g} is allowed", row.excess, largest_excess);
+        return fmt::format(
+            "H - H~ reaches {:.2g} of the scale, {:g} is allowed; faces that slide off each other are pressed in by {:.2g} "
+            "of their width",
+            row.excess, largest_excess, row.sliding);
     if (row.lost_contacts > 0) return fmt::format("{} contacts were lost, 0 are allowed", row.lost_contacts);
     return "";
 }
@@ -81,6 +84,7 @@ void measure(Row& row, const Trial<Dim>& trial, const RunResult<Dim>& result) {
     row.parasitic = result.ledger.parasitic() / trial.speed;
     if (trial.keeps_momentum) row.momentum = result.ledger.momentum_drift() / impulse_scale(result);
     row.compression = result.contact.compression_max;
+    row.sliding = result.contact.sliding_ratio_max;
     row.steps = result.steps;
     row.events = result.contact.events;
     row.lost_contacts = result.contact.lost_contacts;

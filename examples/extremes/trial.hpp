@@ -50,6 +50,7 @@ struct Row {
     double parasitic = not_given;    ///< max |e|/m over the speed of the trial
     double momentum = not_given;     ///< drift over the sum of m |v| at the start
     double compression = not_given;  ///< largest |g|/D
+    double sliding = not_given;      ///< largest |g| |dA/ds| over the smaller face
     double deviation = not_given;    ///< from the same run in other units or at another place
     std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
     std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "abut/contact/obstacle.hpp"
+#include "abut/geometry/stopwatch.hpp"
 #include "abut/mesh/shapes.hpp"
 
 namespace abut::examples {
@@ -236,8 +237,10 @@ HertzResult<Dim> solve_hertz(const HertzOptions& options) {
     const mesh::Mesh<Dim> mesh = bodies<Dim>(options);
     dynamics::Solid<Dim> solid(mesh, solid_options<Dim>(options, mesh));
     HertzResult<Dim> result{.exact = hertz_solution<Dim>(options), .n_cells = mesh.n_cells()};
-    auto solution =
-        solve_statics(solid, touching(solid, press * result.exact.contact_radius / options.faces), options.statics);
+    auto solution = [&] {
+        const Stopwatch watch(result.seconds);
+        return solve_statics(solid, touching(solid, press * result.exact.contact_radius / options.faces), options.statics);
+    }();
     result.report = std::move(solution.report);
     if (!result.report.converged)
         throw std::runtime_error(

@@ -63,6 +63,7 @@ struct HertzResult {
     double face_size = 0.0;             ///< mean size of the faces in the contact [m]
     std::int32_t n_cells = 0;
     dynamics::StaticReport report;
+    double seconds = 0.0;  ///< of the static solver
 };
 
 /// Throws what `solve_statics` and the meshes throw, and std::runtime_error if the forces do not come into balance.

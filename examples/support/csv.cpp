@@ -16,4 +16,10 @@ void write_csv(const std::filesystem::path& path, const Table& table) {
     write_whole(path, fmt::to_string(text));
 }
 
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+}
+
 }  // namespace abut::examples

@@ -54,12 +54,22 @@ void log_start(const Scene<Dim>& scene, const RunResult<Dim>& result) {
             corners.size(), fmt::join(corners.front(), ", "));
 }
 
+/// Ratio of the forces of sliding and pressing from which on contacts were seen to be stiffer than the stable step allows
+/// for. docs/limits.md.
+constexpr double stiff_sliding = 1.0;
+
 template <int Dim>
 void log_end(const RunResult<Dim>& result) {
     if (result.contact.compressed_steps > 0)
         spdlog::warn("strongly compressed in {} of {:.0f} steps, at most {:.2g} of the skin D",
                      result.contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
                      result.contact.compression_max);
+    if (result.contact.sliding_ratio_max > stiff_sliding)
+        spdlog::warn(
+            "faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide off each "
+            "other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ and |e|/m; a lower "
+            "--cfl, --filter neutral, or faces as wide as their cells are deep make it better",
+            result.contact.sliding_ratio_max, stiff_sliding);
     if (result.not_admitted_max > 0)
         spdlog::info("up to {} pairs of faces overlap without being contacts: far sides of bodies", result.not_admitted_max);
     if (result.contact.lost_contacts > 0)

@@ -104,6 +104,7 @@ Json counts_json(const RunResult<Dim>& result) {
             {"contact_faces_left_out", result.contact_faces_left_out},
             {"blind_corners", result.blind_corners.size()},
             {"compression_max", contact.compression_max},
+            {"sliding_ratio_max", contact.sliding_ratio_max},
             {"compressed_steps", contact.compressed_steps},
             {"stencil_faces", result.stencils.faces},
             {"stencil_extrapolations", result.stencils.extrapolated},

@@ -136,6 +136,24 @@ TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pres
     CHECK(mover.contact.report().compression_max == Approx(1.5 / (2.0 * depth)).epsilon(1e-14));
 }
 
+TEMPLATE_TEST_CASE_SIG("what sliding adds to a contact is reported: the gap times dA/ds over a face", "[contact][admission]",
+                       ((int Dim), Dim), 2, 3) {
+    contact::ContactOptions options = wide_skin();
+    SECTION("tiles 1 wide that overlap in part: dA/ds = 1, |f| = 1") {
+        Mover<Dim> mover(two_tiles<Dim>(), options);
+        mover.search(at<Dim>(0.1, 0.25));
+        CHECK(mover.move_to(at<Dim>(-0.5, 0.5)));
+        CHECK(mover.contact.report().sliding_ratio_max == Approx(0.5).epsilon(1e-14));
+    }
+    SECTION("a frozen overlap has no such force") {
+        options.overlap = contact::OverlapMode::frozen;
+        Mover<Dim> mover(two_tiles<Dim>(), options);
+        mover.search(at<Dim>(0.1, 0.25));
+        CHECK(mover.move_to(at<Dim>(-0.5, 0.5)));
+        CHECK(mover.contact.report().sliding_ratio_max == 0.0);
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("an admitted pair stays in the list where its boxes no longer meet", "[contact][admission]",
                        ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();

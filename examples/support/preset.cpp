@@ -1,0 +1,42 @@
+#include "support/preset.hpp"
+
+#include <stdexcept>
+
+namespace abut::examples {
+
+std::string words_of(Preset preset) {
+    switch (preset) {
+        case Preset::fast:
+            return "--overlap frozen --events off --quadrature 1";
+        case Preset::balanced:
+            return "";
+        case Preset::exact:
+            return "--cfl 0.3 --filter neutral";
+    }
+    throw std::invalid_argument("not a Preset");
+}
+
+void apply(Preset preset, RunOptions& options) {
+    CLI::App app;
+    add_time_options(app, options, "");
+    add_contact_options(app, options);
+    app.parse(words_of(preset), false);
+}
+
+void add_preset_option(CLI::App& app, RunOptions& options) {
+    std::vector<std::string> names;
+    for (const auto& [name, preset] : presets) names.push_back(name);
+    const auto choose = [&options](const std::string& text) {
+        for (const auto& [name, preset] : presets)
+            if (name == text) apply(preset, options);
+    };
+    app.add_option_function<std::string>("--preset", choose,
+                                         "several choices at once, which other options overrule (docs/trade.md): fast is " +
+                                             words_of(Preset::fast) + ", exact is " + words_of(Preset::exact))
+        ->check(one_of(names))
+        ->type_name(joined(names))
+        ->default_str("balanced")
+        ->group("Preset");
+}
+
+}  // namespace abut::examples

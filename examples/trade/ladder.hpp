@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "support/run_options.hpp"
+
+namespace abut::examples::trade {
+
+/// A point of the ladder, as it would be typed: "--overlap frozen --events off"; "" for the defaults.
+using Setting = std::string;
+
+/// Which settings are run.
+enum class Extent {
+    each,      ///< each choice by itself, all others at their defaults, and the presets
+    products,  ///< also all combinations of overlap x events x quadrature x time step, and of filter x time step
+};
+
+/// All different, the defaults first. Of a problem at rest only what matters at rest.
+[[nodiscard]] std::vector<Setting> ladder(Extent extent, bool at_rest);
+
+/// `base` with the options of a setting. Throws CLI::ParseError for what a program would not take.
+[[nodiscard]] RunOptions options_of(const Setting& setting, RunOptions base);
+
+}  // namespace abut::examples::trade
