@@ -9,8 +9,8 @@
 #include "abut/dynamics/ccg_region.hpp"
 #include "abut/dynamics/ccg_sweeps.hpp"
 #include "abut/dynamics/motion_bound.hpp"
-#include "abut/geometry/parallel.hpp"
 #include "abut/geometry/messages.hpp"
+#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -202,6 +202,11 @@ template <int Dim>
 double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                               std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
     return impl_->motion_bound(u_from, load_from, u_to, load_to);
+}
+
+template <int Dim>
+double Ccg<Dim>::motion_amplification() const {
+    return impl_->motion_bound.amplification();
 }
 
 template <int Dim>

@@ -35,6 +35,16 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
     for (std::int32_t b = 0; b < arrays.n_boundary(); ++b)
         norm_sum_.push_back(
             std::accumulate(norms_.begin() + boundary.offsets[b], norms_.begin() + boundary.offsets[b + 1], 0.0));
+    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
+        Matrix<Dim> own = Matrix<Dim>::Identity() - boundary.deficit[b];
+        double others = 0.0;
+        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) {
+            if (places_[i] == own_[b]) continue;
+            own -= boundary.weights[i];
+            others += norms_[i];
+        }
+        amplification_ = std::max(amplification_, spectral_norm<Dim>(own) + others);
+    }
     moved_.resize(lane_width<Dim> * cells_.size());
 }
 

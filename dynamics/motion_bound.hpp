@@ -26,6 +26,10 @@ public:
     [[nodiscard]] double operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                     std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
 
+    /// No face moves farther than this times the farthest cell, under constant loads: largest |1 - D - sum_j W_j| +
+    /// sum_j |W_j|, j other cells than c [-].
+    [[nodiscard]] double amplification() const { return amplification_; }
+
 private:
     [[nodiscard]] double of_face(std::int32_t b) const;
 
@@ -36,7 +40,8 @@ private:
     std::vector<std::int32_t> places_;  // place in cells_, by weight
     std::vector<double> norms_;         // |W_j|, by weight
     std::vector<double> norm_sum_;      // of a row (n_boundary)
-    std::vector<double> moved_;         // du of cells_, registers
+    double amplification_ = 0.0;
+    std::vector<double> moved_;  // du of cells_, registers
 };
 
 }  // namespace abut::dynamics

@@ -151,15 +151,13 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const auto u_0 = as_vectors<Dim>(q_0);
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
+    const double motion = take_midpoint(u_0, u_1);
     if (contact_) {
-        follow_faces(u_0, u_1, time, dt);
+        follow_faces(u_0, u_1, motion, time, dt);
         integrate_contact();
     }
 
     const Stopwatch watch(times_.bulk);
-    midpoint_.resize(u_0.size());
-    parallel_each(static_cast<std::ptrdiff_t>(u_0.size()),
-                  [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (u_0[c] + u_1[c]); });
     const auto gradient = as_vectors<Dim>(force);
     if (ccg_.load_varies()) {
         BoundaryLoad<Dim> mean;
@@ -175,6 +173,23 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     end_step(time + dt);
 }
 
+/// Fills midpoint_. How far a cell moves at most [m]; without contact nobody asks, and it is 0.
+template <int Dim>
+double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
+    const Stopwatch watch(times_.bulk);
+    midpoint_.resize(q_0.size());
+    const auto n = static_cast<std::ptrdiff_t>(q_0.size());
+    const auto take = [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); };
+    if (!contact_) {
+        parallel_each(n, take);
+        return 0.0;
+    }
+    return std::sqrt(largest(n, [&](std::ptrdiff_t c) {
+        take(c);
+        return (q_1[c] - q_0[c]).squaredNorm();
+    }));
+}
+
 template <int Dim>
 void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                            std::span<double> force) {
@@ -183,7 +198,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const auto u_1 = as_vectors<Dim>(q_1);
     const auto gradient = as_vectors<Dim>(force);
     follow_loads(u_0, time, dt);
-    if (contact_) follow_faces(u_0, u_1, time, dt);
+    if (contact_) follow_faces(u_0, u_1, std::numeric_limits<double>::infinity(), time, dt);
     if (!is_autonomous()) {  // the work is shared between the forces at both ends
         if (contact_) {
             contact_->evaluate(u_0_, y_0_);
@@ -358,10 +373,12 @@ void Solid<Dim>::integrate_contact() {
     keep_active_pairs();
 }
 
-/// The path of the listed faces, with the list made anew where it no longer reaches.
+/// The path of the listed faces, with the list made anew where it no longer reaches. No cell moves farther than `motion`;
+/// infinity: not known.
 template <int Dim>
-void Solid<Dim>::follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
-    if (!list_reaches(q_1, time + dt))
+void Solid<Dim>::follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double motion, double time,
+                              double dt) {
+    if (!surely_reaches(motion, time + dt) && !list_reaches(q_1, time + dt))
         search(q_0, q_1, time, dt);
     else if (!has_stepped_)
         evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
@@ -382,18 +399,29 @@ void Solid<Dim>::keep_active_pairs() {
     active_pairs_.assign(active.begin(), active.end());
 }
 
+/// Whether the candidate list holds where the present step ends, by what no cell exceeds in it: nothing is computed but the
+/// sum of all steps since faces were looked at. Where it says no, `list_reaches` decides.
+template <int Dim>
+bool Solid<Dim>::surely_reaches(double motion, double time) {
+    travelled_ += motion;
+    return !ccg_.load_varies() &&
+           contact_->covers(obstacle_motion(time) + known_motion_ + ccg_.motion_amplification() * travelled_);
+}
+
 /// Whether the candidate list holds there, too.
 template <int Dim>
 bool Solid<Dim>::list_reaches(std::span<const Vector<Dim>> q, double time) {
     const Stopwatch watch(times_.search);
-    return contact_->covers(motion_since_search(q, time));
+    known_motion_ = motion_since_search(q);
+    travelled_ = 0.0;
+    return contact_->covers(obstacle_motion(time) + known_motion_);
 }
 
-/// At most, of any face [m]; infinite before the first search.
+/// At most, of any face of a body [m]; infinite before the first search.
 template <int Dim>
-double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q, double time) {
+double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q) {
     if (searched_.u.empty()) return std::numeric_limits<double>::infinity();
-    return obstacle_motion(time) + ccg_.motion_bound(searched_.u, searched_.load, q, load_);
+    return ccg_.motion_bound(searched_.u, searched_.load, q, load_);
 }
 
 /// The list for one state. Contacts have no history before the first step: then it may be made anew. Later a state out of
@@ -401,7 +429,7 @@ double Solid<Dim>::motion_since_search(std::span<const Vector<Dim>> q, double ti
 template <int Dim>
 void Solid<Dim>::require_list(std::span<const Vector<Dim>> q) {
     if (std::ranges::equal(q, swept_end_)) return;
-    const double motion = motion_since_search(q, time_);
+    const double motion = obstacle_motion(time_) + motion_since_search(q);
     if (contact_->covers(motion)) return;
     if (has_stepped_ && std::isfinite(motion))
         throw std::logic_error(
@@ -438,6 +466,8 @@ void Solid<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector
     searched_.u.assign(q_0.begin(), q_0.end());
     searched_.load = load_start_;
     searched_time_ = time;
+    known_motion_ = motion_since_search(q_1);
+    travelled_ = 0.0;
     swept_end_.assign(q_1.begin(), q_1.end());
     if (!level_regions_.empty()) contact_region_ = ccg_.region_of_cells(region_.loaded_cells);
     evaluate_faces(q_0, load_start_, time, u_0_, y_0_);
@@ -561,7 +591,8 @@ std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double
     if (!contact_) return touching;
     evaluate_contact(as_vectors<Dim>(q));
     visit_contacts([&](const contact::ContactPair<Dim>& pair, double open) {
-        if (open <= gap) touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2), pair.frame.normal(), open});
+        if (open <= gap)
+            touching.push_back({boundary_place(pair.face_1), boundary_place(pair.face_2), pair.frame.normal(), open});
     });
     return touching;
 }

@@ -130,11 +130,14 @@ private:
     void require_start(double time, double dt) const;
     void end_step(double time);
     void integrate_contact();
-    void follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
+    void follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double motion, double time,
+                      double dt);
     void move_faces(std::span<const Vector<Dim>> q_1, double time);
     void keep_active_pairs();
+    [[nodiscard]] bool surely_reaches(double motion, double time);
     [[nodiscard]] bool list_reaches(std::span<const Vector<Dim>> q, double time);
-    [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q, double time);
+    [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q);
     void require_list(std::span<const Vector<Dim>> q);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     /// Calls `visit(pair, gap)` for each admitted pair that shares area, as of the last `evaluate_contact`.
@@ -183,8 +186,10 @@ private:
     };
     Reference searched_;  // state at the last search
     double searched_time_ = 0.0;
-    std::vector<Vector<Dim>> swept_end_;              // the list holds there, too: end of the step that it was made for
-    Region<Dim> region_;                              // of the faces in the candidate list
+    double known_motion_ = 0.0;           // of any face, from the last search to the state where it was bounded last [m]
+    double travelled_ = 0.0;              // since then: sum over the steps of the motion of the cell that moved farthest [m]
+    std::vector<Vector<Dim>> swept_end_;  // the list holds there, too: end of the step that it was made for
+    Region<Dim> region_;                  // of the faces in the candidate list
     std::vector<std::int32_t> local_boundary_;        // their places in boundary_faces (deformable faces come first)
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // path of the listed faces; between steps _0 is its end
     std::vector<Vector<Dim>> midpoint_;
