@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
@@ -29,14 +28,8 @@ struct Options {
 Vector<2> prototype(double offset) { return offset == 0.0 ? Vector<2>(-0.0477, -0.001) : Vector<2>(-0.0278, -0.0394); }
 
 Level collide(const TwoDiscs& discs, const RunOptions& options) {
-    double seconds = 0.0;
-    ImpactObserver<2> observer;
-    RunResult<2> result;
     const Scene<2> scene = two_discs(discs);
-    {
-        const Stopwatch watch(seconds);
-        result = simulate<2>(scene, options, observer);
-    }
+    const auto [result, observer, seconds] = run_impact(scene, options);
     const double momentum = discs.density * std::numbers::pi * discs.radius * discs.radius * discs.speed;
     const auto& last = observer.samples().back();
     const Vector<2> expected = prototype(discs.offset);

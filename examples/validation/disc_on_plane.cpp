@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
@@ -34,14 +33,8 @@ struct Fall {
 };
 
 Fall fall(const DroppedDisc& disc, const RunOptions& options) {
-    double seconds = 0.0;
-    ImpactObserver<2> observer;
-    RunResult<2> result;
     const Scene<2> scene = dropped_disc(disc);
-    {
-        const Stopwatch watch(seconds);
-        result = simulate<2>(scene, options, observer);
-    }
+    const auto [result, observer, seconds] = run_impact(scene, options);
     const double time = std::sqrt(2.0 * disc.height / disc.gravity), speed = disc.gravity * time;
     const double late = disc.size * disc.size / (8.0 * disc.radius) / speed + result.dt;
     Fall fall;

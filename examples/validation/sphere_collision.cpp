@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
@@ -37,14 +36,8 @@ struct Impact {
 };
 
 Impact collide(const TwoSpheres& spheres, const RunOptions& options) {
-    double seconds = 0.0;
-    ImpactObserver<3> observer;
-    RunResult<3> result;
     const Scene<3> scene = two_spheres(spheres);
-    {
-        const Stopwatch watch(seconds);
-        result = simulate<3>(scene, options, observer);
-    }
+    const auto [result, observer, seconds] = run_impact(scene, options);
     const HertzImpact hertz = hertz_impact(spheres);
     Impact impact;
     impact.curve.columns = {"time", "approach", "force"};
