@@ -7,21 +7,6 @@ namespace {
 
 using namespace abut::examples::test;
 
-/// Quantities with a target at all levels of a study; all of them must be met.
-int check_targets(const Outcome& outcome) {
-    int n = 0;
-    const auto summary = read_summary(outcome);
-    for (const auto& level : summary["levels"])
-        for (const auto& quantity : level["quantities"]) {
-            if (!quantity.contains("met")) continue;
-            CAPTURE(level["name"].get<std::string>(), quantity.dump());
-            CHECK(quantity["met"].get<bool>());
-            CHECK(quantity["error"].get<double>() <= quantity["allowed"].get<double>());
-            ++n;
-        }
-    return n;
-}
-
 double error_of(const Outcome& outcome, std::size_t level, const std::string& name) {
     return study_quantity(outcome, level, name).error;
 }
