@@ -21,6 +21,19 @@ TEST_CASE("two blocks pass the contact patch test to 1e-10 where the method is e
     }
 }
 
+TEST_CASE("the curve of the contact patch test has a row a choice: the errors of the stress on all kinds of sides",
+          "[examples]") {
+    const auto outcome = run_well("contact_patch", "--mesh matching", "patch_curve");
+    const auto table = read_table(outcome, "stress.csv");
+    REQUIRE(table.rows.size() == 2 * 3);  // weights, Neumann choices
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+        CHECK(table.column("choice")[row] == static_cast<double>(row));
+        for (std::size_t sides = 0; sides < 3; ++sides)
+            CHECK(table.rows[row][1 + sides] == study_quantity(outcome, 3 * row + sides, "stress, largest error").value);
+    }
+    CHECK(std::filesystem::exists(outcome.directory / "stress.gp"));
+}
+
 TEST_CASE("what a block with an edge in the contact loses grows with the load, not with its mesh", "[examples]") {
     const auto light = run_well("contact_patch", "--mesh non-matching --strain 1e-8", "patch_light");
     const auto heavy = run_well("contact_patch", "--mesh non-matching --strain 1e-6", "patch_heavy");
