@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 #include "examples/program.hpp"
 
@@ -32,6 +34,21 @@ TEST_CASE("discs that collide keep momentum and pseudo-energy, and turn less on 
     for (const std::size_t offset : {0u, 2u})  // head-on, off-centre
         CHECK(study_quantity(outcome, offset + 1, "spin times R, over the speed").error <
               study_quantity(outcome, offset, "spin times R, over the speed").error);
+}
+
+TEST_CASE("curves of discs that collide go from the speeds at the start to those at the end", "[examples]") {
+    const auto outcome = run_well("disc_collision", "--size 0.25", "disc_velocities");
+    std::size_t level = 0;
+    for (const char* file : {"head_on_0.25.csv", "off_centre_0.25.csv"}) {
+        const auto curve = read_table(outcome, file);
+        for (const auto& [column, start] :
+             {std::pair("left_x", 0.05), std::pair("left_y", 0.0), std::pair("right_x", -0.05), std::pair("right_y", 0.0)})
+            CHECK(curve.column(column).front() == Approx(start).margin(1e-15));
+        CHECK(curve.column("left_x").back() == study_quantity(outcome, level, "final speed along x").value);
+        CHECK(curve.column("left_y").back() == study_quantity(outcome, level, "final speed along y").value);
+        ++level;
+    }
+    CHECK(std::filesystem::exists(outcome.directory / "velocities.gp"));
 }
 
 TEST_CASE("spheres that collide come as close as Hertz says, within 10 % on a coarse mesh", "[examples]") {
