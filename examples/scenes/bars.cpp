@@ -220,6 +220,12 @@ BarRun run_strips(const Scene<Dim>& scene, const BarOptions& options, double are
     return run;
 }
 
+void append_history(Table& table, const ContactHistory& history, int cells) {
+    for (std::size_t n = 0; n < history.pressure.size(); ++n)
+        table.rows.push_back({static_cast<double>(cells), history.time[n + 1], history.gap[n + 1], history.speed[n + 1][0],
+                              history.speed[n + 1][1], 0.5 * (history.time[n] + history.time[n + 1]), history.pressure[n]});
+}
+
 }  // namespace
 
 BarChain bar_chain(const BarOnWall& scene, int cells) {
@@ -461,16 +467,6 @@ BarRun run_two_bars(const TwoBars& scene, const BarOptions& options, std::array<
     return run;
 }
 
-Table empty_history_table() {
-    return {.columns = {"cells", "time", "gap", "speed_1", "speed_2", "middle", "pressure"}, .rows = {}};
-}
-
-void append_history(Table& table, const ContactHistory& history, int cells) {
-    for (std::size_t n = 0; n < history.pressure.size(); ++n)
-        table.rows.push_back({static_cast<double>(cells), history.time[n + 1], history.gap[n + 1], history.speed[n + 1][0],
-                              history.speed[n + 1][1], 0.5 * (history.time[n] + history.time[n + 1]), history.pressure[n]});
-}
-
 std::string history_lines(const std::vector<int>& cells, const std::string& time, const std::string& value) {
     constexpr std::array colours = {"#eb6834", "#c2a100", "#1f9e6e", "#2a78d6", "#8a4fc7"};
     std::vector<std::string> lines;
@@ -480,6 +476,25 @@ std::string history_lines(const std::vector<int>& cells, const std::string& time
                         "with lines lw 1.2 lc rgb \"{3}\" title \"{0} cells\"",
                         cells[i], time, value, colours[i % colours.size()]));
     return fmt::format("{}", fmt::join(lines, ", \\\n     "));
+}
+
+void run_study(const Program& program, const BarOptions& options, const BarStudy& bars) {
+    options.check();
+    std::vector<std::string> curves{"history", "exact"};
+    curves.insert(curves.end(), bars.more_curves.begin(), bars.more_curves.end());
+    prepare_study(options.run.out, curves, {bars.picture.name});
+    Study study{.title = bars.title, .reference = bars.reference};
+    Table history{.columns = {"cells", "time", "gap", "speed_1", "speed_2", "middle", "pressure"}, .rows = {}};
+    for (std::size_t i = 0; i < options.cells.size(); ++i) {
+        const BarRun run = bars.run(i);
+        study.levels.push_back(bars.level(run, i));
+        append_history(history, run.history, options.cells[i]);
+    }
+    study.curves = {{"history", std::move(history)}, {"exact", bars.exact}};
+    study.pictures = {bars.picture};
+    study.options = to_json(options);
+    if (bars.complete) bars.complete(study);
+    report(program, options.run.out, study);
 }
 
 template Scene<2> bar_strip<2>(const BarOnWall&, int);

@@ -176,11 +176,22 @@ void add_bar_options(CLI::App& app, BarOptions& options,
                              const std::vector<double>& profile_times = {});
 [[nodiscard]] BarRun run_two_bars(const TwoBars& scene, const BarOptions& options, std::array<int, 2> cells);
 
-/// A row a step, with the number of cells in front: time, gap, speed_1 and speed_2 at its end; pressure, its mean, belongs to
-/// its middle.
-[[nodiscard]] Table empty_history_table();
-void append_history(Table& table, const ContactHistory& history, int cells);
 /// What gnuplot plots of history.csv: a line for each number of cells, over `time` or `middle`.
 [[nodiscard]] std::string history_lines(const std::vector<int>& cells, const std::string& time, const std::string& value);
+
+/// A study of bars: a run and a level for each number of BarOptions::cells, counted from 0.
+struct BarStudy {
+    std::string title;  ///< this and the next as in Study
+    std::string reference;
+    std::function<BarRun(std::size_t level)> run;
+    std::function<Level(const BarRun& run, std::size_t level)> level;
+    Table exact;                             ///< left as exact.csv
+    Picture picture;                         ///< of history.csv and exact.csv
+    std::vector<std::string> more_curves{};  ///< names of those that `complete` adds
+    std::function<void(Study&)> complete{};  ///< adds what else there is, after the last run; may be empty
+};
+/// Runs a study and reports it. history.csv has a row a step, with the number of cells in front: time, gap, speed_1 and
+/// speed_2 at its end; pressure, its mean, belongs to its middle. Throws as the runs do, and as BarOptions::check.
+void run_study(const Program& program, const BarOptions& options, const BarStudy& bars);
 
 }  // namespace abut::examples

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "abut/contact/obstacle.hpp"
+#include "abut/geometry/stopwatch.hpp"
 #include "abut/mesh/shapes.hpp"
 
 namespace abut::examples {
@@ -153,7 +154,21 @@ void ImpactObserver<Dim>::look(const dynamics::RunView<Dim>& run, dynamics::Soli
     samples_.push_back(sample);
 }
 
+template <int Dim>
+ImpactRun<Dim> run_impact(const Scene<Dim>& scene, const RunOptions& options) {
+    ImpactRun<Dim> run;
+    double seconds = 0.0;
+    {
+        const Stopwatch watch(seconds);
+        run.result = simulate<Dim>(scene, options, run.observer);
+    }
+    run.seconds = seconds;
+    return run;
+}
+
 template class ImpactObserver<2>;
 template class ImpactObserver<3>;
+template ImpactRun<2> run_impact(const Scene<2>&, const RunOptions&);
+template ImpactRun<3> run_impact(const Scene<3>&, const RunOptions&);
 
 }  // namespace abut::examples

@@ -74,4 +74,15 @@ private:
     double last_ = not_given;
 };
 
+/// A scene that was run, with what was seen of its contact.
+template <int Dim>
+struct ImpactRun {
+    RunResult<Dim> result;
+    ImpactObserver<Dim> observer;
+    double seconds = 0.0;  ///< of the run with its set-up, without the mesh
+};
+/// Throws as `simulate`.
+template <int Dim>
+[[nodiscard]] ImpactRun<Dim> run_impact(const Scene<Dim>& scene, const RunOptions& options);
+
 }  // namespace abut::examples

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "scenes/boxes.hpp"
+#include "scenes/dense_stiffness.hpp"
 
 namespace abut::examples {
 namespace {
@@ -69,21 +70,6 @@ PatchErrors errors(const AffineField<Dim>& field, dynamics::Solid<Dim>& solid, s
     return {.displacement = displacement / size, .stress = worst_stress / stress.norm(), .report = {}};
 }
 
-/// K, column by column.
-template <int Dim>
-Eigen::MatrixXd stiffness(dynamics::Solid<Dim>& solid) {
-    const auto n = static_cast<Eigen::Index>(solid.size());
-    Eigen::MatrixXd k(n, n);
-    std::vector<double> unit(solid.size(), 0.0), column(solid.size());
-    for (Eigen::Index j = 0; j < n; ++j) {
-        unit[static_cast<std::size_t>(j)] = 1.0;
-        solid.stiffness_product(unit, column);
-        k.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), n);
-        unit[static_cast<std::size_t>(j)] = 0.0;
-    }
-    return 0.5 * (k + k.transpose());
-}
-
 }  // namespace
 
 template <int Dim>
@@ -103,7 +89,8 @@ ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, dynamics::Neumann neumann) {
     options.materials = {{.young = 1.0, .poisson = 0.3}};
     options.boundary.neumann = neumann;
     dynamics::Solid<Dim> solid(mesh, options);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness(solid), Eigen::EigenvaluesOnly);
+    const Eigen::MatrixXd k = dense_stiffness(solid);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (k + k.transpose()), Eigen::EigenvaluesOnly);
     if (solver.info() != Eigen::Success)
         throw std::runtime_error(mesh.name + ": the eigenvalues of the stiffness were not found. Take another mesh.");
     std::vector<double> sizes;

@@ -5,9 +5,9 @@
 // what these are higher than the circle, at most h^2/(8R), and by a step.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
-#include "abut/geometry/stopwatch.hpp"
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
@@ -34,14 +34,8 @@ struct Fall {
 };
 
 Fall fall(const DroppedDisc& disc, const RunOptions& options) {
-    double seconds = 0.0;
-    ImpactObserver<2> observer;
-    RunResult<2> result;
     const Scene<2> scene = dropped_disc(disc);
-    {
-        const Stopwatch watch(seconds);
-        result = simulate<2>(scene, options, observer);
-    }
+    const auto [result, observer, seconds] = run_impact(scene, options);
     const double time = std::sqrt(2.0 * disc.height / disc.gravity), speed = disc.gravity * time;
     const double late = disc.size * disc.size / (8.0 * disc.radius) / speed + result.dt;
     Fall fall;
@@ -62,22 +56,29 @@ Fall fall(const DroppedDisc& disc, const RunOptions& options) {
     return fall;
 }
 
-Picture picture(const std::vector<double>& cells) {
-    std::string script = R"gp(set title "disc that falls on a plane" font ",15"
-set xlabel "time [s]"
-set ylabel "velocity of the centre of mass [m/s]"
-set key top left samplen 2 opaque
-set samples 1000
-plot [0:*] (x <= 10 ? -0.1*x : 1/0) with lines lw 5 lc rgb "#b9b8b4" title "free fall, until 10 s")gp";
+/// A line for each number of cells in the radius: `value` over time.
+std::string lines(const std::vector<double>& cells, const std::string& value, const std::string& how) {
     static constexpr std::array<const char*, 3> colours{"#eb6834", "#3c9d5b", "#2a78d6"};
+    std::string script;
     for (std::size_t i = 0; i < cells.size(); ++i)
-        script += fmt::format(
-            ", \\\n     \"{}.csv\" using \"time\":\"velocity\" with lines lw 1.5 lc rgb \"{}\" title \"R/h = {:g}\"",
-            curve_name(cells[i]), colours[i % colours.size()], cells[i]);
-    return {.name = "fall",
-            .purpose = "Velocity of the disc, from the .csv files beside this file",
-            .height = 800,
-            .script = script + "\n"};
+        script += fmt::format(", \\\n     \"{}.csv\" using \"time\":({}) with {} lc rgb \"{}\" title \"R/h = {:g}\"",
+                              curve_name(cells[i]), value, how, colours[i % colours.size()], cells[i]);
+    return script;
+}
+
+/// The whole motion above; below it, from just before the contact, what the velocity has gained over free fall.
+Picture picture(const std::vector<double>& cells) {
+    const std::string velocity = "column(\"velocity\")";
+    const std::string script = fmt::format(
+        "set multiplot\nset samples 1000\nset size 1,0.55\nset origin 0,0.45\n"
+        "set title \"disc that falls on a plane\" font \",15\"\nset key top left samplen 2\nset xrange [0:40]\n"
+        "set ylabel \"velocity of the centre of mass [m/s]\"\n"
+        "plot (x <= 10 ? -0.1*x : 1/0) with lines lw 6 lc rgb \"#b9b8b4\" title \"free fall, until 10 s\"{}\n"
+        "unset title\nset size 1,0.45\nset origin 0,0\nset xrange [9.5:10.75]\nset yrange [-0.002:0.04]\n"
+        "set xlabel \"time [s]\"\nset ylabel \"velocity - free fall [m/s]\"\n"
+        "plot (x <= 10 ? 0 : 1/0) with lines lw 6 lc rgb \"#b9b8b4\" title \"exact, until 10 s\"{}\nunset multiplot\n",
+        lines(cells, velocity, "lines lw 1.5"), lines(cells, velocity + "+0.1*column(\"time\")", "linespoints pt 7 ps 0.6"));
+    return {.name = "fall", .purpose = "Velocity of the disc, from the .csv files beside this file", .script = script};
 }
 
 }  // namespace

@@ -106,20 +106,13 @@ Picture picture(const BarOptions& options) {
 }
 
 void run(const BarOptions& options) {
-    options.check();
-    prepare_study(options.run.out, {"history", "exact"}, {program.name});
-    Study study{.title = "an elastic bar falls on a rigid wall and bounces",
-                .reference = "closed form: p = rho c (v0 + g t) for 2L/c, backwards in every second impact; period 16/3 s"};
-    Table history = empty_history_table();
-    for (const int cells : options.cells) {
-        const BarRun run = run_bar(scene(), options, cells);
-        study.levels.push_back(level(run, options, cells));
-        append_history(history, run.history, cells);
-    }
-    study.curves = {{"history", std::move(history)}, {"exact", exact_table()}};
-    study.pictures = {picture(options)};
-    study.options = to_json(options);
-    report(program, options.run.out, study);
+    run_study(program, options,
+              {.title = "an elastic bar falls on a rigid wall and bounces",
+               .reference = "closed form: p = rho c (v0 + g t) for 2L/c, backwards in every second impact; period 16/3 s",
+               .run = [&](std::size_t i) { return run_bar(scene(), options, options.cells[i]); },
+               .level = [&](const BarRun& run, std::size_t i) { return level(run, options, options.cells[i]); },
+               .exact = exact_table(),
+               .picture = picture(options)});
 }
 
 }  // namespace

@@ -149,22 +149,21 @@ Picture picture(const BarOptions& options) {
 }
 
 void run(const BarOptions& options) {
-    options.check();
-    prepare_study(options.run.out, {"history", "exact", "profiles"}, {program.name});
-    Study study{.title = "a pressed bar, fixed at one end, vibrates against a rigid wall",
-                .reference = "d'Alembert's solution of period 3 s: contact stress 0, -1/2, 0 Pa, energy 1/8 J/m^2"};
-    Table history = empty_history_table();
     Table profiles{.columns = {"cells", "time", "x", "u", "exact"}, .rows = {}};
-    for (const int cells : options.cells) {
-        const BarRun run = run_bar(scene(), options, cells, profile_times);
-        study.levels.push_back(level(run, options, cells));
-        append_history(history, run.history, cells);
-        append_profiles(profiles, run, cells);
-    }
-    study.curves = {{"history", std::move(history)}, {"exact", exact_table()}, {"profiles", std::move(profiles)}};
-    study.pictures = {picture(options)};
-    study.options = to_json(options);
-    report(program, options.run.out, study);
+    const auto run_and_keep_profiles = [&](std::size_t i) {
+        BarRun run = run_bar(scene(), options, options.cells[i], profile_times);
+        append_profiles(profiles, run, options.cells[i]);
+        return run;
+    };
+    run_study(program, options,
+              {.title = "a pressed bar, fixed at one end, vibrates against a rigid wall",
+               .reference = "d'Alembert's solution of period 3 s: contact stress 0, -1/2, 0 Pa, energy 1/8 J/m^2",
+               .run = run_and_keep_profiles,
+               .level = [&](const BarRun& run, std::size_t i) { return level(run, options, options.cells[i]); },
+               .exact = exact_table(),
+               .picture = picture(options),
+               .more_curves = {"profiles"},
+               .complete = [&](Study& study) { study.curves.emplace_back("profiles", std::move(profiles)); }});
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/geometry/stopwatch.hpp"
+#include "scenes/dense_stiffness.hpp"
 #include "scenes/plane_wave.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
@@ -137,19 +138,11 @@ Table spectrum(Level& level, const SpectrumOptions& options, PlaneWave wave) {
 /// Of the dense eigenvalue problem K x = omega^2 M x [rad/s].
 template <int Dim>
 double highest_frequency(dynamics::Solid<Dim>& solid) {
-    const auto n = static_cast<Eigen::Index>(solid.size());
-    Eigen::MatrixXd k(n, n);
-    std::vector<double> unit(solid.size(), 0.0), column(solid.size());
-    for (Eigen::Index j = 0; j < n; ++j) {
-        unit[static_cast<std::size_t>(j)] = 1.0;
-        solid.stiffness_product(unit, column);
-        k.col(j) = Eigen::Map<const Eigen::VectorXd>(column.data(), n);
-        unit[static_cast<std::size_t>(j)] = 0.0;
-    }
-    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(solid.inverse_mass().data(), n).cwiseSqrt();
+    Eigen::MatrixXd k = dense_stiffness(solid);
+    const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(solid.inverse_mass().data(), k.rows()).cwiseSqrt();
     k = (root.asDiagonal() * k * root.asDiagonal()).eval();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (k + k.transpose()), Eigen::EigenvaluesOnly);
-    return std::sqrt(solver.eigenvalues()[n - 1]);
+    return std::sqrt(solver.eigenvalues()[k.rows() - 1]);
 }
 
 /// The stable step's frequency against the highest one of the strip, and this one against that of cells that alternate in

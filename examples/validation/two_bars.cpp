@@ -127,22 +127,18 @@ Picture picture(const Options& options) {
 
 void run(const Options& options) {
     check(options);
-    prepare_study(options.bars.run.out, {"history", "exact"}, {program.name});
-    Study study{.title = fmt::format("two equal bars meet head on at {:g} and {:g} m/s", options.speed[0], options.speed[1]),
-                .reference = "d'Alembert's solution: contact for 2L/c at the pressure rho c w/2, velocities exchanged"};
-    Table history = empty_history_table();
-    for (std::size_t i = 0; i < options.bars.cells.size(); ++i) {
-        const auto cells = options.cells(i);
-        const BarRun run = run_two_bars(scene(options), options.bars, cells);
-        study.levels.push_back(level(run, options, cells));
-        append_history(history, run.history, cells[0]);
-    }
-    study.curves = {{"history", std::move(history)}, {"exact", exact_table(options)}};
-    study.pictures = {picture(options)};
-    study.options = to_json(options.bars);
-    study.options["speed"] = options.speed;
-    study.options["cells_2"] = options.upper_cells.empty() ? options.bars.cells : options.upper_cells;
-    report(program, options.bars.run.out, study);
+    const auto add_options_used = [&](Study& study) {
+        study.options["speed"] = options.speed;
+        study.options["cells_2"] = options.upper_cells.empty() ? options.bars.cells : options.upper_cells;
+    };
+    run_study(program, options.bars,
+              {.title = fmt::format("two equal bars meet head on at {:g} and {:g} m/s", options.speed[0], options.speed[1]),
+               .reference = "d'Alembert's solution: contact for 2L/c at the pressure rho c w/2, velocities exchanged",
+               .run = [&](std::size_t i) { return run_two_bars(scene(options), options.bars, options.cells(i)); },
+               .level = [&](const BarRun& run, std::size_t i) { return level(run, options, options.cells(i)); },
+               .exact = exact_table(options),
+               .picture = picture(options),
+               .complete = add_options_used});
 }
 
 }  // namespace

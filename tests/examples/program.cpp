@@ -74,9 +74,24 @@ double figure(const Outcome& outcome, const std::string& scheme, const std::stri
 StudyQuantity study_quantity(const Outcome& outcome, std::size_t level, const std::string& name) {
     const nlohmann::json summary = read_summary(outcome);
     for (const auto& quantity : summary["levels"][level]["quantities"])
-        if (quantity["name"] == name) return {quantity["value"].get<double>(), quantity["error"].get<double>()};
+        if (quantity["name"] == name)
+            return {quantity["value"].get<double>(), quantity["reference"].get<double>(), quantity["error"].get<double>()};
     throw std::runtime_error("level " + std::to_string(level) + " of " + summary["program"].get<std::string>() +
                              " has no quantity '" + name + "'");
+}
+
+int check_targets(const Outcome& outcome) {
+    int n = 0;
+    const auto summary = read_summary(outcome);
+    for (const auto& level : summary["levels"])
+        for (const auto& quantity : level["quantities"]) {
+            if (!quantity.contains("met")) continue;
+            CAPTURE(level["name"].get<std::string>(), quantity.dump());
+            CHECK(quantity["met"].get<bool>());
+            CHECK(quantity["error"].get<double>() <= quantity["allowed"].get<double>());
+            ++n;
+        }
+    return n;
 }
 
 std::vector<std::string> files_in(const fs::path& directory) {

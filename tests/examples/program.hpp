@@ -49,9 +49,13 @@ struct Outcome {
 /// What summary.json of a study holds of a quantity at a level. Throws std::runtime_error if there is none of that name.
 struct StudyQuantity {
     double value;
+    double reference;
     double error;
 };
 [[nodiscard]] StudyQuantity study_quantity(const Outcome& outcome, std::size_t level, const std::string& name);
+
+/// Every quantity of a study that has a target has to meet it; how many there are, at all levels together.
+int check_targets(const Outcome& outcome);
 
 /// Names of all files in a folder, in order.
 [[nodiscard]] std::vector<std::string> files_in(const std::filesystem::path& directory);

@@ -3,7 +3,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include "examples/program.hpp"
@@ -20,15 +19,8 @@ Outcome bars(const std::string& program, const std::string& arguments, const std
     return run_well(program, arguments, folder, "PATH=/nowhere");
 }
 
-/// A quantity of a level, counted from 0.
-json quantity(const Outcome& outcome, const std::string& name, std::size_t level = 0) {
-    const json summary = read_summary(outcome);
-    for (const json& one : summary["levels"][level]["quantities"])
-        if (one["name"] == name) return one;
-    throw std::runtime_error("no quantity " + name);
-}
 double value(const Outcome& outcome, const std::string& name, std::size_t level = 0) {
-    return quantity(outcome, name, level)["value"].get<double>();
+    return study_quantity(outcome, level, name).value;
 }
 double order(const Outcome& outcome, const std::string& name) { return read_summary(outcome)["orders"][name].get<double>(); }
 
@@ -107,7 +99,7 @@ TEST_CASE("a falling bar gives the wall 2 rho L (v0 + g L/c), pressed from 300 t
     CHECK(value(outcome, "period, impacts 1 and 3", finest) == Approx(16.0 / 3.0).epsilon(0.01));
     for (const char* name : {"impact 2: impulse", "impact 3: impulse", "period, impacts 1 and 3", "impact 1: released at"}) {
         CAPTURE(name);
-        CHECK(quantity(outcome, name, finest)["error"] < quantity(outcome, name, 0)["error"]);
+        CHECK(study_quantity(outcome, finest, name).error < study_quantity(outcome, 0, name).error);
     }
 }
 
@@ -139,8 +131,7 @@ TEST_CASE("two equal bars exchange their velocities, with faces that match or no
     CAPTURE(cells);
     const auto outcome = bars("two_bars", options, "two_bars");
     CHECK(value(outcome, "exchanged") >= 0.985);
-    CHECK(value(outcome, "pressure, mean") ==
-          Approx(quantity(outcome, "pressure, mean")["reference"].get<double>()).epsilon(2e-3));
+    CHECK(value(outcome, "pressure, mean") == Approx(study_quantity(outcome, 0, "pressure, mean").reference).epsilon(2e-3));
     check_energies(outcome);
 }
 
@@ -158,7 +149,7 @@ TEST_CASE("a bar that is at rest takes over the velocity of the other one", "[ex
     const auto outcome = bars("two_bars", "--cells 100 --speed 0.1,0", "at_rest");
     CHECK(value(outcome, "lower bar, velocity after") == Approx(0.0).margin(0.015 * 0.1));
     CHECK(value(outcome, "upper bar, velocity after") == Approx(0.1).margin(0.015 * 0.1));
-    CHECK(quantity(outcome, "pressure, mean")["reference"].get<double>() == Approx(30.0 * 0.05));
+    CHECK(study_quantity(outcome, 0, "pressure, mean").reference == Approx(30.0 * 0.05));
 }
 
 TEST_CASE("programs with bars leave values, curves and a picture", "[examples][bars]") {

@@ -7,21 +7,6 @@ namespace {
 
 using namespace abut::examples::test;
 
-/// Quantities with a target at all levels of a study; all of them must be met.
-int check_targets(const Outcome& outcome) {
-    int n = 0;
-    const auto summary = read_summary(outcome);
-    for (const auto& level : summary["levels"])
-        for (const auto& quantity : level["quantities"]) {
-            if (!quantity.contains("met")) continue;
-            CAPTURE(level["name"].get<std::string>(), quantity.dump());
-            CHECK(quantity["met"].get<bool>());
-            CHECK(quantity["error"].get<double>() <= quantity["allowed"].get<double>());
-            ++n;
-        }
-    return n;
-}
-
 double error_of(const Outcome& outcome, std::size_t level, const std::string& name) {
     return study_quantity(outcome, level, name).error;
 }
@@ -34,6 +19,19 @@ TEST_CASE("two blocks pass the contact patch test to 1e-10 where the method is e
             run_well("contact_patch", std::string("--mesh matching --dim ") + dim, std::string("patch_") + dim);
         CHECK(check_targets(outcome) == 2 * 3);
     }
+}
+
+TEST_CASE("the curve of the contact patch test has a row a choice: the errors of the stress on all kinds of sides",
+          "[examples]") {
+    const auto outcome = run_well("contact_patch", "--mesh matching", "patch_curve");
+    const auto table = read_table(outcome, "stress.csv");
+    REQUIRE(table.rows.size() == 2 * 3);  // weights, Neumann choices
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+        CHECK(table.column("choice")[row] == static_cast<double>(row));
+        for (std::size_t sides = 0; sides < 3; ++sides)
+            CHECK(table.rows[row][1 + sides] == study_quantity(outcome, 3 * row + sides, "stress, largest error").value);
+    }
+    CHECK(std::filesystem::exists(outcome.directory / "stress.gp"));
 }
 
 TEST_CASE("what a block with an edge in the contact loses grows with the load, not with its mesh", "[examples]") {
