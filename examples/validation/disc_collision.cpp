@@ -11,6 +11,7 @@
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
+#include "support/preset.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -132,6 +133,7 @@ int main(int argc, char** argv) {
     const auto add_options = [&](CLI::App& app) {
         add_numbers(app, "--size", options.sizes, "sizes of cells, one a level", {.unit = "m", .above = 0.0, .below = 1.0})
             ->group("Scene");
+        add_preset_option(app, options.run);
         add_time_options(app, options.run, "the approach and 6 crossings of a disc by a wave");
         add_contact_options(app, options.run);
         add_out_option(app, options.run.out);

@@ -11,6 +11,7 @@
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
+#include "support/preset.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -90,6 +91,7 @@ int main(int argc, char** argv) {
     const auto add_options = [&](CLI::App& app) {
         add_numbers(app, "--cells", options.cells, "cells in the radius, a number a level", {.above = 1.0, .below = 1000.0})
             ->group("Scene");
+        add_preset_option(app, options.run);
         add_time_options(app, options.run, "4 times the fall");
         add_contact_options(app, options.run);
         add_out_option(app, options.run.out);

@@ -15,6 +15,7 @@
 #include "scenes/impacts.hpp"
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
+#include "support/preset.hpp"
 #include "validation/study.hpp"
 
 namespace abut::examples {
@@ -133,6 +134,7 @@ int main(int argc, char** argv) {
         add_number(app, "--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
                    {.above = 0.0, .below = 1.0})
             ->group("Scene");
+        add_preset_option(app, options.run);
         add_time_options(app, options.run, "1.2 times Hertz's duration");
         add_contact_options(app, options.run);
         add_out_option(app, options.run.out);

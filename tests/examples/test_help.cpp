@@ -17,7 +17,7 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--dim --radius --length --young --poisson --density --speed --offset --gap --size --cfl --time --steps "
      "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --eta --filter --integrator "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
-     "--broad-phase --interval --allow-unstable --compression-limit"},
+     "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine"},
     {"rebounding_cylinders", "--dim --offset --out"},
     {"bouncing_strip", "--cells --eta --steps --cfl --dt --filter --compression-limit --out --interval --frames"},
     {"bouncing_bar",
@@ -35,9 +35,11 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--dim --support --load --radius --young --poisson --ratio --coarse --faces --tolerance --weights --area "
      "--neumann --out"},
     {"contact_patch", "--dim --mesh --strain --out"},
-    {"disc_on_plane", "--cells --cfl --integrator --weights --events --neumann --out"},
-    {"disc_collision", "--size --cfl --integrator --weights --events --neumann --out"},
-    {"sphere_collision", "--faces --coarse --cfl --integrator --weights --out"},
+    {"extremes", "--only --steps --quick --cfl --overlap --events --facing-cosine --out"},
+    {"trade", "--only --settings --also --levels --repetitions --limit --out"},
+    {"disc_on_plane", "--preset --cells --cfl --integrator --weights --events --neumann --out"},
+    {"disc_collision", "--preset --size --cfl --integrator --weights --events --neumann --out"},
+    {"sphere_collision", "--preset --faces --coarse --cfl --integrator --weights --out"},
     {"manufactured", "--dim --cells --levels --tolerance --out"},
     {"bulk_patch", "--cells --mode-cells --out"},
     {"spectrum", "--cells --poisson --eta --out"},
