@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <set>
 
 #include "contact/reference.hpp"
@@ -151,6 +152,35 @@ TEMPLATE_TEST_CASE_SIG(
     CHECK(found > 50);
     CHECK(scene.solid.contact_report().rebuilds > 2);
     CHECK(scene.solid.contact_report().lost_contacts == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for bit, and no pair or event is looked for",
+                       "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
+    const auto mesh = [] {
+        if constexpr (Dim == 2)
+            return two_discs(0.0, 0.25, 100.0);
+        else
+            return two_boxes(3, 100.0);
+    }();
+    auto options = bodies<Dim>(2);
+    dynamics::Solid<Dim> with(mesh, options);
+    options.contact.reset();
+    dynamics::Solid<Dim> without(mesh, options);
+    const auto start = random_state(with.size(), 7, 1e-3);  // both vibrate
+    const std::vector<Vector<Dim>> velocity{0.05 * Vector<Dim>::UnitX(), -0.05 * Vector<Dim>::UnitX()};
+    const auto momentum = dynamics::uniform_momentum<Dim>(with, velocity);
+    const double dt = 0.9 * dynamics::stable_step(with).dt;
+    dynamics::Memm<dynamics::Solid<Dim>> run(with, start, momentum, dt), bulk(without, start, momentum, dt);
+    for (int i = 0; i < 300; ++i) {
+        run.step();
+        bulk.step();
+    }
+    CHECK(std::ranges::equal(run.q(), bulk.q()));
+    const auto report = with.contact_report();
+    CHECK(report.candidates_max == 0);
+    CHECK(report.active_pairs_max == 0);
+    CHECK(report.events == 0);
+    CHECK(report.rebuilds < 30);
 }
 
 TEST_CASE("a scene turned by a right angle gives the result turned by a right angle", "[dynamics][impact]") {
