@@ -104,7 +104,7 @@ public:
     /// How far a boundary face has moved at most from one state to another [m]; a close bound, much cheaper than the motion.
     [[nodiscard]] double motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
-    /// Under constant loads no boundary face moves farther than this times the cell that moves farthest [-].
+    /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells`

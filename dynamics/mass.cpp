@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "abut/geometry/parallel.hpp"
 #include "abut/dynamics/sparse.hpp"
 #include "abut/geometry/messages.hpp"
+#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {

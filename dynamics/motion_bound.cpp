@@ -11,6 +11,8 @@
 namespace abut::dynamics {
 namespace {
 
+constexpr double rounding = 1e-12;
+
 template <int Dim>
 double spectral_norm(const Matrix<Dim>& m) {
     return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
@@ -31,19 +33,11 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
         kept_.push_back(spectral_norm<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b]));
     }
     for (const std::int32_t cell : boundary.cells) places_.push_back(place(cell));
-    for (const Matrix<Dim>& weight : boundary.weights) norms_.push_back(spectral_norm<Dim>(weight));
-    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b)
-        norm_sum_.push_back(
-            std::accumulate(norms_.begin() + boundary.offsets[b], norms_.begin() + boundary.offsets[b + 1], 0.0));
     for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
-        Matrix<Dim> own = Matrix<Dim>::Identity() - boundary.deficit[b];
-        double others = 0.0;
-        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) {
-            if (places_[i] == own_[b]) continue;
-            own -= boundary.weights[i];
-            others += norms_[i];
-        }
-        amplification_ = std::max(amplification_, spectral_norm<Dim>(own) + others);
+        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
+            norms_.push_back(places_[i] == own_[b] ? 0.0 : spectral_norm<Dim>(boundary.weights[i]));  // du_c - du_c = 0
+        norm_sum_.push_back(std::accumulate(norms_.begin() + boundary.offsets[b], norms_.end(), 0.0));
+        amplification_ = std::max(amplification_, (1.0 + rounding) * (kept_[b] + 2.0 * norm_sum_[b]));
     }
     moved_.resize(lane_width<Dim> * cells_.size());
 }

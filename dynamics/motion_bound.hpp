@@ -26,8 +26,8 @@ public:
     [[nodiscard]] double operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                     std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
 
-    /// No face moves farther than this times the farthest cell, under constant loads: largest |1 - D - sum_j W_j| +
-    /// sum_j |W_j|, j other cells than c [-].
+    /// Under constant loads the bound grows by at most this times the motion of the cell that moves farthest: the largest
+    /// |1 - D| + 2 sum_j |W_j|, j other cells than c [-]. The bound is a seminorm of du.
     [[nodiscard]] double amplification() const { return amplification_; }
 
 private:
@@ -38,7 +38,7 @@ private:
     std::vector<std::int32_t> own_;     // place in cells_ of the face's cell (n_boundary)
     std::vector<double> kept_;          // |1 - D| (n_boundary)
     std::vector<std::int32_t> places_;  // place in cells_, by weight
-    std::vector<double> norms_;         // |W_j|, by weight
+    std::vector<double> norms_;         // |W_j|, by weight; 0 for the face's own cell
     std::vector<double> norm_sum_;      // of a row (n_boundary)
     double amplification_ = 0.0;
     std::vector<double> moved_;  // du of cells_, registers

@@ -37,8 +37,9 @@ struct Finished {
     Ending ending;
 };
 
-constexpr int window = 100;                  // iterations within which V must fall
-constexpr double nearly_closed = 1e-6;       // of the smallest depth: a gap this small may close
+constexpr int window = 100;             // iterations within which V must fall
+constexpr double nearly_closed = 1e-6;  // of the smallest depth: a gap this small may close
+constexpr double rounding_of_potential = 1e-12;
 constexpr double balanced_elsewhere = 1e-3;  // of the largest stress: where more is left away from contact, V is not lowest
 
 void check(const StaticOptions& options) {
@@ -265,7 +266,7 @@ Ending approach(Objective<Dim>& objective, const StaticOptions& options) {
         const Ending ending = descend(objective, options);
         if (ending == Ending::balanced || ending == Ending::iterations) return ending;
     }
-    if (objective.potential() > potential) objective.go_back(lowest);
+    if (objective.potential() > potential + rounding_of_potential * std::abs(potential)) objective.go_back(lowest);
     return objective.is_balanced_elsewhere() ? Ending::lowest : Ending::stuck;
 }
 

@@ -272,11 +272,12 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below
         ccg.boundary_displacement(vectors<Dim>(to), {}, after);
         double motion = 0.0;
         for (std::size_t b = 0; b < n; ++b) raise(motion, (after[b] - before[b]).norm());
-        CHECK(ccg.motion_bound(vectors<Dim>(operators.q), {}, vectors<Dim>(to), {}) >= motion * (1.0 - 1e-12));
+        const double bound = ccg.motion_bound(vectors<Dim>(operators.q), {}, vectors<Dim>(to), {});
+        CHECK(bound >= motion * (1.0 - 1e-12));
         double of_cells = 0.0;
         const auto from_cells = vectors<Dim>(operators.q), to_cells = vectors<Dim>(to);
         for (std::size_t c = 0; c < from_cells.size(); ++c) raise(of_cells, (to_cells[c] - from_cells[c]).norm());
-        CHECK(ccg.motion_amplification() * of_cells >= motion * (1.0 - 1e-12));
+        CHECK(bound <= ccg.motion_amplification() * of_cells);
     }
 }
 

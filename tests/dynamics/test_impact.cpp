@@ -160,7 +160,9 @@ TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for 
         if constexpr (Dim == 2)
             return two_discs(0.0, 0.25, 100.0);
         else
-            return two_boxes(3, 100.0);
+            return together(
+                mesh::structured_box<3>({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, {4, 3, 2}, CellShape::tetrahedron, "lower"),
+                mesh::structured_box<3>({-0.5, -0.6, 50.0}, {0.7, 0.65, 51.0}, {3, 2, 2}, CellShape::tetrahedron, "upper"));
     }();
     auto options = bodies<Dim>(2);
     dynamics::Solid<Dim> with(mesh, options);
