@@ -2,19 +2,20 @@
 #
 # Fails, naming file and line, where a source file of a layer includes a layer that it must not know, where it reaches
 # another folder by a relative path, and where a public header includes what its user does not get: a back end (only the
-# standard library and Eigen may be seen) or a header that is not installed.
+# standard library and Eigen may be seen) or a header that is not installed. Examples may include what is installed.
 cmake_minimum_required(VERSION 3.25)
 
 set(allowed_geometry geometry)
 set(allowed_mesh geometry mesh)
 set(allowed_contact geometry contact)
 set(allowed_dynamics geometry mesh contact dynamics)
+set(allowed_examples geometry mesh contact dynamics)
 set(layers geometry mesh contact dynamics)
 
 string(REPLACE "," ";" PUBLIC_HEADERS "${PUBLIC_HEADERS}")
 set(problems "")
 set(n_files 0)
-foreach(layer IN LISTS layers)
+foreach(layer IN LISTS layers ITEMS examples)
   file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${layer}/*.hpp ${ROOT}/${layer}/*.cpp ${ROOT}/${layer}/*.h)
   foreach(file IN LISTS files)
     math(EXPR n_files "${n_files} + 1")
@@ -33,9 +34,13 @@ foreach(layer IN LISTS layers)
         string(REGEX REPLACE "^abut/" "" header ${included})
         if(NOT other IN_LIST allowed_${layer})
           list(APPEND problems "${file}:${number}: ${layer} must not include ${other} (${included})")
+        elseif(layer STREQUAL examples AND NOT header IN_LIST PUBLIC_HEADERS)
+          list(APPEND problems "${file}:${number}: an example includes ${included}, which is not installed")
         elseif(file IN_LIST PUBLIC_HEADERS AND NOT header IN_LIST PUBLIC_HEADERS)
           list(APPEND problems "${file}:${number}: a public header includes ${included}, which is not installed")
         endif()
+      elseif(layer STREQUAL examples)
+        continue()
       elseif(line MATCHES "\"" OR included MATCHES "^\\.")
         list(APPEND problems "${file}:${number}: write \"abut/<layer>/<file>\" for ${included}")
       elseif(file IN_LIST PUBLIC_HEADERS AND included MATCHES "[/.]" AND NOT included MATCHES "^Eigen/")
