@@ -8,6 +8,7 @@
 #include <string>
 
 #include "abut/contact/blind_corners.hpp"
+#include "abut/dynamics/midpoint.hpp"
 #include "abut/geometry/messages.hpp"
 #include "abut/geometry/parallel.hpp"
 #include "abut/geometry/sort_unique.hpp"
@@ -173,21 +174,15 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     end_step(time + dt);
 }
 
-/// Fills midpoint_. How far a cell moves at most [m]; without contact nobody asks, and it is 0.
+/// Fills midpoint_. No cell moves farther than what is returned [m]; without contact nobody asks, and it is 0.
 template <int Dim>
 double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     const Stopwatch watch(times_.bulk);
     midpoint_.resize(q_0.size());
-    const auto n = static_cast<std::ptrdiff_t>(q_0.size());
-    const auto take = [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); };
-    if (!contact_) {
-        parallel_each(n, take);
-        return 0.0;
-    }
-    return std::sqrt(largest(n, [&](std::ptrdiff_t c) {
-        take(c);
-        return (q_1[c] - q_0[c]).squaredNorm();
-    }));
+    if (contact_) return take_midpoints<Dim>(q_0, q_1, midpoint_);
+    parallel_each(static_cast<std::ptrdiff_t>(q_0.size()),
+                  [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); });
+    return 0.0;
 }
 
 template <int Dim>

@@ -75,13 +75,13 @@ inline double larger(double a, double b) { return std::isnan(a) || b <= a ? a : 
 
 /// Largest value(i) >= 0 over [0, n), 0 for n = 0; NaN if one of them is.
 template <class Value>
-double largest(std::ptrdiff_t n, const Value& value) {
+double largest(std::ptrdiff_t n, const Value& value, std::ptrdiff_t grain = parallel_grain) {
     const auto in_range = [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range, double so_far) {
         for (std::ptrdiff_t i = range.begin(); i < range.end(); ++i) so_far = larger(so_far, value(i));
         return so_far;
     };
-    const oneapi::tbb::blocked_range<std::ptrdiff_t> all(0, n, parallel_grain);
-    return n <= 2 * parallel_grain ? in_range(all, 0.0) : oneapi::tbb::parallel_reduce(all, 0.0, in_range, larger);
+    const oneapi::tbb::blocked_range<std::ptrdiff_t> all(0, n, grain);
+    return n <= 2 * grain ? in_range(all, 0.0) : oneapi::tbb::parallel_reduce(all, 0.0, in_range, larger);
 }
 
 }  // namespace abut
