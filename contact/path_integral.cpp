@@ -156,10 +156,10 @@ void PathIntegral<Dim>::measure_active(const Step& step) {
             most_compressed_ = active_[a];
         }
         const double face = std::min(step.surface.area[pair.face_1], step.surface.area[pair.face_2]);
-        for (const PathPiece<Dim>& piece : row<Dim>(pieces_, piece_offsets_, static_cast<std::int32_t>(a))) {
-            const double depth = -std::min(piece.depth[0], polynomial(piece.depth, 1.0));
-            sliding_ratio_ = std::max(sliding_ratio_, depth * piece.shift_derivative[0].norm() / face);
-        }
+        for (const PathPiece<Dim>& piece : row<Dim>(pieces_, piece_offsets_, static_cast<std::int32_t>(a)))
+            for (const double t : {0.0, 1.0})
+                sliding_ratio_ = std::max(sliding_ratio_,
+                                          -polynomial(piece.depth, t) * polynomial(piece.shift_derivative, t).norm() / face);
     }
 }
 

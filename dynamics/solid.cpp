@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "abut/contact/blind_corners.hpp"
 #include "abut/dynamics/midpoint.hpp"
@@ -341,6 +342,7 @@ void Solid<Dim>::end_step(double time) {
     std::swap(y_0_, y_1_);
     time_ = time;
     has_stepped_ = true;
+    motion_is_known_ = true;
     unfinished_ = false;
 }
 
@@ -395,11 +397,12 @@ void Solid<Dim>::keep_active_pairs() {
 }
 
 /// Whether the candidate list holds where the present step ends, by what no cell exceeds in it: nothing is computed but the
-/// sum of all steps since faces were looked at. Where it says no, `list_reaches` decides.
+/// sum of all steps since faces were looked at. Where it says no, `list_reaches` decides; so it does in the first step, and in
+/// one that is tried again.
 template <int Dim>
 bool Solid<Dim>::surely_reaches(double motion, double time) {
     travelled_ += motion;
-    return !ccg_.load_varies() &&
+    return std::exchange(motion_is_known_, false) && !ccg_.load_varies() &&
            contact_->covers(obstacle_motion(time) + known_motion_ + ccg_.motion_amplification() * travelled_);
 }
 

@@ -188,6 +188,7 @@ private:
     double searched_time_ = 0.0;
     double known_motion_ = 0.0;           // of any face, from the last search to the state where it was bounded last [m]
     double travelled_ = 0.0;              // since then: sum over the steps of the motion of the cell that moved farthest [m]
+    bool motion_is_known_ = false;        // these two are of the state that the last step ended in
     std::vector<Vector<Dim>> swept_end_;  // the list holds there, too: end of the step that it was made for
     Region<Dim> region_;                  // of the faces in the candidate list
     std::vector<std::int32_t> local_boundary_;        // their places in boundary_faces (deformable faces come first)

@@ -146,8 +146,8 @@ public:
     /// Goes back to a state where V was lower.
     void go_back(const Eigen::VectorXd& x) { base_ = x; }
 
-    /// Brings the report to the state reached. Whether all that is out of balance there is around contacts.
-    bool is_balanced_elsewhere() {
+    /// Brings the report to the state reached.
+    void update_report() {
         const std::vector<double> reached = q();
         std::vector<std::int32_t> faces;
         for (const TouchingPair<Dim>& pair : solid_.touching_pairs(reached, nearly_closed * smallest_depth(solid_.mesh())))
@@ -158,9 +158,11 @@ public:
         if (const auto* contact = solid_.contact()) report_.compression = contact->result().compression();
         report_.residual = residual();
         report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).loaded_cells);
-        return !faces.empty() && report_.residual_elsewhere <= balanced_elsewhere;
+        touches_ = !faces.empty();
     }
-    /// V of the state reached [J].
+    /// Whether all that is out of balance there is around contacts.
+    [[nodiscard]] bool is_balanced_elsewhere() const { return touches_ && report_.residual_elsewhere <= balanced_elsewhere; }
+    /// V of the last iteration [J].
     [[nodiscard]] double potential() const { return report_.iterations.back().potential; }
 
 private:
@@ -204,6 +206,7 @@ private:
     Descent descent_ = Descent::potential;
     bool descent_begins_ = true;
     double residual_ = std::numeric_limits<double>::infinity();
+    bool touches_ = false;
     std::exception_ptr error_;
     StaticReport report_;
 };
@@ -267,6 +270,7 @@ Ending approach(Objective<Dim>& objective, const StaticOptions& options) {
         if (ending == Ending::balanced || ending == Ending::iterations) return ending;
     }
     if (objective.potential() > potential + rounding_of_potential * std::abs(potential)) objective.go_back(lowest);
+    objective.update_report();
     return objective.is_balanced_elsewhere() ? Ending::lowest : Ending::stuck;
 }
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "support/choices.hpp"
 #include "support/files.hpp"
@@ -34,6 +33,17 @@ struct Options {
     std::filesystem::path out = "out/" + program.name;
 };
 
+/// Why no program would take a setting; empty if one would.
+std::string refusal(const Setting& setting) {
+    try {
+        RunOptions run;
+        apply_words(setting, run);
+        return "";
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+}
+
 void add_options(CLI::App& app, Options& options) {
     std::vector<std::string> names;
     for (const Problem& problem : problems()) names.push_back(problem.name);
@@ -50,10 +60,12 @@ void add_options(CLI::App& app, Options& options) {
         ->type_name("OPTIONS")
         ->expected(1)
         ->take_all()
+        ->check(CLI::Validator(refusal, "", ""))
         ->group("Ladder");
     add_count(app, "--levels", options.levels, "coarsest meshes of each problem; 0: all", 0)->group("Ladder");
     add_count(app, "--repetitions", options.repetitions, "of each run, in turn; the least time counts", 1)->group("Ladder");
-    add_number(app, "--limit", options.limit, "of a run; one that takes longer is stopped, and said to be",
+    add_number(app, "--limit", options.limit,
+               "of a run in time; one that takes longer is stopped, and said to be. Not of the references",
                {.unit = "s", .above = 0.0})
         ->group("Ladder");
     app.add_option("--out", options.out, "folder of all results; made if it is not there")
@@ -72,23 +84,37 @@ nlohmann::ordered_json to_json(const Options& options) {
 Row attempt(const Problem& problem, int level, const Setting& setting, double reference, double limit) {
     Row row{.problem = problem.name, .level = level, .setting = setting};
     try {
-        row.outcome = problem.solve(options_of(setting, {}), level, reference, limit);
+        RunOptions run = problem.base;
+        apply_words(setting, run);
+        row.outcome = problem.solve(run, level, reference, limit);
     } catch (const std::exception& error) {
         row.refusal = error.what();
     }
     return row;
 }
 
-std::vector<Row> climb(const Problem& problem, const Options& options) {
-    print_head(problem);
+/// Of the ladder, then those of the user.
+std::vector<Setting> settings_of(const Problem& problem, const Options& options) {
     std::vector<Setting> settings = ladder(options.extent, problem.at_rest);
     for (const Setting& setting : options.settings)
-        if (!problem.at_rest) settings.push_back(setting);
-    double reference = not_given;
-    if (problem.reference_level > 0) {
-        reference = problem.restitution(options_of(words_of(Preset::exact), {}), problem.reference_level);
-        fmt::print("  {:>4}  restitution {:.6f}, --preset exact\n", problem.reference_level, reference);
-    }
+        if (std::ranges::find(settings, setting) == settings.end()) settings.push_back(setting);
+    return settings;
+}
+
+/// Restitution of the finest mesh, where there is no exact one.
+double reference_of(const Problem& problem) {
+    if (problem.reference_level == 0) return not_given;
+    RunOptions run = problem.base;
+    apply_words(words_of(Preset::exact), run);
+    const double reference = problem.restitution(run, problem.reference_level);
+    fmt::print("  {:>4}  restitution {:.6f}, --preset exact\n", problem.reference_level, reference);
+    return reference;
+}
+
+std::vector<Row> climb(const Problem& problem, const Options& options) {
+    print_head(problem);
+    const std::vector<Setting> settings = settings_of(problem, options);
+    const double reference = reference_of(problem);
     std::vector<int> levels = problem.levels;
     if (options.levels > 0) levels.resize(std::min(levels.size(), static_cast<std::size_t>(options.levels)));
     std::vector<Row> rows;
@@ -96,18 +122,17 @@ std::vector<Row> climb(const Problem& problem, const Options& options) {
         const std::size_t first = rows.size();
         for (const Setting& setting : settings) rows.push_back(attempt(problem, level, setting, reference, options.limit));
         for (int i = 1; i < options.repetitions; ++i)
-            for (std::size_t row = first; row < rows.size(); ++row)
-                if (rows[row].finished())
-                    rows[row].outcome.seconds =
-                        std::min(rows[row].outcome.seconds,
-                                 attempt(problem, level, rows[row].setting, reference, options.limit).outcome.seconds);
+            for (std::size_t row = first; row < rows.size(); ++row) {
+                if (!rows[row].finished()) continue;
+                const Row again = attempt(problem, level, rows[row].setting, reference, options.limit);
+                if (again.finished()) rows[row].outcome.seconds = std::min(rows[row].outcome.seconds, again.outcome.seconds);
+            }
         for (std::size_t row = first; row < rows.size(); ++row) print(rows[row]);
     }
     return rows;
 }
 
 void run(const Options& options) {
-    for (const Setting& setting : options.settings) (void)options_of(setting, {});
     prepare_directory(options.out);
     remove_files(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
     std::vector<Row> rows;

@@ -11,7 +11,7 @@ namespace abut::examples::extremes {
 struct SweepOptions {
     int steps = 100'000;  ///< of the long runs
     bool quick = false;   ///< fewer values a family, and no more than 2,000 steps in a long run
-    RunOptions run;       ///< cfl, contact, Neumann and filter of all runs that do not sweep them
+    RunOptions run;       ///< cfl and choices of contact of all runs that do not sweep them
 };
 
 using Sink = std::function<void(const Row&)>;

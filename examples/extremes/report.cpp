@@ -14,20 +14,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string shown(double number) { return std::isnan(number) ? "-" : fmt::format("{:.2g}", number); }
-std::string exact(double number) { return std::isnan(number) ? "" : fmt::format("{:.17g}", number); }
-Json json_number(double number) { return std::isfinite(number) ? Json(number) : Json(); }
-
 std::string csv_text(const std::vector<Row>& rows) {
     std::string text =
         "family,value,outcome,finite,pseudo_energy_drift,energy_excess_max,parasitic_max,events,momentum_drift,"
         "lost_contacts,compression_max,sliding_ratio_max,deviation,cells,steps,active_pairs_max,blind_corners,message\n";
     for (const Row& row : rows)
         text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
-                            name_of(row.verdict), row.is_finite ? 1 : 0, exact(row.drift), exact(row.excess),
-                            exact(row.parasitic), row.events, exact(row.momentum), row.lost_contacts, exact(row.compression),
-                            exact(row.sliding), exact(row.deviation), row.cells, row.steps, row.active_pairs_max,
-                            row.blind_corners, quoted(row.message));
+                            name_of(row.verdict), row.is_finite ? 1 : 0, all_digits(row.drift), all_digits(row.excess),
+                            all_digits(row.parasitic), row.events, all_digits(row.momentum), row.lost_contacts,
+                            all_digits(row.compression), all_digits(row.sliding), all_digits(row.deviation), row.cells,
+                            row.steps, row.active_pairs_max, row.blind_corners, quoted(row.message));
     return text;
 }
 
@@ -100,9 +96,9 @@ void print_head(const Family& family) {
 void print(const Row& row) {
     fmt::print("  {:<38}{:<9}", row.value, name_of(row.verdict));
     if (row.verdict != Verdict::refused)
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}", shown(row.drift), shown(row.excess),
-                   shown(row.parasitic), row.events, shown(row.momentum), row.lost_contacts, shown(row.compression),
-                   shown(row.sliding), shown(row.deviation));
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}", two_digits(row.drift), two_digits(row.excess),
+                   two_digits(row.parasitic), row.events, two_digits(row.momentum), row.lost_contacts,
+                   two_digits(row.compression), two_digits(row.sliding), two_digits(row.deviation));
     fmt::print("\n");
     if (!row.message.empty()) fmt::print("      {}\n", row.message);
     std::fflush(stdout);

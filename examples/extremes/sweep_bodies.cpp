@@ -67,8 +67,7 @@ void sweep_density(const SweepOptions& options, const Sink& sink) {
 void sweep_poisson(const SweepOptions& options, const Sink& sink) {
     for (const double nu : thinned({0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.5}, options.quick)) {
         Meeting<2> meeting{.poisson = nu, .aside = 0.3};
-        RunOptions run = options.run;
-        sink(attempt(meeting_of_discs("poisson", fmt::format("nu = {:g}", nu), meeting, run)));
+        sink(attempt(meeting_of_discs("poisson", fmt::format("nu = {:g}", nu), meeting, options.run)));
     }
 }
 

@@ -124,6 +124,12 @@ Row attempt(const Trial<Dim>& trial) {
 }
 
 void compare(Row& row, const Row& reference, std::size_t how_many, double allowed) {
+    if ((row.verdict == Verdict::refused) != (reference.verdict == Verdict::refused)) {
+        row.message = fmt::format("it is {}, and the same run as it was is {}. {}", name_of(row.verdict),
+                                  name_of(reference.verdict), row.message);
+        row.verdict = Verdict::failed;
+        return;
+    }
     if (row.verdict == Verdict::refused || row.numbers.size() != reference.numbers.size()) return;
     row.deviation = 0.0;
     std::string worst;
@@ -136,7 +142,8 @@ void compare(Row& row, const Row& reference, std::size_t how_many, double allowe
     }
     if (row.deviation <= allowed) return;
     row.verdict = Verdict::failed;
-    row.message = fmt::format("{} differs by {:.2g}, {:.2g} is allowed", worst, row.deviation, allowed);
+    if (!row.message.empty()) row.message += "; ";
+    row.message += fmt::format("{} differs by {:.2g}, {:.2g} is allowed", worst, row.deviation, allowed);
 }
 
 template Row attempt<2>(const Trial<2>&);

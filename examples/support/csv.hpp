@@ -1,4 +1,6 @@
 #pragma once
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +16,12 @@ struct Table {
 /// 17 significant digits, so that every bit comes back. Never seen half-written; throws std::runtime_error.
 void write_csv(const std::filesystem::path& path, const Table& table);
 
+/// A number as a field: 17 significant digits; nothing where it is NaN.
+[[nodiscard]] std::string all_digits(double number);
+/// A number for people: two digits; "-" where it is NaN.
+[[nodiscard]] std::string two_digits(double number);
+/// null where it is no finite number.
+[[nodiscard]] nlohmann::ordered_json json_number(double number);
 /// Text as a field: in quotation marks, those inside doubled.
 [[nodiscard]] std::string quoted(const std::string& text);
 

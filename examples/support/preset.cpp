@@ -1,5 +1,7 @@
 #include "support/preset.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 namespace abut::examples {
@@ -7,7 +9,7 @@ namespace abut::examples {
 std::string words_of(Preset preset) {
     switch (preset) {
         case Preset::fast:
-            return "--overlap frozen --events off --quadrature 1";
+            return "--cfl 0.99 --events off --quadrature 1";
         case Preset::balanced:
             return "";
         case Preset::exact:
@@ -16,11 +18,19 @@ std::string words_of(Preset preset) {
     throw std::invalid_argument("not a Preset");
 }
 
-void apply(Preset preset, RunOptions& options) {
+void apply_words(const std::string& words, RunOptions& options) {
     CLI::App app;
+    app.set_help_flag();
+    add_preset_option(app, options);
     add_time_options(app, options, "");
     add_contact_options(app, options);
-    app.parse(words_of(preset), false);
+    try {
+        app.parse(words, false);
+    } catch (const CLI::ParseError& error) {
+        throw std::invalid_argument(
+            fmt::format("'{}': {} Take options of the groups Preset, Time and Contact of slipping_cylinders --help.", words,
+                        error.what()));
+    }
 }
 
 void add_preset_option(CLI::App& app, RunOptions& options) {
@@ -28,7 +38,7 @@ void add_preset_option(CLI::App& app, RunOptions& options) {
     for (const auto& [name, preset] : presets) names.push_back(name);
     const auto choose = [&options](const std::string& text) {
         for (const auto& [name, preset] : presets)
-            if (name == text) apply(preset, options);
+            if (name == text) apply_words(words_of(preset), options);
     };
     app.add_option_function<std::string>("--preset", choose,
                                          "several choices at once, which other options overrule (docs/trade.md): fast is " +

@@ -1,8 +1,5 @@
 #include "trade/ladder.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "support/contact_choices.hpp"
@@ -73,14 +70,6 @@ std::vector<Setting> ladder(Extent extent, bool at_rest) {
     append_new(settings, product({{"", "--overlap frozen"}, {"", "--events off"}, {"", "--quadrature 1"}, cfl}));
     append_new(settings, product({cfl, {"", "--filter neutral"}}));
     return settings;
-}
-
-RunOptions options_of(const Setting& setting, RunOptions base) {
-    CLI::App app;
-    add_time_options(app, base, "");
-    add_contact_options(app, base);
-    app.parse(setting, false);
-    return base;
 }
 
 }  // namespace abut::examples::trade

@@ -18,7 +18,4 @@ enum class Extent {
 /// All different, the defaults first. Of a problem at rest only what matters at rest.
 [[nodiscard]] std::vector<Setting> ladder(Extent extent, bool at_rest);
 
-/// `base` with the options of a setting. Throws CLI::ParseError for what a program would not take.
-[[nodiscard]] RunOptions options_of(const Setting& setting, RunOptions base);
-
 }  // namespace abut::examples::trade

@@ -111,7 +111,7 @@ Problem slip_problem(int dim, std::vector<int> levels, int reference_level) {
             .restitution = dim == 2 ? slip_restitution<2> : slip_restitution<3>};
 }
 
-Outcome solve_bar(const RunOptions& given, int cells, double, double limit) {
+Outcome solve_bar(const RunOptions& run, int cells, double, double limit) {
     const Bar bar;
     const ExactBounce exact(0.0);
     Scene<2> scene = bar_strip<2>({.bar = bar,
@@ -125,10 +125,6 @@ Outcome solve_bar(const RunOptions& given, int cells, double, double limit) {
         history.time.push_back(history.time.back() + dt);
         history.pressure.push_back(-solid.obstacle_force(0).y() / width);
     };
-    RunOptions run = given;
-    const RunOptions of_bars = default_bar_options({}, {cells}).run;
-    run.contact.compression_limit = of_bars.contact.compression_limit;
-    run.contact.search.skin = of_bars.contact.search.skin;
     double seconds = 0.0;
     const auto result = run_for<2>(scene, run, limit, seconds);
     Outcome outcome = outcome_of<2>(scene, result, ExactBounce::speed, seconds);
@@ -160,6 +156,7 @@ const std::vector<Problem>& problems() {
                 .solve = solve_cylinder_on_block},
         Problem{.name = "bar",
                 .text = "bar_impact --body strip2d, cells along it; rebound and pressure against d'Alembert",
+                .base = default_bar_options({}, {}).run,
                 .levels = {50, 100, 200},
                 .solve = solve_bar}};
     return all;

@@ -19,10 +19,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr double least_shown = 1e-17;  // zero has no place on a logarithmic axis
 
-std::string shown(double number) { return std::isnan(number) ? "-" : fmt::format("{:.2g}", number); }
-std::string exact(double number) { return std::isnan(number) ? "" : fmt::format("{:.17g}", number); }
-Json json_number(double number) { return std::isfinite(number) ? Json(number) : Json(); }
-
 std::string preset_of(const Setting& setting) {
     for (const auto& [name, preset] : presets)
         if (words_of(preset) == setting) return name;
@@ -50,10 +46,10 @@ std::string csv_text(const std::vector<Row>& rows) {
         const Outcome& outcome = row.outcome;
         text += fmt::format("{},{},{},{},{},{},{},{},{}", row.problem, row.level, quoted(row.setting),
                             preset_of(row.setting), row.finished() ? 1 : 0, outcome.cells, outcome.steps,
-                            row.finished() ? exact(outcome.seconds) : "", exact(row.ratio));
+                            row.finished() ? all_digits(outcome.seconds) : "", all_digits(row.ratio));
         for (std::size_t i = 0; i < measures.size(); ++i)
-            text += fmt::format(",{},{}", exact(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
-        text += fmt::format(",{},{},{},{},{}\n", exact(outcome.excess), exact(outcome.parasitic), outcome.events,
+            text += fmt::format(",{},{}", all_digits(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
+        text += fmt::format(",{},{},{},{},{}\n", all_digits(outcome.excess), all_digits(outcome.parasitic), outcome.events,
                             outcome.lost_contacts, quoted(row.refusal));
     }
     return text;
@@ -96,16 +92,28 @@ std::vector<Setting> never_on_a_front(const std::vector<Row>& rows) {
     return never;
 }
 
+/// Names of the problems that know this error.
+std::vector<std::string> problems_with(const Measure& measure, const std::vector<Row>& rows) {
+    std::vector<std::string> names;
+    for (const Row& row : rows)
+        if (row.finished() && !std::isnan(row.outcome.errors.*measure.error) &&
+            std::ranges::find(names, row.problem) == names.end())
+            names.push_back(row.problem);
+    return names;
+}
+
 /// One error against the seconds: a colour a problem, its front a line.
-std::string panel(const Measure& measure, std::size_t i, const std::vector<std::string>& names) {
+std::string panel(const Measure& measure, std::size_t i, const std::vector<Row>& rows) {
+    const std::vector<std::string> names = problems_with(measure, rows);
+    if (names.empty()) return "";
     static constexpr std::array<const char*, 4> colours{"#2a78d6", "#8a4fc7", "#3c9d5b", "#eb6834"};
     std::string text =
-        fmt::format("set origin {},{}\nset size 0.5,0.47\nset ylabel \"{}\"\nset key {}\nplot \\\n", i % 2 == 0 ? 0.0 : 0.5,
-                    i < 2 ? 0.48 : 0.0, measure.label, i == 0 ? "center right" : "off");
+        fmt::format("set origin {},{}\nset size 0.5,0.47\nset ylabel \"{}\" noenhanced\nset key {}\nplot \\\n",
+                    i % 2 == 0 ? 0.0 : 0.5, i < 2 ? 0.48 : 0.0, measure.label, i == 0 ? "center right" : "off");
     const auto points = [&](const std::string& condition) {
         return fmt::format(
             "\"trade.csv\" using (({0}) && column(\"finished\")==1 ? column(\"seconds\") : NaN)"
-            ":(column(\"{1}_error\") > {2:g} ? column(\"{1}_error\") : {2:g})",
+            ":(column(\"{1}_error\") > {2:g} ? column(\"{1}_error\") : column(\"{1}_error\") >= 0 ? {2:g} : NaN)",
             condition, measure.key, least_shown);
     };
     std::vector<std::string> lines;
@@ -126,12 +134,9 @@ std::string panel(const Measure& measure, std::size_t i, const std::vector<std::
 }
 
 Picture picture(const std::vector<Row>& rows) {
-    std::vector<std::string> names;
-    for (const Row& row : rows)
-        if (std::ranges::find(names, row.problem) == names.end()) names.push_back(row.problem);
     std::string script =
         "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n";
-    for (std::size_t i = 0; i < measures.size(); ++i) script += panel(measures[i], i, names);
+    for (std::size_t i = 0; i < measures.size(); ++i) script += panel(measures[i], i, rows);
     return {.name = "pareto",
             .purpose = "Errors against seconds, and the runs that no other one beats, from trade.csv beside this file",
             .script = script + "unset multiplot\n"};
@@ -160,8 +165,8 @@ void print(const Row& row) {
     const Outcome& outcome = row.outcome;
     if (row.finished()) {
         fmt::print("{:>8.2g}", outcome.seconds);
-        for (const Measure& measure : measures) fmt::print("{:>12}", shown(outcome.errors.*measure.error));
-        fmt::print("{:>9}{:>9}{:>8}{:>5}\n", shown(outcome.excess), shown(outcome.parasitic), outcome.events,
+        for (const Measure& measure : measures) fmt::print("{:>12}", two_digits(outcome.errors.*measure.error));
+        fmt::print("{:>9}{:>9}{:>8}{:>5}\n", two_digits(outcome.excess), two_digits(outcome.parasitic), outcome.events,
                    outcome.lost_contacts);
     } else {
         fmt::print("\n        {}\n", row.refusal);

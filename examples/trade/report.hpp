@@ -28,7 +28,7 @@ void compare(std::vector<Row>& rows);
 void print_head(const Problem& problem);
 void print(const Row& row);
 
-/// Leaves trade.csv, front.csv, summary.json and the picture pareto.png.
+/// Leaves trade.csv, summary.json and the picture pareto.png with its script.
 void write_report(const Program& program, const std::filesystem::path& out, const nlohmann::ordered_json& options,
                   const std::vector<Row>& rows);
 

@@ -145,6 +145,20 @@ TEMPLATE_TEST_CASE_SIG("what sliding adds to a contact is reported: the gap time
         CHECK(mover.move_to(at<Dim>(-0.5, 0.5)));
         CHECK(mover.contact.report().sliding_ratio_max == Approx(0.5).epsilon(1e-14));
     }
+    SECTION("tiles that slide diagonally, together or apart: in 3D A = (1 - s)^2, |dA/ds| = sqrt(2) (1 - s)") {
+        const auto [from, to] = GENERATE(std::pair(0.2, 0.6), std::pair(0.6, 0.2));
+        const auto diagonal = [](double shift) {
+            auto where = at<Dim>(-0.5, shift);
+            if constexpr (Dim == 3) where[1] += shift * axis<Dim>(1);
+            return where;
+        };
+        Mover<Dim> mover(two_tiles<Dim>(), options);
+        mover.search(diagonal(from));
+        CHECK(mover.move_to(diagonal(from)));
+        CHECK(mover.move_to(diagonal(to)));
+        const double slope = Dim == 3 ? std::sqrt(2.0) * 0.8 : 1.0;
+        CHECK(mover.contact.report().sliding_ratio_max == Approx(0.5 * slope).epsilon(1e-12));
+    }
     SECTION("a frozen overlap has no such force") {
         options.overlap = contact::OverlapMode::frozen;
         Mover<Dim> mover(two_tiles<Dim>(), options);

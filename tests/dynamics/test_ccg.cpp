@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "abut/dynamics/midpoint.hpp"
 #include "dynamics/scenes.hpp"
 
 using namespace abut;
@@ -300,6 +301,25 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is the motion 
     const std::vector<double> zero(held.size(), 0.0);
     const auto still = vectors<Dim>(zero);
     CHECK(held.ccg().motion_bound(still, held.ccg().load_at(0.0, 0.0), still, held.ccg().load_at(2.0, 0.0)) >= 2.0);
+}
+
+TEMPLATE_TEST_CASE_SIG("midpoints come with a bound on the motion of any cell, not more than sqrt(Dim) times the largest",
+                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+    const std::size_t n = GENERATE(1, 7, 8, 9, 1023, 1024, 3000);  // with and without rests of lanes and blocks
+    auto a = random_state(n * Dim, 1), b = random_state(n * Dim, 2);
+    std::vector<Vector<Dim>> middle(n);
+    const auto from = vectors<Dim>(a), to = vectors<Dim>(b);
+    const auto bound = [&] { return dynamics::take_midpoints<Dim>(from, to, middle); };
+    double largest = 0.0;
+    const double found = bound();
+    for (std::size_t c = 0; c < n; ++c) {
+        CHECK(middle[c] == Vector<Dim>(0.5 * (from[c] + to[c])));
+        raise(largest, (to[c] - from[c]).norm());
+    }
+    CHECK(found >= largest * (1.0 - 1e-15));
+    CHECK(found <= std::sqrt(static_cast<double>(Dim)) * largest * (1.0 + 1e-15));
+    b.back() = std::numeric_limits<double>::quiet_NaN();
+    CHECK(std::isnan(bound()));
 }
 
 TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = E sin^2 th + 4 eta sin^6(th/2)",

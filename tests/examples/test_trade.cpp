@@ -6,6 +6,7 @@
 #include <set>
 
 #include "examples/program.hpp"
+#include "support/preset.hpp"
 #include "trade/ladder.hpp"
 
 namespace {
@@ -44,7 +45,8 @@ TEST_CASE("a ladder holds each setting once, the defaults first", "[examples][tr
             CHECK(std::set(settings.begin(), settings.end()).size() == settings.size());
             for (const auto& setting : settings) {
                 INFO(setting);
-                CHECK_NOTHROW(trade::options_of(setting, {}));
+                RunOptions run;
+                CHECK_NOTHROW(apply_words(setting, run));
                 if (at_rest) CHECK(setting.find("--cfl") == std::string::npos);
             }
         }
@@ -93,6 +95,16 @@ TEST_CASE("on a front are the runs that no other one beats in time and error", "
             INFO(measure << ": " << row["setting"]);
             CHECK(fronts.contains(measure) == !beaten);
         }
+}
+
+TEST_CASE("a setting that no program would take is refused before anything is run, with its words", "[examples][trade]") {
+    for (const char* words : {"--no-such-option", "--cfl 2", "--help"}) {
+        const auto outcome = run_program("trade", std::string("--only bar --also \"") + words + "\"", "trade_bad");
+        INFO(outcome.error);
+        CHECK(outcome.exit_code == 1);
+        CHECK(outcome.error.find(std::string("'") + words + "'") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(outcome.directory / "trade.csv"));
+    }
 }
 
 TEST_CASE("a run that takes longer than its limit is stopped and says so", "[examples][trade]") {
