@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "support/csv.hpp"
 #include "support/files.hpp"
@@ -102,41 +103,73 @@ std::vector<std::string> problems_with(const Measure& measure, const std::vector
     return names;
 }
 
+/// The runs on a front by their seconds, as data of gnuplot.
+std::string front_data(const std::string& name, const std::string& problem, std::size_t measure,
+                       const std::vector<Row>& rows) {
+    std::vector<std::pair<double, double>> front;
+    for (const Row& row : rows)
+        if (row.problem == problem && row.on_front[measure])
+            front.emplace_back(row.outcome.seconds, std::max(row.outcome.errors.*measures[measure].error, least_shown));
+    std::ranges::sort(front);
+    std::string text = name + " << EOD\n";
+    for (const auto& [seconds, error] : front) text += fmt::format("{:.6g},{:.6g}\n", seconds, error);
+    return text + "EOD\n";
+}
+
+constexpr std::array<const char*, 4> colours{"#2a78d6", "#8a4fc7", "#3c9d5b", "#eb6834"};  // of the problems
+constexpr std::array<int, 3> shapes{8, 6, 4};  // of the presets: triangle, circle, square
+
+std::string colour_of(const std::string& problem) {
+    const auto place = std::ranges::find(problems(), problem, &Problem::name) - problems().begin();
+    return colours[static_cast<std::size_t>(place) % colours.size()];
+}
+
+/// What points and colours mean, for all panels.
+std::vector<std::string> key(const std::vector<Row>& rows) {
+    std::vector<std::string> lines;
+    for (const Problem& problem : problems())
+        if (std::ranges::find(rows, problem.name, &Row::problem) != rows.end())
+            lines.push_back(fmt::format("keyentry with points pt 7 ps 0.9 lc rgb \"{}\" title \"{}\"",
+                                        colour_of(problem.name), problem.name));
+    for (std::size_t p = 0; p < presets.size(); ++p)
+        lines.push_back(fmt::format("keyentry with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" title \"{}\"", shapes[p],
+                                    presets[p].first));
+    return lines;
+}
+
 /// One error against the seconds: a colour a problem, its front a line.
-std::string panel(const Measure& measure, std::size_t i, const std::vector<Row>& rows) {
+std::string panel(std::size_t i, const std::vector<Row>& rows) {
+    const Measure& measure = measures[i];
     const std::vector<std::string> names = problems_with(measure, rows);
     if (names.empty()) return "";
-    static constexpr std::array<const char*, 4> colours{"#2a78d6", "#8a4fc7", "#3c9d5b", "#eb6834"};
-    std::string text =
-        fmt::format("set origin {},{}\nset size 0.5,0.47\nset ylabel \"{}\" noenhanced\nset key {}\nplot \\\n",
-                    i % 2 == 0 ? 0.0 : 0.5, i < 2 ? 0.48 : 0.0, measure.label, i == 0 ? "center right" : "off");
     const auto points = [&](const std::string& condition) {
         return fmt::format(
             "\"trade.csv\" using (({0}) && column(\"finished\")==1 ? column(\"seconds\") : NaN)"
             ":(column(\"{1}_error\") > {2:g} ? column(\"{1}_error\") : column(\"{1}_error\") >= 0 ? {2:g} : NaN)",
             condition, measure.key, least_shown);
     };
+    std::string data;
     std::vector<std::string> lines;
-    for (std::size_t p = 0; p < names.size(); ++p) {
-        const auto is_one = fmt::format("strcol(\"problem\") eq \"{}\"", names[p]);
-        const char* colour = colours[p % colours.size()];
-        lines.push_back(
-            fmt::format("{} with points pt 7 ps 0.6 lc rgb \"{}\" title \"{}\"", points(is_one), colour, names[p]));
-        lines.push_back(fmt::format("{} smooth unique with lines lw 1.5 lc rgb \"{}\" notitle",
-                                    points(fmt::format("{} && column(\"{}_front\")==1", is_one, measure.key)), colour));
+    for (const std::string& name : names) {
+        const std::string front = fmt::format("$front_{}_{}", measure.key, name), colour = colour_of(name);
+        data += front_data(front, name, i, rows);
+        lines.push_back(fmt::format("{} with points pt 7 ps 0.6 lc rgb \"{}\" notitle",
+                                    points(fmt::format("strcol(\"problem\") eq \"{}\"", name)), colour));
+        lines.push_back(fmt::format("{} using 1:2 with lines lw 1.5 lc rgb \"{}\" notitle", front, colour));
     }
-    static constexpr std::array<int, 3> shapes{8, 6, 4};  // triangle, circle, square
     for (std::size_t p = 0; p < presets.size(); ++p)
-        lines.push_back(fmt::format("{} with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" title \"{}\"",
-                                    points(fmt::format("strcol(\"preset\") eq \"{}\"", presets[p].first)), shapes[p],
-                                    presets[p].first));
-    return text + fmt::format("{}\n", fmt::join(lines, ", \\\n     "));
+        lines.push_back(fmt::format("{} with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" notitle",
+                                    points(fmt::format("strcol(\"preset\") eq \"{}\"", presets[p].first)), shapes[p]));
+    for (const std::string& line : key(rows)) lines.push_back(line);
+    return fmt::format("{}set origin {},{}\nset size 0.5,0.47\nset ylabel \"{}\" noenhanced\nplot {}\nset key off\n", data,
+                       i % 2 == 0 ? 0.0 : 0.5, i < 2 ? 0.48 : 0.0, measure.label, fmt::join(lines, ", \\\n     "));
 }
 
 Picture picture(const std::vector<Row>& rows) {
     std::string script =
-        "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n";
-    for (std::size_t i = 0; i < measures.size(); ++i) script += panel(measures[i], i, rows);
+        "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n"
+        "set key center right\n";
+    for (std::size_t i = 0; i < measures.size(); ++i) script += panel(i, rows);
     return {.name = "pareto",
             .purpose = "Errors against seconds, and the runs that no other one beats, from trade.csv beside this file",
             .script = script + "unset multiplot\n"};
