@@ -307,14 +307,15 @@ std::vector<PlaneVector<3>> shared_polygon<3>(ProjectedFace<3> face_1, Projected
     const PlaneVector<3> no_shift = PlaneVector<3>::Zero();
     if (fast_shared_area(face_1, face_2, no_shift).area == 0.0) return {};
     const Polygon polygon_1(face_1, face_1[0], no_shift), polygon_2(face_2, face_1[0], no_shift);
-    Clipped overlap, clipped;
-    for (int j = 0; j < polygon_2.size; ++j) overlap.add(polygon_2.vertices[j], j, true);
-    for (int i = 0; i < polygon_1.size && overlap.size > 0; ++i) {
-        clip(overlap, polygon_1.vertices[i], polygon_1.edge(i), i, clipped);
+    std::array<Clipped, 2> buffers;
+    Clipped *overlap = &buffers[0], *clipped = &buffers[1];
+    for (int j = 0; j < polygon_2.size; ++j) overlap->add(polygon_2.vertices[j], j, true);
+    for (int i = 0; i < polygon_1.size && overlap->size > 0; ++i) {
+        clip(*overlap, polygon_1.vertices[i], polygon_1.edge(i), i, *clipped);
         std::swap(overlap, clipped);
     }
     std::vector<PlaneVector<3>> corners;
-    for (int k = 0; k < overlap.size; ++k) corners.push_back(face_1[0] + overlap.corners[k].point);
+    for (int k = 0; k < overlap->size; ++k) corners.push_back(face_1[0] + overlap->corners[k].point);
     return corners;
 }
 
