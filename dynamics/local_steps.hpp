@@ -18,13 +18,15 @@ struct SolidLocalSteps {
     LocalSteps steps;
     double dt;                        ///< of level 0, stable as `StableStep::dt` is [s]
     std::vector<std::int64_t> cells;  ///< of each level
-    std::vector<double> omega_max;    ///< highest frequency of the cells of this level and all coarser ones [rad/s]
+    std::vector<double> omega_max;    ///< upper bound of this level, all coarser ones and two layers about them [rad/s]
 };
 
 /// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with
-/// M^-1 K. The power iteration then proves each level (and all that are coarser) stable with its step; cells that carry an
-/// unstable mode go to the next finer level, until none is left. Without a margin for cells that contact may reach, contact
-/// between cells of different steps can feed the parasitic mode. Throws std::invalid_argument for options out of range,
+/// M^-1 K. A power iteration then shows each level (and all that are coarser) stable with its step, and that no motion
+/// near its cells resonates with that step; cells that carry an unstable mode, or lie near one that resonates, go to the
+/// next finer level, until none is left. A coarsest level with hardly a cell is given up: cells of about one size have one
+/// level. Without a margin for cells that contact may reach, contact between cells of different steps can feed the parasitic
+/// mode. docs/integrators.md, Local steps. Throws std::invalid_argument for options out of range,
 /// std::runtime_error if the iteration does not settle.
 template <int Dim>
 [[nodiscard]] SolidLocalSteps local_steps(Solid<Dim>& solid, const StableStep& stable, const LocalStepOptions& options = {});

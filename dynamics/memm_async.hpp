@@ -28,7 +28,8 @@ void check_local_steps(const LocalSteps& steps, std::size_t size);
 ///
 /// `step` goes from one node that all have in common to the next, `dt` apart; only there are q, p and the energies to be
 /// read. 1/2 p^{k-1/2} . M^-1 p^{k+1/2} + V is exact at these nodes, and linear momentum, too. Each step must be stable for
-/// those who take it; resonances between steps can exist besides. A mass that couples degrees of freedom is not allowed.
+/// those who take it, and nothing may resonate with a step: for solids `local_steps` sees to both. A mass that couples
+/// degrees of freedom is not allowed.
 template <LocalSystem S>
 requires std::convertible_to<decltype(std::declval<S&>().inverse_mass()), std::span<const double>>
 class MemmAsync : public Integrator<MemmAsync<S>, S> {

@@ -15,7 +15,7 @@ inline constexpr int most_iterations = 2000;
 
 template <int Dim>
 HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options) {
-    const auto& [least, enough, mask] = options;
+    const auto& [least, least_beyond, enough, mask] = options;
     const std::span<const double> inverse_mass = solid.inverse_mass();
     const std::size_t n = solid.size();
     std::vector<double> x(n), k_x(n), m_x(n);
@@ -26,7 +26,11 @@ HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options
     double quotient = 0.0;
     double change = std::numeric_limits<double>::infinity();
     int iteration = 0;
-    while (iteration < least || (change > settled_change && quotient <= enough && iteration < most_iterations)) {
+    const auto is_done = [&] {
+        if (quotient > enough) return iteration >= least_beyond;
+        return iteration >= least && (change <= settled_change || iteration >= most_iterations);
+    };
+    while (!is_done()) {
         solid.stiffness_product(x, k_x);
         for (std::size_t i = 0; i < n; ++i) m_x[i] = x[i] / inverse_mass[i];
         const double next = dot_product(x, k_x) / dot_product(x, m_x);

@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <cmath>
 #include <limits>
 #include <span>
 #include <vector>
@@ -19,8 +20,12 @@ struct HighestMode {
 inline constexpr double settled_change = 1e-4;      ///< of the quotient: then the iteration ends
 inline constexpr double lower_bound_margin = 1.02;  ///< of omega: a Rayleigh quotient never exceeds the largest eigenvalue
 
+/// What omega is taken for [rad/s].
+[[nodiscard]] inline double bound_of(const HighestMode& mode) { return lower_bound_margin * std::sqrt(mode.quotient); }
+
 struct PowerIterationOptions {
-    int least = 50;                                           ///< iterations
+    int least = 50;                                           ///< iterations before it may count as settled
+    int least_beyond = 10;                                    ///< iterations before `enough` ends it
     double enough = std::numeric_limits<double>::infinity();  ///< quotient beyond which it need not settle [1/s^2]
     std::span<const double> mask = {};                        ///< 1 for a degree of freedom that may move, 0; empty: all may
 };

@@ -22,7 +22,7 @@ StableStep stable_step(Solid<Dim>& solid) {
                                  std::to_string(mode.iterations) + " iterations (relative change " + number(mode.change) +
                                  ", allowed " + number(settled_change) +
                                  "). Check the mesh for slivers and the material for extreme values.");
-    const double omega = lower_bound_margin * std::sqrt(mode.quotient);
+    const double omega = bound_of(mode);
     return {omega, stable_step_of(solid, omega), mode.iterations, mode.change};
 }
 

@@ -126,7 +126,7 @@ struct Falling {
     mesh::Mesh<2> mesh = mesh::box<2>({.lower = {0.0, 0.05},
                                        .upper = {1.0, 0.55},
                                        .size = 0.2,
-                                       .refinement = mesh::Refinement<2>{{0.5, 0.05}, 0.03, 0.4}});
+                                       .refinement = mesh::Refinement<2>{{0.5, 0.05}, 0.015, 0.4}});
     dynamics::SolidOptions<2> options = bodies<2>(1);
 
     explicit Falling(double wall_speed, double skin = 0.0) {
@@ -220,7 +220,7 @@ TEST_CASE("local steps refuse conditions with a history, cells whose components 
 
 TEST_CASE("local steps with constant tractions and prescribed displacements keep the energy", "[dynamics][async]") {
     const auto mesh = mesh::box<2>(
-        {.lower = {0.0, 0.0}, .upper = {1.0, 0.5}, .size = 0.2, .refinement = mesh::Refinement<2>{{0.5, 0.5}, 0.03, 0.3}});
+        {.lower = {0.0, 0.0}, .upper = {1.0, 0.5}, .size = 0.2, .refinement = mesh::Refinement<2>{{0.5, 0.5}, 0.01, 0.3}});
     dynamics::SolidOptions<2> options;
     options.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
     options.boundary.dirichlet.push_back({.group = "ymin", .value = Vector<2>(0.0, 0.001)});
@@ -309,7 +309,35 @@ TEST_CASE("local steps: the bulk force of all levels together is that of one lev
     for (std::size_t i = 0; i < q.size(); ++i) REQUIRE(together[i] == Approx(dt * f[i]).margin(1e-13 * dt * largest(f)));
 }
 
-TEST_CASE("local steps: levels are stable by themselves, and fine where cells are fine", "[dynamics][async]") {
+/// The cells on a level and all coarser ones, and some layers about them.
+std::vector<char> cells_near(const mesh::Mesh<2>& mesh, const dynamics::SolidLocalSteps& local, std::int32_t level,
+                             int layers) {
+    std::vector<char> near;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        near.push_back(local.steps.level[static_cast<std::size_t>(c) * 2] <= level);
+    for (int layer = 0; layer < layers; ++layer) {
+        const std::vector<char> before = near;
+        for (const auto& [c, d] : mesh.face_cells)
+            if (d >= 0 && (before[c] || before[d])) near[c] = near[d] = 1;
+    }
+    return near;
+}
+
+/// Of some cells, with the others held [rad/s].
+double highest_frequency(const Solid<2>& solid, const Eigen::MatrixXd& k, const std::vector<char>& cells) {
+    std::vector<Eigen::Index> own;
+    for (std::size_t i = 0; i < solid.size(); ++i)
+        if (cells[i / 2]) own.push_back(static_cast<Eigen::Index>(i));
+    const auto n = static_cast<Eigen::Index>(own.size());
+    Eigen::MatrixXd part(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j)
+            part(i, j) = k(own[i], own[j]) * std::sqrt(solid.inverse_mass()[own[i]] * solid.inverse_mass()[own[j]]);
+    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(part, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
+
+TEST_CASE("local steps: levels are stable by themselves, away from resonances, and fine where cells are fine",
+          "[dynamics][async]") {
     const auto mesh = refined_discs(0.4, 8.0);
     Solid<2> solid(mesh, bodies<2>(2));
     const auto stable = dynamics::stable_step(solid);
@@ -319,18 +347,15 @@ TEST_CASE("local steps: levels are stable by themselves, and fine where cells ar
     const Eigen::MatrixXd k = dense_stiffness(solid);
     for (std::size_t l = 0; l < local.cells.size(); ++l) {
         CHECK(local.cells[l] > 0);
-        std::vector<Eigen::Index> own;
-        for (std::size_t i = 0; i < solid.size(); ++i)
-            if (local.steps.level[i] <= static_cast<std::int32_t>(l)) own.push_back(static_cast<Eigen::Index>(i));
-        Eigen::MatrixXd part(own.size(), own.size());
-        for (std::size_t i = 0; i < own.size(); ++i)
-            for (std::size_t j = 0; j < own.size(); ++j)
-                part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-                    k(own[i], own[j]) * std::sqrt(solid.inverse_mass()[own[i]] * solid.inverse_mass()[own[j]]);
-        const double omega =
-            std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(part, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-        CHECK(local.dt / local.steps.parts[l] < 2.0 / omega);
-        CHECK(local.omega_max[l] == Approx(omega).epsilon(0.05));
+        const double allowed = 0.85 * 2.0 / (local.dt / local.steps.parts[l]);  // 0.85: the margin for contact
+        const double omega = highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 2));
+        CHECK(omega < allowed);
+        CHECK(local.omega_max[l] >= omega);
+        CHECK(local.omega_max[l] < 1.1 * omega);
+        // Two steps of the next level in one of this: what resonates with it has sqrt(2) times its frequency.
+        if (l + 1 < local.cells.size())
+            CHECK(highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 5)) <
+                  std::sqrt(2.0) * allowed);
     }
     const auto cell_level = [&](std::int32_t c) { return local.steps.level[static_cast<std::size_t>(c) * 2]; };
     const auto at = [&](const Vector<2>& x) {
@@ -341,6 +366,53 @@ TEST_CASE("local steps: levels are stable by themselves, and fine where cells ar
     };
     CHECK(cell_level(at({0.0, 0.0})) >= 2);
     CHECK(cell_level(at({-1.2, 0.0})) == 0);
+}
+
+/// Bodies that only fly, with local steps at 0.99 of what is stable: |e|/m over their speed after some steps. All that is not
+/// uniform begins as rounding, and a resonance multiplies it at each step.
+template <int Dim>
+double parasitic_of_flight(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, int steps,
+                           bool one_level) {
+    auto flying = bodies<Dim>(mesh.n_bodies());
+    flying.contact.reset();
+    Solid<Dim> solid(mesh, flying);
+    const auto local = dynamics::local_steps(solid, dynamics::stable_step(solid));
+    CHECK((local.cells.size() == 1) == one_level);
+    dynamics::MemmAsync async(solid, std::vector<double>(solid.size(), 0.0),
+                              dynamics::uniform_momentum<Dim>(solid, velocity), 0.99 * local.dt, local.steps);
+    for (int step = 0; step < steps; ++step) async.step();
+    return dynamics::measure(async, solid).parasitic / velocity.front().norm();
+}
+
+TEST_CASE("local steps: no motion resonates with the steps of coarser cells", "[dynamics][async]") {
+    const double ratio = GENERATE(1.0, 4.0, 8.0);
+    CAPTURE(ratio);
+    CHECK(parasitic_of_flight<2>(refined_discs(0.15, ratio), disc_velocities, 3000, ratio == 1.0) < 1e-9);
+}
+
+TEST_CASE("local steps: tetrahedra of one size have one level, since longer steps of some would resonate",
+          "[dynamics][async]") {
+    const auto mesh = mesh::cylinder({.radius = 1.0, .length = 0.5, .size = 1.0 / 6.0});
+    CHECK(parasitic_of_flight<3>(mesh, {Vector<3>(0.05, 0.0, 0.0)}, 400, true) < 1e-9);
+}
+
+TEST_CASE("local steps: one level is asked for, or no cell can have more", "[dynamics][async]") {
+    const auto mesh = refined_discs(0.4, 8.0);
+    Solid<2> solid(mesh, bodies<2>(2));
+    const auto stable = dynamics::stable_step(solid);
+    const auto one = dynamics::local_steps(solid, stable, {.most_levels = 1});
+    CHECK(one.cells == std::vector<std::int64_t>{mesh.n_cells()});
+    CHECK(one.dt == stable.dt);
+    CHECK(one.omega_max == std::vector<double>{stable.omega_max});
+    // All cells of so coarse a disc are within reach of contact: what is finer than all others is all there is.
+    const auto coarse_mesh = two_discs(0.8);
+    Solid<2> coarse(coarse_mesh, bodies<2>(2));
+    const auto coarse_stable = dynamics::stable_step(coarse);
+    const auto finer = dynamics::local_steps(coarse, coarse_stable, {.contact_levels = 2});
+    CHECK(finer.cells.size() == finer.omega_max.size());
+    CHECK(finer.cells.front() > 0);
+    CHECK(finer.cells.back() > 0);
+    CHECK(finer.dt / finer.steps.parts.back() == 0.25 * coarse_stable.dt);
 }
 
 TEST_CASE("local steps: cells that contact may reach are a level finer than the same cells without contact, or finest",
