@@ -184,6 +184,10 @@ void Contact<Dim>::report_step() {
     report_.events += integral_.events();
     report_.compression_max = std::max(report_.compression_max, integral_.compression());
     report_.sliding_ratio_max = std::max(report_.sliding_ratio_max, integral_.sliding_ratio());
+    for (const SlippedPair& slipped : integral_.slipped()) {
+        ++report_.slipped_pairs;
+        report_.slipped_compression_max = std::max(report_.slipped_compression_max, slipped.compression);
+    }
     if (integral_.compression() > options_.compression_warning) ++report_.compressed_steps;
     if (integral_.compression() > options_.compression_limit) {
         const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];

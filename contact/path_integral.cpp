@@ -141,11 +141,12 @@ void PathIntegral<Dim>::find_active(const Step& step) {
     measure_active(step);
 }
 
-/// How deep and how far aside active pairs are pressed.
+/// How deep and how far aside active pairs are pressed, and which of them slipped.
 template <int Dim>
 void PathIntegral<Dim>::measure_active(const Step& step) {
     compression_ = sliding_ratio_ = 0.0;
     most_compressed_ = -1;
+    slipped_.clear();
     std::size_t i = 0;
     for (std::size_t a = 0; a < active_.size(); ++a) {
         while (closing_[i].pair != active_[a]) ++i;
@@ -160,7 +161,30 @@ void PathIntegral<Dim>::measure_active(const Step& step) {
             for (const double t : {0.0, 1.0})
                 sliding_ratio_ = std::max(sliding_ratio_,
                                           -polynomial(piece.depth, t) * polynomial(piece.shift_derivative, t).norm() / face);
+        const auto& [at_0, at_1, overlap_moves] = closing_[i].motion;
+        const double opened = at_1.gap < 0.0 ? 1.0 : at_0.gap / (at_0.gap - at_1.gap);
+        const double parted = last_piece(a).end;
+        if (parted < opened) slipped_.push_back({active_[a], -closing_[i].motion.gap(parted) / pair.depth});
     }
+    if (!slipped_.empty()) drop_carried(step);
+}
+
+/// Takes out of `slipped_` the pairs of which a face has another partner at the end of the step. A face of an obstacle may
+/// hold many and carries none.
+template <int Dim>
+void PathIntegral<Dim>::drop_carried(const Step& step) {
+    carried_.assign(mean_correction_.size(), 0);
+    for (std::size_t a = 0; a < active_.size(); ++a) {
+        const PathPiece<Dim>& last = last_piece(a);
+        if (last.end < 1.0 || !(polynomial(last.depth, 1.0) < 0.0)) continue;
+        const ContactPair<Dim>& pair = step.pairs.pairs()[active_[a]];
+        for (const std::int32_t face : {pair.face_1, pair.face_2})
+            if (!step.surface.is_rigid(face)) carried_[step.local_face[face]] = 1;
+    }
+    std::erase_if(slipped_, [&](const SlippedPair& slipped) {
+        const ContactPair<Dim>& pair = step.pairs.pairs()[slipped.pair];
+        return carried_[step.local_face[pair.face_1]] || carried_[step.local_face[pair.face_2]];
+    });
 }
 
 template <int Dim>

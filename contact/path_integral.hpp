@@ -38,6 +38,12 @@ struct PathPiece {
     std::array<PlaneVector<Dim>, 3> shift_derivative;  ///< coefficients of dA/ds
 };
 
+/// A pair whose faces have slid off each other while they were pressed in.
+struct SlippedPair {
+    std::int32_t pair;   ///< place in the pair list
+    double compression;  ///< |g|/D when the shared area came to an end
+};
+
 /// Where a pair force is cut into subintervals.
 enum class Cuts {
     coupled,  ///< at the events of all pairs that its face forces depend on: exact, and local
@@ -72,6 +78,10 @@ public:
     /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over that
     /// which the whole face would carry.
     [[nodiscard]] double sliding_ratio() const { return sliding_ratio_; }
+    /// Pairs whose faces slid off each other in this step while pressed in, and neither of which (but for faces of obstacles)
+    /// has another partner at its end. Seen where the overlap moves and events are looked for; not where the area comes to
+    /// its end just when the step does.
+    [[nodiscard]] std::span<const SlippedPair> slipped() const { return slipped_; }
 
 private:
     using Position = PairPosition<Dim>;
@@ -129,6 +139,10 @@ private:
                               Found& found) const;
     void join_found();
     void measure_active(const Step& step);
+    void drop_carried(const Step& step);
+    [[nodiscard]] const PathPiece<Dim>& last_piece(std::size_t active) const {
+        return pieces_[piece_offsets_[active + 1] - 1];
+    }
     void link_faces(const Step& step);
     void add_mean_corrections(const PairList<Dim>& pairs);
     [[nodiscard]] PairForce pair_force(const Step& step, std::int32_t active, Scratch& scratch) const;
@@ -154,6 +168,8 @@ private:
     double compression_ = 0.0;
     std::int32_t most_compressed_ = -1;
     double sliding_ratio_ = 0.0;
+    std::vector<SlippedPair> slipped_;
+    std::vector<char> carried_;  // whether a face has a partner at the end of the step
 };
 
 }  // namespace abut::contact

@@ -17,13 +17,15 @@ using Json = nlohmann::ordered_json;
 std::string csv_text(const std::vector<Row>& rows) {
     std::string text =
         "family,value,outcome,finite,pseudo_energy_drift,energy_excess_max,parasitic_max,events,momentum_drift,"
-        "lost_contacts,compression_max,sliding_ratio_max,deviation,cells,steps,active_pairs_max,blind_corners,message\n";
+        "lost_contacts,compression_max,sliding_ratio_max,slipped_compression_max,deviation,cells,steps,active_pairs_max,"
+        "blind_corners,message\n";
     for (const Row& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
                             name_of(row.verdict), row.is_finite ? 1 : 0, all_digits(row.drift), all_digits(row.excess),
                             all_digits(row.parasitic), row.events, all_digits(row.momentum), row.lost_contacts,
-                            all_digits(row.compression), all_digits(row.sliding), all_digits(row.deviation), row.cells,
-                            row.steps, row.active_pairs_max, row.blind_corners, quoted(row.message));
+                            all_digits(row.compression), all_digits(row.sliding), all_digits(row.slipped),
+                            all_digits(row.deviation), row.cells, row.steps, row.active_pairs_max, row.blind_corners,
+                            quoted(row.message));
     return text;
 }
 
@@ -40,6 +42,7 @@ Json to_json(const Row& row) {
             {"lost_contacts", row.lost_contacts},
             {"compression_max", json_number(row.compression)},
             {"sliding_ratio_max", json_number(row.sliding)},
+            {"slipped_compression_max", json_number(row.slipped)},
             {"deviation", json_number(row.deviation)},
             {"cells", row.cells},
             {"steps", row.steps},
@@ -89,16 +92,16 @@ Json summary(const Program& program, const SweepOptions& options, const std::vec
 
 void print_head(const Family& family) {
     fmt::print("{}: {}\n", family.name, family.question);
-    fmt::print("  {:<38}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}\n", "", "outcome", "drift", "H - H~", "|e|/m v",
-               "events", "momentum", "lost", "|g|/D", "sliding", "units");
+    fmt::print("  {:<38}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}{:>9}\n", "", "outcome", "drift", "H - H~",
+               "|e|/m v", "events", "momentum", "lost", "|g|/D", "sliding", "slipped", "units");
 }
 
 void print(const Row& row) {
     fmt::print("  {:<38}{:<9}", row.value, name_of(row.verdict));
     if (row.verdict != Verdict::refused)
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}", two_digits(row.drift), two_digits(row.excess),
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}{:>9}", two_digits(row.drift), two_digits(row.excess),
                    two_digits(row.parasitic), row.events, two_digits(row.momentum), row.lost_contacts,
-                   two_digits(row.compression), two_digits(row.sliding), two_digits(row.deviation));
+                   two_digits(row.compression), two_digits(row.sliding), two_digits(row.slipped), two_digits(row.deviation));
     fmt::print("\n");
     if (!row.message.empty()) fmt::print("      {}\n", row.message);
     std::fflush(stdout);

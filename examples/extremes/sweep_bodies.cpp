@@ -22,15 +22,9 @@ Trial<2> meeting_of_discs(const char* family, const std::string& value, const Me
         .family = family, .value = value, .speed = meeting.speed, .make = [meeting] { return discs(meeting); }, .run = run};
 }
 
-/// Flat sides meet wherever they are: two blocks touch when the gap is closed, two discs of straight faces a little later.
-Trial<2> meeting_of_blocks(const char* family, const std::string& value, const Meeting<2>& meeting, const RunOptions& run) {
-    const std::array<Block<2>, 2> pair{{{.cells = {7, 7}}, {.cells = {5, 5}}}};
-    return {.family = family,
-            .value = value,
-            .speed = meeting.speed,
-            .make = [meeting, pair] { return blocks<2>(meeting, pair); },
-            .run = run};
-}
+/// Blocks where the time of the impact must be known: flat sides touch when the gap is closed, discs of straight faces a
+/// little later.
+const std::array<Block<2>, 2> squares{{{.cells = {7, 7}}, {.cells = {5, 5}}}};
 
 /// The gap is closed within a few steps of the faster body, whose wave speed is `ratio` times that of the other.
 RunOptions short_run(Meeting<2>& meeting, double ratio, const RunOptions& run) {
@@ -46,7 +40,7 @@ void sweep_stiffness(const SweepOptions& options, const Sink& sink) {
     for (const double ratio : thinned({1.0, 1e2, 1e4, 1e6, 1e9, 1e12}, options.quick)) {
         Meeting<2> meeting{.young = {1.0, ratio}, .aside = 0.3};
         const RunOptions run = short_run(meeting, std::sqrt(ratio), options.run);
-        sink(attempt(meeting_of_blocks("stiffness", fmt::format("E_2/E_1 = {:g}", ratio), meeting, run)));
+        sink(attempt(meeting_of_blocks<2>("stiffness", fmt::format("E_2/E_1 = {:g}", ratio), meeting, squares, run)));
         // The denser the stiffer: waves are equally fast in both, and the run sees the whole impact.
         Meeting<2> matched{.young = {1.0, ratio}, .density = {1.0, ratio}, .aside = 0.3};
         const std::string value = fmt::format("E_2/E_1 = rho_2/rho_1 = {:g}", ratio);
@@ -60,7 +54,7 @@ void sweep_density(const SweepOptions& options, const Sink& sink) {
         sink(attempt(meeting_of_discs("density", fmt::format("rho_2/rho_1 = {:g}", ratio), meeting, options.run)));
         Meeting<2> light{.density = {1.0, 1.0 / ratio}, .aside = 0.3};
         const RunOptions run = short_run(light, std::sqrt(ratio), options.run);
-        sink(attempt(meeting_of_blocks("density", fmt::format("rho_2/rho_1 = {:g}", 1.0 / ratio), light, run)));
+        sink(attempt(meeting_of_blocks<2>("density", fmt::format("rho_2/rho_1 = {:g}", 1.0 / ratio), light, squares, run)));
     }
 }
 
@@ -75,7 +69,7 @@ void sweep_speed(const SweepOptions& options, const Sink& sink) {
     for (const double speed : thinned({1e-6, 1e-4, 1e-2, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 3.0}, options.quick)) {
         // The time to the impact does not depend on the speed.
         Meeting<2> meeting{.speed = speed, .gap = 0.4 * speed, .aside = 0.3};
-        sink(attempt(meeting_of_blocks("speed", fmt::format("v = {:g} c", speed), meeting, options.run)));
+        sink(attempt(meeting_of_blocks<2>("speed", fmt::format("v = {:g} c", speed), meeting, squares, options.run)));
     }
 }
 

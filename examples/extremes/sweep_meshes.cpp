@@ -11,16 +11,6 @@ namespace {
 
 using mesh::CellShape;
 
-template <int Dim>
-Trial<Dim> meeting_of_blocks(const char* family, const std::string& value, const Meeting<Dim>& meeting,
-                             const std::array<Block<Dim>, 2>& pair, const RunOptions& run) {
-    return {.family = family,
-            .value = value,
-            .speed = meeting.speed,
-            .make = [meeting, pair] { return blocks<Dim>(meeting, pair); },
-            .run = run};
-}
-
 const std::array plane_shapes = {CellShape::quadrangle, CellShape::triangle};
 const std::array solid_shapes = {CellShape::hexahedron, CellShape::tetrahedron};
 

@@ -85,6 +85,7 @@ void measure(Row& row, const Trial<Dim>& trial, const RunResult<Dim>& result) {
     if (trial.keeps_momentum) row.momentum = result.ledger.momentum_drift() / impulse_scale(result);
     row.compression = result.contact.compression_max;
     row.sliding = result.contact.sliding_ratio_max;
+    row.slipped = result.contact.slipped_compression_max;
     row.steps = result.steps;
     row.events = result.contact.events;
     row.lost_contacts = result.contact.lost_contacts;
@@ -108,6 +109,16 @@ std::string name_of(Verdict verdict) {
             return "FAILED";
     }
     return "";
+}
+
+template <int Dim>
+Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
+                             const std::array<Block<Dim>, 2>& pair, const RunOptions& run) {
+    return {.family = family,
+            .value = value,
+            .speed = meeting.speed,
+            .make = [meeting, pair] { return blocks<Dim>(meeting, pair); },
+            .run = run};
 }
 
 template <int Dim>
@@ -146,7 +157,11 @@ void compare(Row& row, const Row& reference, std::size_t how_many, double allowe
     row.message += fmt::format("{} differs by {:.2g}, {:.2g} is allowed", worst, row.deviation, allowed);
 }
 
+template Trial<2> meeting_of_blocks(const std::string&, const std::string&, const Meeting<2>&,
+                                    const std::array<Block<2>, 2>&, const RunOptions&);
 template Row attempt<2>(const Trial<2>&);
+template Trial<3> meeting_of_blocks(const std::string&, const std::string&, const Meeting<3>&,
+                                    const std::array<Block<3>, 2>&, const RunOptions&);
 template Row attempt<3>(const Trial<3>&);
 
 }  // namespace abut::examples::extremes

@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "extremes/scenes.hpp"
 #include "support/run.hpp"
 
 namespace abut::examples::extremes {
@@ -33,6 +35,11 @@ struct Trial {
     RunOptions run;
 };
 
+/// Two blocks that run into each other.
+template <int Dim>
+[[nodiscard]] Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
+                                           const std::array<Block<Dim>, 2>& pair, const RunOptions& run);
+
 /// A number without a unit.
 struct Number {
     std::string name;
@@ -51,6 +58,7 @@ struct Row {
     double momentum = not_given;     ///< drift over the sum of m |v| at the start
     double compression = not_given;  ///< largest |g|/D
     double sliding = not_given;      ///< largest |g| |dA/ds| over the smaller face
+    double slipped = not_given;      ///< largest |g|/D of pairs that slid off each other
     double deviation = not_given;    ///< from the same run in other units or at another place
     std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
     std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts

@@ -12,6 +12,7 @@
 #include "support/choices.hpp"
 #include "support/comparison.hpp"
 #include "support/simulation.hpp"
+#include "support/warnings.hpp"
 
 namespace abut::examples {
 namespace {
@@ -213,6 +214,7 @@ BarRun run_strips(const Scene<Dim>& scene, const BarOptions& options, double are
                                                  with_body(options, scene.mesh.n_cells()), error.what(), options.cfl));
         }
     }();
+    warn_of_contact(result, with_body(options, scene.mesh.n_cells()));
     run.energies = energy_figures(result);
     run.energies.scale /= area;
     run.energy_start = result.ledger.entries().front().energy / area;

@@ -1,13 +1,17 @@
 #include "scenes/impacts.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/geometry/stopwatch.hpp"
 #include "abut/mesh/shapes.hpp"
+#include "support/progress.hpp"
+#include "support/warnings.hpp"
 
 namespace abut::examples {
 namespace {
@@ -60,6 +64,31 @@ double spin(const dynamics::RunView<2>& run, const dynamics::Solid<2>& solid) {
     }
     return momentum / inertia;
 }
+
+/// Lets another observer look on, and shows how far the run has come.
+template <int Dim>
+class WithProgress : public Observer<Dim> {
+public:
+    explicit WithProgress(Observer<Dim>& other) : other_(other) {}
+
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override {
+        other_.begin(scene, result);
+        progress_.emplace(result.steps);
+    }
+    void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override {
+        other_.record(entry, result);
+        drift_ = result.ledger.pseudo_energy_drift() / result.scale.value;
+    }
+    void look(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid) override {
+        other_.look(run, solid);
+        if (run.steps > 0) progress_->show(run.steps, run.time, drift_);
+    }
+
+private:
+    Observer<Dim>& other_;
+    std::optional<Progress> progress_;
+    double drift_ = 0.0;  // of H~ so far, over the energy scale
+};
 
 }  // namespace
 
@@ -134,6 +163,7 @@ Scene<3> two_spheres(const TwoSpheres& options) {
 template <int Dim>
 void ImpactObserver<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     spdlog::info("{} cells; {} steps of {:.4g} s", scene.mesh.n_cells(), result.steps, result.dt);
+    warn_of_corners(result);
 }
 
 template <int Dim>
@@ -160,9 +190,13 @@ ImpactRun<Dim> run_impact(const Scene<Dim>& scene, const RunOptions& options) {
     double seconds = 0.0;
     {
         const Stopwatch watch(seconds);
-        run.result = simulate<Dim>(scene, options, run.observer);
+        WithProgress<Dim> observer(run.observer);
+        run.result = simulate<Dim>(scene, options, observer);
     }
     run.seconds = seconds;
+    const std::string name = fmt::format("{} cells", scene.mesh.n_cells());
+    warn_of_compression(run.result, name);
+    warn_of_contact(run.result, name);
     return run;
 }
 

@@ -52,7 +52,8 @@ struct HertzImpact {
 template <int Dim>
 class ImpactObserver : public Observer<Dim> {
 public:
-    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;  ///< logs how much there is to do
+    void begin(const Scene<Dim>& scene,
+               const RunResult<Dim>& result) override;  ///< logs how much there is to do, warns of corners
     void look(const dynamics::RunView<Dim>& run, dynamics::Solid<Dim>& solid) override;
 
     struct Sample {
@@ -81,7 +82,7 @@ struct ImpactRun {
     ImpactObserver<Dim> observer;
     double seconds = 0.0;  ///< of the run with its set-up, without the mesh
 };
-/// Throws as `simulate`.
+/// Shows how far it has come, and warns of what contact did. Throws as `simulate`.
 template <int Dim>
 [[nodiscard]] ImpactRun<Dim> run_impact(const Scene<Dim>& scene, const RunOptions& options);
 

@@ -15,6 +15,7 @@
 #include "support/progress.hpp"
 #include "support/simulation.hpp"
 #include "support/summary.hpp"
+#include "support/warnings.hpp"
 
 namespace abut::examples {
 namespace {
@@ -47,33 +48,15 @@ void log_start(const Scene<Dim>& scene, const RunResult<Dim>& result) {
             stencils.extrapolated, stencils.faces, stencils.worst_weight);
     if (result.contact_faces_left_out > 0)
         spdlog::info("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out);
-    if (const auto& corners = result.blind_corners; !corners.empty())
-        spdlog::warn(
-            "{} corners, one of them at ({:g}), are so sharp that contact does not see them meet a flat face: bodies pass "
-            "through each other there. Blunt them, or take a --facing-cosine nearer to 0.",
-            corners.size(), fmt::join(corners.front(), ", "));
+    warn_of_corners(result);
 }
-
-/// Ratio of the forces of sliding and pressing from which on contacts were seen to be stiffer than the stable step allows
-/// for. docs/limits.md.
-constexpr double stiff_sliding = 1.0;
 
 template <int Dim>
 void log_end(const RunResult<Dim>& result) {
-    if (result.contact.compressed_steps > 0)
-        spdlog::warn("strongly compressed in {} of {:.0f} steps, at most {:.2g} of the skin D",
-                     result.contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
-                     result.contact.compression_max);
-    if (result.contact.sliding_ratio_max > stiff_sliding)
-        spdlog::warn(
-            "faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide off each "
-            "other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ and |e|/m; a lower "
-            "--cfl, --filter neutral, or faces as wide as their cells are deep make it better",
-            result.contact.sliding_ratio_max, stiff_sliding);
+    warn_of_compression(result);
+    warn_of_contact(result);
     if (result.not_admitted_max > 0)
         spdlog::info("up to {} pairs of faces overlap without being contacts: far sides of bodies", result.not_admitted_max);
-    if (result.contact.lost_contacts > 0)
-        spdlog::warn("{} contacts were lost, 0 are allowed: the energy is not exact", result.contact.lost_contacts);
 }
 
 /// What a run leaves behind as it goes, and what it says.
@@ -112,7 +95,9 @@ private:
         if (warned_ || contact.compressed_steps == 0) return;
         warned_ = true;
         spdlog::warn(
-            "by step {} faces are pressed {:.2g} of the skin D into each other, more than {:g}; above {:g} the run stops. "
+            "by step {} faces are pressed {:.2g} of D, the depth of their cells, into each other, more than {:g}; above "
+            "{:g} "
+            "the run stops. "
             "A lower speed or load makes it less",
             step, contact.compression_max, options_.contact.compression_warning, options_.contact.compression_limit);
     }

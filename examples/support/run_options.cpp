@@ -103,7 +103,8 @@ void add_contact_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_compression_limit(CLI::App& app, RunOptions& options) {
-    const char* help = "how deep faces may be pressed into each other, over the skin D of a body, before the run stops";
+    const char* help =
+        "how deep faces may be pressed into each other, over D, the depth of their cells, before the run stops";
     add_number(app, "--compression-limit", options.contact.compression_limit, help, {.above = 0.0})->group("Contact");
 }
 

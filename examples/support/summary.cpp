@@ -105,6 +105,8 @@ Json counts_json(const RunResult<Dim>& result) {
             {"blind_corners", result.blind_corners.size()},
             {"compression_max", contact.compression_max},
             {"sliding_ratio_max", contact.sliding_ratio_max},
+            {"slipped_pairs", contact.slipped_pairs},
+            {"slipped_compression_max", contact.slipped_compression_max},
             {"compressed_steps", contact.compressed_steps},
             {"stencil_faces", result.stencils.faces},
             {"stencil_extrapolations", result.stencils.extrapolated},

@@ -8,8 +8,8 @@
 // Each bar sees a rigid wall at the speed w/2: release and velocities as in bar_impact. But for its walls, two ends of equal
 // width can slip off each other: the overlap shrinks whichever way they slip, V = p |g|/2 per area sinks with it, and a force
 // p |g| per length of the edge drives them on, against the shear stiffness of the cells. With |g| ~ h w/c the slip is of the
-// order h (w/c)^2: nothing in small strains. At --speed 10,10, strains of 1/3, the ends do slip off and the bars run through
-// each other.
+// order h (w/c)^2: nothing in small strains. At --speed 10,10, strains of 1/3, the ends may slip off (with --cells 50
+// --cells-2 70 they do), and the bars run through each other.
 #include <fmt/format.h>
 
 #include "scenes/bars.hpp"

@@ -168,6 +168,73 @@ TEMPLATE_TEST_CASE_SIG("what sliding adds to a contact is reported: the gap time
     }
 }
 
+TEMPLATE_TEST_CASE_SIG(
+    "faces that slide off each other while they are pressed in are counted, where nothing carries them on",
+    "[contact][admission]", ((int Dim), Dim), 2, 3) {
+    contact::ContactOptions options = wide_skin();
+    SECTION("off the only partner: |g|/D where the area ends") {
+        Mover<Dim> mover(two_tiles<Dim>(), options);
+        mover.search(at<Dim>(0.1, 0.5));
+        CHECK(mover.move_to(at<Dim>(-0.1, 0.5)));
+        CHECK(mover.contact.report().slipped_pairs == 0);
+        CHECK(mover.move_to(at<Dim>(-0.3, 1.5)));  // apart at s = 1, half way
+        CHECK(mover.contact.report().slipped_pairs == 1);
+        CHECK(mover.contact.report().slipped_compression_max == Approx(0.2 / (2.0 * depth)).epsilon(1e-14));
+        CHECK_FALSE(mover.move_to(at<Dim>(-0.3, 1.6)));  // it slips once
+        CHECK(mover.contact.report().slipped_pairs == 1);
+    }
+    SECTION("onto the next face: nothing is lost") {
+        auto surface = two_tiles<Dim>();
+        surface.append(tile<Dim>(axis<Dim>(0), up<Dim>(), 0.5), depth, 1.0, 0);
+        const auto where = [](double gap, double shift) {
+            auto u = at<Dim>(gap, shift);
+            u.push_back(Vector<Dim>::Zero());
+            return u;
+        };
+        Mover<Dim> mover(surface, options);
+        mover.search(where(0.1, 0.5));
+        CHECK(mover.move_to(where(-0.1, 0.5)));
+        CHECK(mover.move_to(where(-0.1, 1.5)));  // leaves the first tile, on the second
+        CHECK(mover.contact.report().slipped_pairs == 0);
+        CHECK(mover.move_to(where(-0.1, 2.5)));
+        CHECK(mover.contact.report().slipped_pairs == 1);
+    }
+    SECTION("off a face that still carries another one: the one that slid off has no partner, the other has") {
+        const bool on_obstacle = GENERATE(false, true);
+        CAPTURE(on_obstacle);
+        contact::Surface<Dim> surface;
+        surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), on_obstacle ? rigid : depth,
+                       on_obstacle ? rigid : 1.0, 0);
+        for (const int body : {1, 2}) surface.append(tile<Dim>(Vector<Dim>::Zero(), -up<Dim>(), 0.5), depth, 1.0, body);
+        const auto where = [](double gap, double shift) {
+            auto u = at<Dim>(gap, shift);
+            u.push_back(gap * up<Dim>());
+            return u;
+        };
+        Mover<Dim> mover(surface, options);
+        mover.search(where(0.1, 0.5));
+        CHECK(mover.move_to(where(-0.1, 0.5)));
+        CHECK(mover.move_to(where(-0.1, 1.5)));
+        // A face of an obstacle may be all of it: it holds many, and carries nothing on.
+        CHECK(mover.contact.report().slipped_pairs == (on_obstacle ? 1 : 0));
+    }
+    SECTION("off, and then lifted") {
+        Mover<Dim> mover(two_tiles<Dim>(), options);
+        mover.search(at<Dim>(0.1, 0.5));
+        CHECK(mover.move_to(at<Dim>(-0.1, 0.5)));
+        CHECK(mover.move_to(at<Dim>(0.05, 1.5)));  // apart half way, open at two thirds
+        CHECK(mover.contact.report().slipped_pairs == 1);
+        CHECK(mover.contact.report().slipped_compression_max == Approx(0.025 / (2.0 * depth)).epsilon(1e-12));
+    }
+    SECTION("lifted off before the area ends") {
+        Mover<Dim> mover(two_tiles<Dim>(), options);
+        mover.search(at<Dim>(0.1, 0.5));
+        CHECK(mover.move_to(at<Dim>(-0.1, 0.5)));
+        CHECK(mover.move_to(at<Dim>(0.3, 1.5)));
+        CHECK(mover.contact.report().slipped_pairs == 0);
+    }
+}
+
 TEMPLATE_TEST_CASE_SIG("an admitted pair stays in the list where its boxes no longer meet", "[contact][admission]",
                        ((int Dim), Dim), 2, 3) {
     contact::ContactOptions options = wide_skin();

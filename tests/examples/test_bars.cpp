@@ -152,6 +152,14 @@ TEST_CASE("a bar that is at rest takes over the velocity of the other one", "[ex
     CHECK(study_quantity(outcome, 0, "pressure, mean").reference == Approx(30.0 * 0.05));
 }
 
+TEST_CASE("bars that slip off each other and pass through say so", "[examples][bars]") {
+    const auto outcome = bars("two_bars", "--cells 50 --cells-2 70 --speed 10", "slipped");
+    CHECK(value(outcome, "exchanged") < 0.5);
+    CHECK_THAT(outcome.out, Catch::Matchers::Contains("slid off each other"));
+    const auto slow = bars("two_bars", "--cells 50 --cells-2 70", "exchanged");
+    CHECK_THAT(slow.out, !Catch::Matchers::Contains("slid off each other"));
+}
+
 TEST_CASE("programs with bars leave values, curves and a picture", "[examples][bars]") {
     const auto [program, more] = GENERATE(table<std::string, std::string>(
         {{"bar_impact", ""}, {"falling_bar", ""}, {"fixed_bar", "profiles.csv"}, {"two_bars", ""}}));
