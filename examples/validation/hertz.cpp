@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "abut/geometry/stopwatch.hpp"
 #include "support/choices.hpp"
@@ -123,10 +125,24 @@ plot sqrt(x**2 < 1 ? 1 - x**2 : 0) with lines lw 2 lc rgb "#1b1b1a" title "Hertz
             .script = script + "\n"};
 }
 
+/// "cylinder on a block"
+template <int Dim>
+std::string title(HertzSupport support) {
+    const std::string round = Dim == 2 ? "cylinder" : "sphere", on = round + " on ";
+    switch (support) {
+        case HertzSupport::block:
+            return on + "a block";
+        case HertzSupport::equal:
+            return on + "an equal " + round;
+        case HertzSupport::rigid_plane:
+            return on + "a rigid plane";
+    }
+    throw std::invalid_argument("not a HertzSupport");
+}
+
 template <int Dim>
 Study solve(const Options& options) {
-    Study study{.title = fmt::format("{} on {}", Dim == 2 ? "cylinder (plane strain)" : "sphere",
-                                     name_of(supports, options.hertz.support)),
+    Study study{.title = title<Dim>(options.hertz.support) + (Dim == 2 ? ", plane strain" : ""),
                 .reference = "Hertz: an ellipse of pressure, p0 and a from the load"};
     for (const double faces : options.faces) {
         HertzOptions hertz = options.hertz;
