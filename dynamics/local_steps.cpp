@@ -21,8 +21,8 @@ inline constexpr double worth_a_level = 0.02;  // of all cells
 inline constexpr int stable_layers = 2;
 // A motion that changes its sign from one coarse step to the next resonates with them, even where finer steps resolve it:
 // with two steps in one, its frequency is sqrt(2) times the highest that the coarse step allows. It must stay away from the
-// coarse cells by so many layers, over which it dies away. Of discs and cylinders that only fly, at 0.99 of the stable step,
-// |e| grows from rounding with 1 and 3 layers here and above, and does not within 10,000 steps with 2 and 5.
+// coarse cells by so many layers, over which it dies away. Of graded discs that only fly, at 0.99 of the stable step, |e|
+// grows from rounding with one layer above and three here, and does not within 10,000 steps with two and five.
 inline constexpr int resonance_layers = 5;
 inline constexpr double resonance = std::numbers::sqrt2;
 

@@ -18,7 +18,7 @@ struct SolidLocalSteps {
     LocalSteps steps;
     double dt;                        ///< of level 0, stable as `StableStep::dt` is [s]
     std::vector<std::int64_t> cells;  ///< of each level
-    std::vector<double> omega_max;    ///< upper bound of this level, all coarser ones and two layers about them [rad/s]
+    std::vector<double> omega_max;  ///< bound of the frequencies of this level, all coarser ones and two layers more [rad/s]
 };
 
 /// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with

@@ -30,7 +30,7 @@ struct PowerIterationOptions {
     std::span<const double> mask = {};                        ///< 1 for a degree of freedom that may move, 0; empty: all may
 };
 
-/// Iterations from a fixed start until the quotient has settled, at most 2,000.
+/// Iterations from a fixed start until the quotient has settled or is beyond `enough`, at most 2,000.
 template <int Dim>
 [[nodiscard]] HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options = {});
 

@@ -96,9 +96,7 @@ private:
         warned_ = true;
         spdlog::warn(
             "by step {} faces are pressed {:.2g} of D, the depth of their cells, into each other, more than {:g}; above "
-            "{:g} "
-            "the run stops. "
-            "A lower speed or load makes it less",
+            "{:g} the run stops. A lower speed or load makes it less",
             step, contact.compression_max, options_.contact.compression_warning, options_.contact.compression_limit);
     }
 

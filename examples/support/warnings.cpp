@@ -10,10 +10,10 @@ namespace {
 /// Ratio of the forces of sliding and pressing from which on contacts were seen to be stiffer than the stable step allows
 /// for. docs/limits.md.
 constexpr double stiff_sliding = 1.0;
-/// |g|/D from which on faces that slide off each other are worth a word: corners of round bodies part with up to 0.2.
+/// |g|/D from which on faces that slide off each other are worth a word: two coarse discs part with up to 0.2.
 constexpr double deep_slip = 0.3;
 
-std::string begin(const std::string& run) { return run.empty() ? "" : run + ": "; }
+std::string prefix(const std::string& run) { return run.empty() ? "" : run + ": "; }
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void warn_of_compression(const RunResult<Dim>& result, const std::string& run) {
     const contact::ContactReport& contact = result.contact;
     if (contact.compressed_steps > 0)
         spdlog::warn("{}strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their cells",
-                     begin(run), contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
+                     prefix(run), contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
                      contact.compression_max);
 }
 
@@ -44,15 +44,15 @@ void warn_of_contact(const RunResult<Dim>& result, const std::string& run) {
             "{}faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide off each "
             "other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ and |e|/m; a lower "
             "--cfl, --filter neutral, or faces as wide as their cells are deep make it better",
-            begin(run), contact.sliding_ratio_max, stiff_sliding);
+            prefix(run), contact.sliding_ratio_max, stiff_sliding);
     if (contact.slipped_compression_max > deep_slip)
         spdlog::warn(
             "{}{} pairs of faces slid off each other while pressed in, by up to {:.2g} of D, the depth of their cells. At a "
-            "free edge that is as it should be; elsewhere bodies pass through each other. Smaller cells or a lower speed "
-            "prevent it, and so does --overlap frozen, under which H~ drifts",
-            begin(run), contact.slipped_pairs, contact.slipped_compression_max);
+            "free edge that is as it should be; elsewhere bodies pass through each other. A lower speed prevents it, and so "
+            "does --overlap frozen, under which H~ drifts",
+            prefix(run), contact.slipped_pairs, contact.slipped_compression_max);
     if (contact.lost_contacts > 0)
-        spdlog::warn("{}{} contacts were lost, 0 are allowed: the energy is not exact", begin(run), contact.lost_contacts);
+        spdlog::warn("{}{} contacts were lost, 0 are allowed: the energy is not exact", prefix(run), contact.lost_contacts);
 }
 
 template void warn_of_corners<2>(const RunResult<2>&);
