@@ -13,8 +13,8 @@
 #include <random>
 
 #include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/solid.hpp"
-#include "abut/mesh/shapes.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/solid.hpp"
 #include "support/assembled_matrix.hpp"
 #include "support/measure.hpp"
 
@@ -29,7 +29,7 @@ struct Choices {
     std::string json;
 };
 
-const dynamics::Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
+const solid::Material material{.young = 1.0, .poisson = 0.3, .density = 1.0};
 
 std::vector<double> random_field(std::size_t n) {
     std::mt19937_64 generator(1);
@@ -53,13 +53,13 @@ double product_bytes(const benchmark::AssembledMatrix& matrix) {
     return static_cast<double>(matrix.bytes() + matrix.n_rows() * 2 * 24) / static_cast<double>(matrix.n_rows());
 }
 
-/// Bytes a cell that a step touches, from the sizes of the arrays of dynamics/ccg_sweeps.hpp, ccg_arrays.hpp and memm.hpp.
+/// Bytes a cell that a step touches, from the sizes of the arrays of solid/ccg/sweeps.hpp, ccg_arrays.hpp and memm.hpp.
 struct Traffic {
     double touched;  ///< every array counted once in each sweep that reads or writes it
     double memory;   ///< what cannot stay in cache from one sweep to the next: constant data and the state, once each way
 };
 
-Traffic step_traffic(const mesh::Mesh<3>& mesh, const dynamics::BoundaryReconstruction<3>& boundary) {
+Traffic step_traffic(const mesh::Mesh<3>& mesh, const solid::BoundaryReconstruction<3>& boundary) {
     const auto per_cell = [&](std::size_t n) { return static_cast<double>(n) / mesh.n_cells(); };
     constexpr double vector = 24, lane = 32, tensor = 3 * lane, id = 4, number = 8;
     const double faces = per_cell(static_cast<std::size_t>(mesh.n_faces()));
@@ -96,16 +96,16 @@ struct Result {
 
 Result measure(double size, const Choices& choices) {
     const auto mesh = mesh::cylinder({.radius = 1.0, .length = 1.0, .size = size});
-    dynamics::SolidOptions<3> options;
+    solid::SolidOptions<3> options;
     options.materials = {material};
-    dynamics::Solid<3> solid(mesh, options);
+    solid::Solid<3> solid(mesh, options);
     const benchmark::AssembledMatrix matrix(mesh, options.materials, solid.ccg());
     const auto scalar = matrix.scalar_matrix();
 
     const std::vector<double> x = random_field(solid.size());
     std::vector<double> ours(x.size()), theirs(x.size());
-    const auto x_rows = dynamics::as_vectors<3>(std::span<const double>(x));
-    const auto y_rows = dynamics::as_vectors<3>(std::span<double>(theirs));
+    const auto x_rows = as_vectors<3>(std::span<const double>(x));
+    const auto y_rows = as_vectors<3>(std::span<double>(theirs));
     const Eigen::Map<const Eigen::VectorXd> x_eigen(x.data(), static_cast<Eigen::Index>(x.size()));
     Eigen::VectorXd y_eigen(x_eigen.size());
     solid.stiffness_product(x, ours);
@@ -115,7 +115,7 @@ Result measure(double size, const Choices& choices) {
         std::max(relative_difference(ours, theirs), relative_difference(ours, {y_eigen.data(), x.size()}));
     benchmark::require_small("stiffness product, matrix-free against assembled", difference, 1e-12);
 
-    dynamics::Memm<dynamics::Solid<3>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
+    dynamics::Memm<solid::Solid<3>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
     benchmark::Triad triad;
     auto samples = benchmark::time_in_turn(
         choices.repetitions, benchmark::clock_for(choices.threads),

@@ -15,8 +15,9 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/stable_step.hpp"
+#include "abut/solid/body_motion.hpp"
+#include "apps/two_cylinders.hpp"
 #include "support/measure.hpp"
-#include "two_cylinders.hpp"
 
 namespace {
 
@@ -53,8 +54,8 @@ public:
           scene_(make_scene(choices.cylinders, variant.gap_more)),
           solid_(scene_.mesh, options(variant, choices)),
           dt_(dt > 0.0 ? dt : examples::RunOptions{}.cfl * dynamics::stable_step(solid_).dt),
-          integrator_(solid_, std::vector<double>(solid_.size(), 0.0),
-                      dynamics::uniform_momentum<3>(solid_, scene_.velocity), dt_) {}
+          integrator_(solid_, std::vector<double>(solid_.size(), 0.0), solid::uniform_momentum<3>(solid_, scene_.velocity),
+                      dt_) {}
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 
@@ -71,15 +72,15 @@ public:
     [[nodiscard]] double dt() const { return dt_; }
     [[nodiscard]] double time() const { return scene_.time; }
     [[nodiscard]] int n_cells() const { return scene_.mesh.n_cells(); }
-    [[nodiscard]] const dynamics::Solid<3>& solid() const { return solid_; }
+    [[nodiscard]] const solid::Solid<3>& solid() const { return solid_; }
     [[nodiscard]] dynamics::LedgerEntry<3> measure() { return dynamics::measure(integrator_, solid_); }
     [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
     [[nodiscard]] const std::vector<std::int64_t>& active() const { return active_; }
     [[nodiscard]] double total() const { return std::accumulate(seconds_.begin(), seconds_.end(), 0.0); }
 
 private:
-    [[nodiscard]] dynamics::SolidOptions<3> options(const Variant& variant, const Choices& choices) const {
-        dynamics::SolidOptions<3> result = scene_.solid;
+    [[nodiscard]] solid::SolidOptions<3> options(const Variant& variant, const Choices& choices) const {
+        solid::SolidOptions<3> result = scene_.solid;
         if (variant.contact) result.contact.emplace().search.skin = choices.skin;
         return result;
     }
@@ -87,9 +88,9 @@ private:
     std::string name_;
     benchmark::Clock clock_;
     examples::Scene<3> scene_;
-    dynamics::Solid<3> solid_;
+    solid::Solid<3> solid_;
     double dt_;
-    dynamics::Memm<dynamics::Solid<3>> integrator_;
+    dynamics::Memm<solid::Solid<3>> integrator_;
     std::vector<double> seconds_;       // a block of steps
     std::vector<std::int64_t> active_;  // pairs at the end of the block
 };
@@ -135,7 +136,7 @@ void print(const nlohmann::json& r) {
 void check(Scene& scene, const dynamics::LedgerEntry<3>& first) {
     const auto last = scene.measure();
     const double kinetic = first.kinetic;
-    const double mass = std::accumulate(scene.solid().cell_mass().begin(), scene.solid().cell_mass().end(), 0.0);
+    const double mass = std::accumulate(scene.solid().masses().begin(), scene.solid().masses().end(), 0.0);
     const double momentum = std::sqrt(2.0 * kinetic * mass);  // m v of bodies as heavy and as fast as each other
     const auto report = scene.solid().contact_report();
     benchmark::require_small("pseudo-energy over its value, at the end against the start",

@@ -17,7 +17,7 @@
 #include <fstream>
 #include <memory>
 
-#include "abut/contact/candidate_search.hpp"
+#include "abut/contact/search/candidate_search.hpp"
 #include "support/detection_rivals.hpp"
 #include "support/measure.hpp"
 

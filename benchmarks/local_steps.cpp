@@ -12,10 +12,11 @@
 #include <optional>
 
 #include "abut/dynamics/ledger.hpp"
-#include "abut/dynamics/local_steps.hpp"
 #include "abut/dynamics/memm.hpp"
+#include "abut/solid/body_motion.hpp"
+#include "abut/solid/local_steps.hpp"
+#include "apps/two_cylinders.hpp"
 #include "support/measure.hpp"
-#include "two_cylinders.hpp"
 
 namespace {
 
@@ -33,8 +34,8 @@ struct Choices {
 };
 
 template <int Dim>
-dynamics::SolidOptions<Dim> with_contact(const examples::Scene<Dim>& scene) {
-    dynamics::SolidOptions<Dim> options = scene.solid;
+solid::SolidOptions<Dim> with_contact(const examples::Scene<Dim>& scene) {
+    solid::SolidOptions<Dim> options = scene.solid;
     options.contact.emplace();
     return options;
 }
@@ -47,12 +48,12 @@ struct Record {
     std::int64_t evaluations = 0;
     dynamics::Ledger<Dim> ledger{};
     contact::ContactReport contact{};
-    dynamics::SolidTimes times{};
+    solid::SolidTimes times{};
     double speed = 0.0;  ///< of the left body at the end [m/s]
 };
 
 template <int Dim, class Scheme>
-void step(Scheme& scheme, dynamics::Solid<Dim>& solid, int steps, benchmark::Clock clock, Record<Dim>& record) {
+void step(Scheme& scheme, solid::Solid<Dim>& solid, int steps, benchmark::Clock clock, Record<Dim>& record) {
     record.seconds += benchmark::seconds_of(
         [&] {
             for (int i = 0; i < steps; ++i) scheme.step();
@@ -62,11 +63,11 @@ void step(Scheme& scheme, dynamics::Solid<Dim>& solid, int steps, benchmark::Clo
 }
 
 template <int Dim, class Scheme>
-void close(const Scheme& scheme, const dynamics::Solid<Dim>& solid, Record<Dim>& record) {
+void close(const Scheme& scheme, const solid::Solid<Dim>& solid, Record<Dim>& record) {
     record.evaluations = solid.evaluations();
     record.contact = solid.contact_report();
     record.times = solid.times();
-    record.speed = dynamics::body_motions<Dim>(scheme, solid)[0].velocity.x();
+    record.speed = solid::body_motions<Dim>(scheme, solid)[0].velocity.x();
     const double kinetic = record.ledger.entries().front().kinetic;
     benchmark::require_small("drift of the pseudo-energy over K0", record.ledger.pseudo_energy_drift() / kinetic, 1e-11);
     benchmark::require_small("contacts lost", static_cast<double>(record.contact.lost_contacts), 0.0);
@@ -104,14 +105,14 @@ template <int Dim>
 nlohmann::json compare(const Choices& choices) {
     const auto clock = benchmark::clock_for(choices.threads);
     const examples::Scene<Dim> scene = examples::two_cylinders<Dim>(choices.cylinders);
-    dynamics::Solid<Dim> uniform_solid(scene.mesh, with_contact(scene));
-    dynamics::Solid<Dim> local_solid(scene.mesh, with_contact(scene));
+    solid::Solid<Dim> uniform_solid(scene.mesh, with_contact(scene));
+    solid::Solid<Dim> local_solid(scene.mesh, with_contact(scene));
     const auto stable = dynamics::stable_step(uniform_solid);
-    std::optional<dynamics::SolidLocalSteps> local;
+    std::optional<solid::SolidLocalSteps> local;
     const double setup = benchmark::seconds_of(
-        [&] { local = dynamics::local_steps(local_solid, stable, {.contact_levels = choices.contact_levels}); }, clock);
+        [&] { local = solid::local_steps(local_solid, stable, {.contact_levels = choices.contact_levels}); }, clock);
     const std::vector<double> rest(uniform_solid.size(), 0.0);
-    const auto p = dynamics::uniform_momentum<Dim>(uniform_solid, scene.velocity);
+    const auto p = solid::uniform_momentum<Dim>(uniform_solid, scene.velocity);
     dynamics::Memm uniform(uniform_solid, rest, p, choices.cfl * stable.dt);
     dynamics::MemmAsync async(local_solid, rest, p, choices.cfl * local->dt, local->steps);
 

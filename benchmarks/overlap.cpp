@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 #include "support/measure.hpp"
 
 namespace {

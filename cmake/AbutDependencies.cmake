@@ -12,9 +12,11 @@ endmacro()
 
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
 
-# geometry
+# base
 abut_find(Eigen3 3.4 ARGS CONFIG TARGETS Eigen3::Eigen)
 abut_find(TBB 2021 ARGS CONFIG TARGETS TBB::tbb)
+
+# geometry
 abut_find(CGAL 5.5 ARGS CONFIG TARGETS CGAL::CGAL)
 abut_find(embree "" ARGS CONFIG TARGETS embree)  # 3 or 4
 abut_find(ccd 2.0 ARGS CONFIG TARGETS ccd)  # 2.1 calls itself 2.0
@@ -25,12 +27,12 @@ abut_find(Gmsh 4.8 ARGS MODULE TARGETS Gmsh::Gmsh)
 abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
   TARGETS VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
 
-# dynamics
+# solid
 abut_find(nanoflann 1.4 ARGS CONFIG TARGETS nanoflann::nanoflann)
 abut_find(LBFGSpp "" ARGS MODULE TARGETS LBFGSpp::LBFGSpp)
 
-# examples
-if(ABUT_EXAMPLES OR ABUT_BENCHMARKS)
+# programs
+if(ABUT_PROGRAMS OR ABUT_BENCHMARKS)
   abut_find(CLI11 2.1 ARGS CONFIG TARGETS CLI11::CLI11)
   abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)
   abut_find(spdlog 1.10 ARGS CONFIG TARGETS spdlog::spdlog)

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "abut/base/error.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/contact/messages.hpp"
-#include "abut/geometry/sort_unique.hpp"
 
 namespace abut::contact {
 namespace {
 
 template <int Dim>
 const ContactOptions& checked(const ContactOptions& options) {
-    const auto refuse = [](const std::string& what) { throw std::invalid_argument("contact options: " + what); };
+    const auto refuse = [](const std::string& what) { throw BadInput("contact options: " + what); };
     if (options.quadrature < 0 || options.quadrature > 3)
         refuse("quadrature is " + std::to_string(options.quadrature) +
                "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
@@ -29,9 +29,7 @@ const ContactOptions& checked(const ContactOptions& options) {
 
 template <int Dim>
 void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
-    const auto refuse = [](const std::string& what) {
-        throw std::invalid_argument("contact: the coupling of the listed faces " + what);
-    };
+    const auto refuse = [](const std::string& what) { throw BadInput("contact: the coupling of the listed faces " + what); };
     const std::size_t n = coupling.columns.size();
     if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 ||
         static_cast<std::size_t>(coupling.offsets.back()) != n ||
@@ -53,14 +51,13 @@ void check_path(const SurfaceView<Dim>& surface, std::span<const std::int32_t> f
     for (const std::size_t size :
          {path.displacement_0.size(), path.displacement_1.size(), path.force_0.size(), path.force_1.size()})
         if (size != n_faces)
-            throw std::invalid_argument("contact: the path of the listed faces has an array of " + std::to_string(size) +
-                                        " entries for " + std::to_string(n_faces) +
-                                        " faces; give one for each of Contact::faces.");
+            throw BadInput("contact: the path of the listed faces has an array of " + std::to_string(size) +
+                           " entries for " + std::to_string(n_faces) + " faces; give one for each of Contact::faces.");
     for (std::size_t i = 0; i < n_faces; ++i)
         if (!path.displacement_0[i].allFinite() || !path.displacement_1[i].allFinite() || !path.force_0[i].allFinite() ||
             !path.force_1[i].allFinite())
-            throw std::runtime_error("contact: displacement or force of " + face_name(surface, faces[i]) +
-                                     " is not finite: the run has diverged. Take a smaller time step.");
+            throw Diverged("contact: displacement or force of " + face_name(surface, faces[i]) +
+                           " is not finite: the run has diverged. Take a smaller time step.");
 }
 
 template <int Dim>
@@ -155,7 +152,7 @@ void Contact<Dim>::list_faces() {
 
 template <int Dim>
 void Contact<Dim>::require_list() const {
-    if (!list_holds_) throw std::logic_error("contact: there is no candidate list. Call `search` first.");
+    if (!list_holds_) throw Misuse("contact: there is no candidate list. Call `search` first.");
 }
 
 template <int Dim>
@@ -191,11 +188,10 @@ void Contact<Dim>::report_step() {
     if (integral_.compression() > options_.compression_warning) ++report_.compressed_steps;
     if (integral_.compression() > options_.compression_limit) {
         const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];
-        throw std::runtime_error(
-            "contact: " + face_name(surface_, pair.face_1) + " and " + face_name(surface_, pair.face_2) + " are pressed " +
-            number(integral_.compression()) + " times the depth of their cells into each other, " +
-            number(options_.compression_limit) +
-            " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
+        throw TooDeep("contact: " + face_name(surface_, pair.face_1) + " and " + face_name(surface_, pair.face_2) +
+                      " are pressed " + number(integral_.compression()) +
+                      " times the depth of their cells into each other, " + number(options_.compression_limit) +
+                      " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
     }
 }
 

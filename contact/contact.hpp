@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/candidate_search.hpp"
-#include "abut/contact/path_integral.hpp"
+#include "abut/contact/path/path_integral.hpp"
+#include "abut/contact/search/candidate_search.hpp"
 
 namespace abut::contact {
 
@@ -35,7 +35,7 @@ struct ContactReport {
 template <int Dim>
 class Contact {
 public:
-    /// Keeps the view: the host's arrays must outlive it. Checks the surface and the options (std::invalid_argument).
+    /// Keeps the view: the host's arrays must outlive it. Checks the surface and the options (BadInput).
     Contact(SurfaceView<Dim> surface, const ContactOptions& options);
 
     /// How the host's face forces answer to corrections of the given faces; called after each search.
@@ -46,14 +46,14 @@ public:
     [[nodiscard]] bool covers(double motion) const { return list_holds_ && candidates_.covers(motion); }
 
     /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws what CandidateSearch::search
-    /// throws, and std::invalid_argument for a coupling out of range; no list holds then until a search ends well.
+    /// throws, and BadInput for a coupling out of range; no list holds then until a search ends well.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.
     [[nodiscard]] std::span<const std::int32_t> faces() const { return faces_; }
 
-    /// Decides admission at the start of the step, then integrates along it. Throws std::runtime_error naming the faces when
-    /// a pair is pressed in deeper than `compression_limit` or the path is not finite, std::logic_error without a list.
+    /// Decides admission at the start of the step, then integrates along it. Throws TooDeep or Diverged naming the faces when
+    /// a pair is pressed in deeper than `compression_limit` or the path is not finite, Misuse without a list.
     void integrate(const FacePath<Dim>& path);
 
     /// For schemes that take the force at the end of a step alone: decides admission at its start as `integrate` does, then

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "abut/base/messages.hpp"
 #include "abut/contact/surface.hpp"
-#include "abut/geometry/messages.hpp"
 
 namespace abut::contact {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::contact {
@@ -14,10 +14,10 @@ template <int Dim>
 RigidObstacle<Dim> plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& normal, double half_width,
                                   std::function<Vector<Dim>(double time)> path) {
     if (!(normal.norm() > 0.0) || !normal.allFinite())
-        throw std::invalid_argument("plane obstacle: its normal is zero or not finite. Give the direction it faces.");
+        throw BadInput("plane obstacle: its normal is zero or not finite. Give the direction it faces.");
     if (!(half_width > 0.0) || !std::isfinite(half_width))
-        throw std::invalid_argument("plane obstacle: its half width is " + number(half_width) +
-                                    " m; it must be finite and > 0. Give more than the bodies can reach.");
+        throw BadInput("plane obstacle: its half width is " + number(half_width) +
+                       " m; it must be finite and > 0. Give more than the bodies can reach.");
     const geometry::PlaneFrame<Dim> frame(normal.normalized());
     std::vector<Vector<Dim>> corners;
     if constexpr (Dim == 2) {

@@ -14,7 +14,7 @@ struct RigidObstacle {
 };
 
 /// A square (3D) or segment (2D) of a plane, half_width in every direction about `point`, facing along `normal`.
-/// Throws std::invalid_argument for a zero normal or a half_width that is not finite and > 0.
+/// Throws BadInput for a zero normal or a half_width that is not finite and > 0.
 template <int Dim>
 [[nodiscard]] RigidObstacle<Dim> plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& normal, double half_width,
                                                 std::function<Vector<Dim>(double time)> path = {});

@@ -1,6 +1,6 @@
 #pragma once
-#include "abut/geometry/broad_phase.hpp"
-#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/broad_phase/broad_phase.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 
 namespace abut::contact {
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <string>
 
+#include "abut/base/error.hpp"
+#include "abut/base/simd.hpp"
 #include "abut/contact/pairs.hpp"
-#include "abut/geometry/lanes.hpp"
-#include "abut/geometry/overlap_batch.hpp"
+#include "abut/geometry/overlap/batch.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::contact {
@@ -18,8 +18,6 @@ namespace {
 
 using geometry::AreaMethod;
 using geometry::IndexPair;
-using geometry::LaneMask;
-using geometry::Lanes;
 using geometry::TriangleBatch;
 
 template <int Dim>
@@ -59,8 +57,8 @@ bool are_faces(const SurfaceView<Dim>& surface, IndexPair pair) {
 template <int Dim>
 [[noreturn]] void refuse_pair(const SurfaceView<Dim>& surface, IndexPair pair, const std::string& name) {
     const bool is_first = pair.first < 0 || pair.first >= surface.size();
-    throw std::invalid_argument("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
-                                ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.");
+    throw BadInput("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
+                   ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.");
 }
 
 template <int Dim>
@@ -73,8 +71,8 @@ template <int Dim>
 void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement) {
     check_sizes(surface);
     if (displacement.size() != surface.area.size())
-        throw std::invalid_argument("overlaps: `displacement` has " + std::to_string(displacement.size()) + " entries, " +
-                                    std::to_string(surface.size()) + " are needed: one a face.");
+        throw BadInput("overlaps: `displacement` has " + std::to_string(displacement.size()) + " entries, " +
+                       std::to_string(surface.size()) + " are needed: one a face.");
 }
 
 // One pair of any two faces, seen along its normal from a corner of face 1.
@@ -139,7 +137,7 @@ void append_overlap(const Scene<Dim>& scene, IndexPair pair, AreaMethod method, 
 class TriangleBlock {
 public:
     static constexpr int capacity = 32;
-    static_assert(capacity % TriangleBatch::size == 0 && TriangleBatch::size % geometry::lane_count == 0);
+    static_assert(capacity % TriangleBatch::size == 0 && TriangleBatch::size % lane_count == 0);
 
     [[nodiscard]] int size() const { return size_; }
 
@@ -200,24 +198,24 @@ private:
         Lanes x, y, z;
     };
     static VectorLanes load(const Rows& rows, int k) {
-        return {geometry::load_lanes(&rows[0][k]), geometry::load_lanes(&rows[1][k]), geometry::load_lanes(&rows[2][k])};
+        return {load_lanes(&rows[0][k]), load_lanes(&rows[1][k]), load_lanes(&rows[2][k])};
     }
     static void store(const VectorLanes& v, Rows& rows, int k) {
-        geometry::store_lanes(v.x, &rows[0][k]);
-        geometry::store_lanes(v.y, &rows[1][k]);
-        geometry::store_lanes(v.z, &rows[2][k]);
+        store_lanes(v.x, &rows[0][k]);
+        store_lanes(v.y, &rows[1][k]);
+        store_lanes(v.z, &rows[2][k]);
     }
     static Lanes dot(const VectorLanes& a, const VectorLanes& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
     static VectorLanes cross(const VectorLanes& a, const VectorLanes& b) {
         return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     }
     static VectorLanes normalized(const VectorLanes& a) {
-        const Lanes scale = 1.0 / geometry::square_root(dot(a, a));
+        const Lanes scale = 1.0 / square_root(dot(a, a));
         return {scale * a.x, scale * a.y, scale * a.z};
     }
     // The first tangent of PlaneFrame: the axis farthest from the normal, times the normal.
     static VectorLanes tangent_of(const VectorLanes& n) {
-        const Lanes x = geometry::absolute(n.x), y = geometry::absolute(n.y), z = geometry::absolute(n.z), zero{};
+        const Lanes x = absolute(n.x), y = absolute(n.y), z = absolute(n.z), zero{};
         const LaneMask along_x = (x <= y) & (x <= z), along_y = ~along_x & (y <= z);
         return normalized({along_x ? zero : (along_y ? n.z : -n.y), along_x ? -n.z : (along_y ? zero : n.x),
                            along_x ? n.y : (along_y ? -n.x : zero)});
@@ -229,12 +227,12 @@ private:
                           tangent_1 = cross(normal, tangent_0);
         const auto project_corner = [&](const Rows& corner, TriangleBatch::Row& x, TriangleBatch::Row& y) {
             const VectorLanes arm = load(corner, k);
-            geometry::store_lanes(dot(tangent_0, arm), &x[to]);
-            geometry::store_lanes(dot(tangent_1, arm), &y[to]);
+            store_lanes(dot(tangent_0, arm), &x[to]);
+            store_lanes(dot(tangent_1, arm), &y[to]);
         };
         for (int i = 0; i < 3; ++i) project_corner(a_[i], batch.x_a[i], batch.y_a[i]);
         for (int i = 0; i < 2; ++i) project_corner(b_[i], batch.x_b[i + 1], batch.y_b[i + 1]);
-        geometry::store_lanes(dot(normal, load(apart_, k)), &gap_[k]);
+        store_lanes(dot(normal, load(apart_, k)), &gap_[k]);
         store(normal, normal_, k);
         store(tangent_0, tangent_0_, k);
         store(tangent_1, tangent_1_, k);
@@ -245,7 +243,7 @@ private:
         batch.x_b[0].fill(0.0);
         batch.y_b[0].fill(0.0);
         batch.rounded_shift.fill(0.0);
-        for (int k = 0; k < TriangleBatch::size; k += geometry::lane_count) project(first + k, batch, k);
+        for (int k = 0; k < TriangleBatch::size; k += lane_count) project(first + k, batch, k);
         geometry::AreaBatch result;
         if (method == AreaMethod::fast)
             result = geometry::shared_areas(batch);

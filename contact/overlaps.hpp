@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "abut/contact/surface.hpp"
-#include "abut/geometry/broad_phase.hpp"
-#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/broad_phase/broad_phase.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 
 namespace abut::contact {
 
@@ -39,7 +39,7 @@ struct Overlaps {
 /// none. Corners are projected in double arithmetic; whether the projected faces overlap is then decided exactly, by both
 /// methods. Faces that match to the last digit, displaced by the same or along an axis, meet in corners and edges to the
 /// last digit also in projection. The same bits for any number of threads. `displacement` has one vector a face [m].
-/// `surface` must be one that `check` lets pass. Throws std::invalid_argument for arrays whose sizes disagree and for a
+/// `surface` must be one that `check` lets pass. Throws BadInput for arrays whose sizes disagree and for a
 /// pair that names a face that does not exist.
 template <int Dim>
 [[nodiscard]] Overlaps<Dim> find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,

@@ -5,19 +5,19 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/contact/messages.hpp"
-#include "abut/geometry/overlap.hpp"
-#include "abut/geometry/parallel.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::contact {
 namespace {
 
 [[noreturn]] void refuse_named(const std::string& face, const std::string& what) {
-    throw std::invalid_argument("contact surface: " + face + " " + what);
+    throw BadInput("contact surface: " + face + " " + what);
 }
 
 template <int Dim>
@@ -169,9 +169,8 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     const std::size_t n = surface.area.size();
     const auto require_size = [&](std::size_t size, std::size_t expected, const char* array) {
         if (size != expected)
-            throw std::invalid_argument(std::string("contact surface: `") + array + "` has " + std::to_string(size) +
-                                        " entries, " + std::to_string(expected) + " are needed: one a face" +
-                                        (expected == n ? "." : ", and one more."));
+            throw BadInput(std::string("contact surface: `") + array + "` has " + std::to_string(size) + " entries, " +
+                           std::to_string(expected) + " are needed: one a face" + (expected == n ? "." : ", and one more."));
     };
     require_size(surface.face_offsets.size(), n + 1, "face_offsets");
     require_size(surface.centroid.size(), n, "centroid");
@@ -180,8 +179,7 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     require_size(surface.stiffness.size(), n, "stiffness");
     require_size(surface.body.size(), n, "body");
     const auto refuse_offsets = [](const std::string& what) {
-        throw std::invalid_argument("contact surface: `face_offsets` " + what +
-                                    "; it must rise from 0 to the size of `face_vertices`.");
+        throw BadInput("contact surface: `face_offsets` " + what + "; it must rise from 0 to the size of `face_vertices`.");
     };
     if (surface.face_offsets.front() != 0) refuse_offsets("begins with " + std::to_string(surface.face_offsets.front()));
     for (std::size_t face = 0; face < n; ++face)
@@ -200,7 +198,7 @@ void check(const SurfaceView<Dim>& surface) {
         for (auto face = static_cast<std::int32_t>(begin); face < end && face < first_bad; ++face) {
             try {
                 check_face(surface, face);
-            } catch (const std::invalid_argument&) {
+            } catch (const BadInput&) {
                 for (std::int32_t known = first_bad; face < known && !first_bad.compare_exchange_weak(known, face);) {
                 }
             }

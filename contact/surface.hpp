@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::contact {
 
@@ -50,17 +50,17 @@ struct Surface {
     [[nodiscard]] SurfaceView<Dim> view() const;
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
     /// Appends one face from its corners: counter-clockwise seen from outside (3D), or with the outside on the right of
-    /// the way from the first to the second (2D). Measures follow from the corners. Throws std::invalid_argument for
+    /// the way from the first to the second (2D). Measures follow from the corners. Throws BadInput for
     /// other than 2 corners in 2D, 3 to geometry::max_polygon_vertices in 3D.
     void append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness, std::int32_t face_body);
 };
 
-/// The part of `check` that reads no face: throws std::invalid_argument naming an array whose size disagrees with the
+/// The part of `check` that reads no face: throws BadInput naming an array whose size disagrees with the
 /// others, and for offsets that do not rise to the size of `face_vertices`.
 template <int Dim>
 void check_sizes(const SurfaceView<Dim>& surface);
 
-/// Throws std::invalid_argument naming the face, the value, the limit and the remedy: array sizes that disagree, an index
+/// Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an index
 /// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
 /// normal that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the
 /// corners (all within 1e-10 of the face, and what rounding adds far from the origin), a depth that is not > 0 (rigid: >=

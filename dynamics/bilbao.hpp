@@ -28,8 +28,8 @@ public:
     static constexpr bool takes_after_step = false;
 
     /// Starts from q and p at the same time. The gauge c [J] keeps V + c positive: a scene with free flight needs c > 0. The
-    /// system must outlive the integrator. Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a
-    /// value is not finite or V depends on time; std::runtime_error, also from `step`, where V + c is not > 0.
+    /// system must outlive the integrator. Throws BadInput if dt is not > 0 and finite, the sizes disagree, a
+    /// value is not finite or V depends on time; Diverged, also from `step`, where V + c is not > 0.
     Bilbao(S& system, std::vector<double> q, std::span<const double> p, double dt, double gauge)
         : Integrator<Bilbao, S>(system, std::move(q), dt), gauge_(gauge) {
         if constexpr (FollowedSystem<S>)

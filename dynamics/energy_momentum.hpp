@@ -26,9 +26,9 @@ public:
     static constexpr bool has_half_steps = false;
     static constexpr bool takes_after_step = false;
 
-    /// Starts from q and p at the same time. The system must outlive the integrator. Throws std::invalid_argument if dt is
+    /// Starts from q and p at the same time. The system must outlive the integrator. Throws BadInput if dt is
     /// not > 0 and finite, the sizes disagree, a value is not finite, or the system does not allow this mean. `step` throws
-    /// std::runtime_error if Newton's method does not converge; q and p are then those before it.
+    /// Diverged if Newton's method does not converge; q and p are then those before it.
     EnergyMomentum(S& system, std::vector<double> q, std::span<const double> p, double dt, PathMean mean = PathMean::system)
         : Integrator<EnergyMomentum, S>(system, std::move(q), dt),
           mean_force_(system, mean),

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 
 namespace abut::dynamics::detail {
 namespace {
@@ -13,23 +13,22 @@ namespace {
 void require_finite(std::span<const double> values, const std::string& name, const std::string& unit) {
     const auto wrong = std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     if (wrong != values.end())
-        throw std::invalid_argument("integrator: " + name + " " + std::to_string(wrong - values.begin()) + " is " +
-                                    number(*wrong) + " " + unit + " at the start; it must be finite.");
+        throw BadInput("integrator: " + name + " " + std::to_string(wrong - values.begin()) + " is " + number(*wrong) + " " +
+                       unit + " at the start; it must be finite.");
 }
 
 }  // namespace
 
 void check_step(double dt) {
     if (!(dt > 0.0) || !std::isfinite(dt))
-        throw std::invalid_argument("time step is " + number(dt) +
-                                    " s; it must be finite and > 0. `stable_step` says how large it may be.");
+        throw BadInput("time step is " + number(dt) +
+                       " s; it must be finite and > 0. `stable_step` says how large it may be.");
 }
 
 void check_start(std::size_t size, std::span<const double> q, std::span<const double> p) {
     if (q.size() != size || p.size() != size)
-        throw std::invalid_argument("integrator: the state has " + std::to_string(q.size()) + " positions and " +
-                                    std::to_string(p.size()) + " momenta, the system " + std::to_string(size) +
-                                    " degrees of freedom.");
+        throw BadInput("integrator: the state has " + std::to_string(q.size()) + " positions and " +
+                       std::to_string(p.size()) + " momenta, the system " + std::to_string(size) + " degrees of freedom.");
     require_finite(q, "position", "m");
     require_finite(p, "momentum", "kg m/s");
 }

@@ -20,7 +20,7 @@ enum class StepChange {
 };
 
 namespace detail {
-/// Throw std::invalid_argument.
+/// Throw BadInput.
 void check_step(double dt);
 void check_start(std::size_t size, std::span<const double> q, std::span<const double> p);
 }  // namespace detail
@@ -51,7 +51,7 @@ public:
         if (after_step_) after_step_(q_, dt_, p_before_, p_after_);
     }
 
-    /// One step of a given dt (an outer solver dictates it). Throws std::invalid_argument, and stays as it is, if dt is not
+    /// One step of a given dt (an outer solver dictates it). Throws BadInput, and stays as it is, if dt is not
     /// > 0 and finite.
     void step(double dt, StepChange change) {
         detail::check_step(dt);
@@ -106,7 +106,7 @@ public:
 protected:
     Integrator(S& system, std::vector<double> q, double dt) : system_(system), q_(std::move(q)), dt_(dt) {}
 
-    /// Throws std::invalid_argument if dt is not > 0 and finite, or if sizes disagree or a value is not finite.
+    /// Throws BadInput if dt is not > 0 and finite, or if sizes disagree or a value is not finite.
     void begin(std::span<const double> p) {
         detail::check_step(dt_);
         detail::check_start(system_.size(), q_, p);

@@ -21,7 +21,7 @@ public:
     static constexpr bool takes_after_step = true;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
-    /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree or a value is not finite.
+    /// Throws BadInput if dt is not > 0 and finite, the sizes disagree or a value is not finite.
     Leapfrog(S& system, std::vector<double> q, std::span<const double> p, double dt)
         : Integrator<Leapfrog, S>(system, std::move(q), dt) {
         this->begin(p);

@@ -1,10 +1,12 @@
 #include "abut/dynamics/ledger.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "abut/geometry/parallel.hpp"
+#include "abut/base/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -57,22 +59,19 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
 }
 
 template <int Dim>
-void detail::complete(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e, const Solid<Dim>& solid) {
-    const contact::ContactReport report = solid.contact_report();
+void detail::add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e,
+                        std::span<const Vector<Dim>> rest_position, std::span<const double> mass) {
     entry.step = run.steps;
     entry.time = run.time;
-    entry.work = solid.work();
-    entry.active_pairs = report.active_pairs;
-    entry.events = report.events;
     const auto u = as_vectors<Dim>(run.q);
     const auto n = static_cast<std::ptrdiff_t>(u.size());
     entry.linear_momentum =
-        ordered_sum(n, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t c) { return run.momentum(c); });
-    entry.angular_momentum = ordered_sum(n, Rotation<Dim>(Rotation<Dim>::Zero()), [&](std::ptrdiff_t c) {
-        return moment<Dim>(solid.mesh().cell_centroid[c] + u[c], run.momentum(c));
+        ordered_sum(n, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) { return run.momentum(i); });
+    entry.angular_momentum = ordered_sum(n, Rotation<Dim>(Rotation<Dim>::Zero()), [&](std::ptrdiff_t i) {
+        return moment<Dim>(rest_position[i] + u[i], run.momentum(i));
     });
-    const auto e_c = as_vectors<Dim>(e);
-    entry.parasitic = largest(n, [&](std::ptrdiff_t c) { return e_c[c].norm() / solid.cell_mass()[c]; });
+    const auto e_i = as_vectors<Dim>(e);
+    entry.parasitic = largest(n, [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; });
 }
 
 template <int Dim>
@@ -90,39 +89,12 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     for (const double energy : {entry.energy, entry.kinetic, entry.potential}) raise(largest_energy_, std::abs(energy));
 }
 
-template <int Dim>
-std::vector<BodyMotion<Dim>> body_motions(const RunView<Dim>& run, const Solid<Dim>& solid) {
-    std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()), {0.0, Vector<Dim>::Zero()});
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-        BodyMotion<Dim>& body = motions[solid.mesh().cell_body[c]];
-        body.mass += solid.cell_mass()[c];
-        body.velocity += run.momentum(c);
-    }
-    for (BodyMotion<Dim>& body : motions) body.velocity /= body.mass;
-    return motions;
-}
-
-template <int Dim>
-std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity) {
-    const auto n_bodies = static_cast<std::size_t>(solid.mesh().n_bodies());
-    if (body_velocity.size() != n_bodies)
-        throw std::invalid_argument(std::to_string(body_velocity.size()) + " velocities are given for " +
-                                    std::to_string(n_bodies) + " bodies. Give one a body.");
-    std::vector<double> momentum(solid.size());
-    const auto p = as_vectors<Dim>(std::span<double>(momentum));
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
-        p[c] = solid.cell_mass()[c] * body_velocity[solid.mesh().cell_body[c]];
-    return momentum;
-}
-
-#define ABUT_INSTANTIATE(Dim)                                                                            \
-    template std::vector<std::string> ledger_columns<Dim>();                                             \
-    template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                            \
-    template void detail::complete<Dim>(LedgerEntry<Dim>&, const RunView<Dim>&, std::span<const double>, \
-                                        const Solid<Dim>&);                                              \
-    template class Ledger<Dim>;                                                                          \
-    template std::vector<BodyMotion<Dim>> body_motions<Dim>(const RunView<Dim>&, const Solid<Dim>&);     \
-    template std::vector<double> uniform_momentum<Dim>(const Solid<Dim>&, std::span<const Vector<Dim>>);
+#define ABUT_INSTANTIATE(Dim)                                                                              \
+    template std::vector<std::string> ledger_columns<Dim>();                                               \
+    template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                              \
+    template void detail::add_motion<Dim>(LedgerEntry<Dim>&, const RunView<Dim>&, std::span<const double>, \
+                                          std::span<const Vector<Dim>>, std::span<const double>);          \
+    template class Ledger<Dim>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

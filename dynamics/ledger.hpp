@@ -1,13 +1,28 @@
 #pragma once
-#include <array>
+#include <concepts>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "abut/dynamics/integrator.hpp"
-#include "abut/dynamics/solid.hpp"
 
 namespace abut::dynamics {
+
+/// A system of points with a mass that move in space, `dimension` 2 or 3: q holds their displacements (n, dimension). Its
+/// ledger also takes `work()` [J] and `contact_counts()` where it has them.
+template <class S>
+concept PointSystem = System<S> && requires(const S& system) {
+    { S::dimension } -> std::convertible_to<int>;
+    { system.rest_positions() } -> std::convertible_to<std::span<const Vector<S::dimension>>>;  ///< (n, dimension) [m]
+    { system.masses() } -> std::convertible_to<std::span<const double>>;                        ///< (n) [kg]
+};
+
+/// What a system with contact says to its ledger.
+struct ContactCounts {
+    std::int64_t active_pairs = 0;  ///< in the last step
+    std::int64_t events = 0;        ///< so far
+};
 
 /// Components of angular momentum: one in 2D, three in 3D.
 template <int Dim>
@@ -26,7 +41,7 @@ struct LedgerEntry {
     double work;                  ///< done from outside so far [J]
     Vector<Dim> linear_momentum;  ///< [kg m/s]
     Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign> angular_momentum;  ///< about the origin [kg m^2/s]
-    double parasitic;                                                               ///< largest |e_c| / m_c [m/s]
+    double parasitic;                                                               ///< largest |e_i| / m_i [m/s]
     std::int64_t active_pairs;                                                      ///< in the last step
     std::int64_t events;                                                            ///< so far
     double restart_jumps;  ///< what restarts with another step have added to H~ so far [J]
@@ -39,12 +54,12 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<double> ledger_values(const LedgerEntry<Dim>& entry);
 
-/// An integrator of solids, as far as its ledger and its output go: no scheme has its own.
+/// An integrator of moving points, as far as its ledger and its output go: no scheme has its own.
 template <int Dim>
 class RunView {
 public:
-    template <class Scheme>
-    RunView(const Integrator<Scheme, Solid<Dim>>& integrator)  // implicit: a view
+    template <class Scheme, PointSystem S>
+    RunView(const Integrator<Scheme, S>& integrator) requires(S::dimension == Dim)  // implicit: a view
         : steps(integrator.steps()),
           time(integrator.time()),
           q(integrator.q()),
@@ -53,33 +68,41 @@ public:
 
     std::int64_t steps;
     double time;                       ///< [s]
-    std::span<const double> q;         ///< (n_cells, Dim) [m]
+    std::span<const double> q;         ///< (n, Dim) [m]
     std::span<const double> p_before;  ///< p^{n-1/2} [kg m/s]
     std::span<const double> p_after;   ///< p^{n+1/2}
-    /// p^n = (p^{n-1/2} + p^{n+1/2})/2 of a cell [kg m/s]
-    [[nodiscard]] Vector<Dim> momentum(std::ptrdiff_t c) const {
-        return 0.5 * (as_vectors<Dim>(p_before)[c] + as_vectors<Dim>(p_after)[c]);
+    /// p^n = (p^{n-1/2} + p^{n+1/2})/2 of a point [kg m/s]
+    [[nodiscard]] Vector<Dim> momentum(std::ptrdiff_t i) const {
+        return 0.5 * (as_vectors<Dim>(p_before)[i] + as_vectors<Dim>(p_after)[i]);
     }
 };
 
 namespace detail {
-/// Fills what does not depend on the scheme; e is the parasitic momentum.
+/// Fills what the motion of the points alone decides; e is the parasitic momentum.
 template <int Dim>
-void complete(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e, const Solid<Dim>& solid);
+void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e,
+                std::span<const Vector<Dim>> rest_position, std::span<const double> mass);
 }  // namespace detail
 
-/// Measures the present state; costs about two force evaluations.
-template <int Dim, class Scheme>
-[[nodiscard]] LedgerEntry<Dim> measure(Integrator<Scheme, Solid<Dim>>& integrator, Solid<Dim>& solid) {
+/// Measures the present state; costs about two force evaluations. `system` is that of the integrator.
+template <class Scheme, PointSystem S>
+[[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system) {
+    constexpr int Dim = S::dimension;
     LedgerEntry<Dim> entry{};
-    entry.potential = solid.potential(integrator.q());
+    entry.potential = system.potential(integrator.q());
     entry.kinetic = integrator.kinetic_energy();
     entry.energy = entry.kinetic + entry.potential;
     entry.pseudo_energy = integrator.pseudo_energy(entry.potential);
     entry.restart_jumps = integrator.restart_jumps();
     std::vector<double> e(integrator.q().size());
     integrator.parasitic_momentum(e);
-    detail::complete<Dim>(entry, integrator, e, solid);
+    if constexpr (requires { system.work(); }) entry.work = system.work();
+    if constexpr (requires { system.contact_counts(); }) {
+        const ContactCounts counts = system.contact_counts();
+        entry.active_pairs = counts.active_pairs;
+        entry.events = counts.events;
+    }
+    detail::add_motion<Dim>(entry, integrator, e, system.rest_positions(), system.masses());
     return entry;
 }
 
@@ -112,18 +135,5 @@ private:
     double angular_momentum_drift_ = 0.0;
     double largest_energy_ = 0.0;
 };
-
-/// Mass and mean velocity of a body.
-template <int Dim>
-struct BodyMotion {
-    double mass;           ///< [kg]
-    Vector<Dim> velocity;  ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
-};
-template <int Dim>
-[[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const RunView<Dim>& run, const Solid<Dim>& solid);
-
-/// Momenta of bodies that move as a whole, one velocity a body [m/s].
-template <int Dim>
-[[nodiscard]] std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity);
 
 }  // namespace abut::dynamics

@@ -2,12 +2,12 @@
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/dynamics/sparse.hpp"
-#include "abut/geometry/messages.hpp"
-#include "abut/geometry/parallel.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -18,9 +18,8 @@ void check(std::size_t n, std::span<const MatrixEntry> mass) {
     const auto inside = [&](std::int32_t i) { return i >= 0 && static_cast<std::size_t>(i) < n; };
     for (const auto& [row, column, value] : mass)
         if (!inside(row) || !inside(column) || !std::isfinite(value))
-            throw std::invalid_argument("mass: entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is " +
-                                        number(value) + "; a finite number within " + std::to_string(n) + " rows and " +
-                                        "columns is allowed.");
+            throw BadInput("mass: entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is " + number(value) +
+                           "; a finite number within " + std::to_string(n) + " rows and " + "columns is allowed.");
 }
 
 double largest_entry(const Sparse& matrix) { return matrix.nonZeros() == 0 ? 0.0 : matrix.coeffs().abs().maxCoeff(); }
@@ -37,12 +36,11 @@ InverseMass::InverseMass(std::size_t n, std::span<const MatrixEntry> mass) : imp
     impl_->matrix = assembled(n, mass);
     const double asymmetry = largest_entry(Sparse(impl_->matrix - Sparse(impl_->matrix.transpose())));
     if (asymmetry > symmetry_tolerance * largest_entry(impl_->matrix))
-        throw std::invalid_argument("mass: the matrix differs from its transpose by up to " + number(asymmetry) +
-                                    " kg; it must be symmetric. Give both of its triangles.");
+        throw BadInput("mass: the matrix differs from its transpose by up to " + number(asymmetry) +
+                       " kg; it must be symmetric. Give both of its triangles.");
     impl_->factors.compute(impl_->matrix);
     if (impl_->factors.info() != Eigen::Success)
-        throw std::invalid_argument(
-            "mass: the matrix is not positive definite. Every degree of freedom needs a mass above 0 kg.");
+        throw BadInput("mass: the matrix is not positive definite. Every degree of freedom needs a mass above 0 kg.");
 }
 
 InverseMass::~InverseMass() = default;

@@ -18,7 +18,7 @@ struct MatrixEntry {
 /// elements, say. A diagonal mass is a plain array of 1/m instead, and costs no solve.
 class InverseMass {
 public:
-    /// Both triangles of M [kg], (n, n). Throws std::invalid_argument if an entry is out of range or not finite, or if M is
+    /// Both triangles of M [kg], (n, n). Throws BadInput if an entry is out of range or not finite, or if M is
     /// not symmetric and positive definite.
     InverseMass(std::size_t n, std::span<const MatrixEntry> mass);
     ~InverseMass();

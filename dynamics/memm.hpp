@@ -22,7 +22,7 @@ public:
     static constexpr bool takes_after_step = true;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
-    /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a value is not finite, or the system
+    /// Throws BadInput if dt is not > 0 and finite, the sizes disagree, a value is not finite, or the system
     /// does not allow this mean.
     Memm(S& system, std::vector<double> q, std::span<const double> p, double dt, PathMean mean = PathMean::system)
         : Integrator<Memm, S>(system, std::move(q), dt), mean_force_(system, mean) {

@@ -1,12 +1,13 @@
 #include "abut/dynamics/memm_async.hpp"
 
-#include <stdexcept>
 #include <string>
+
+#include "abut/base/error.hpp"
 
 namespace abut::dynamics::detail {
 
 void check_local_steps(const LocalSteps& steps, std::size_t size) {
-    const auto refuse = [](const std::string& what) { throw std::invalid_argument("local steps: " + what); };
+    const auto refuse = [](const std::string& what) { throw BadInput("local steps: " + what); };
     if (steps.parts.empty() || steps.parts.front() != 1) refuse("level 0 must take 1 step in a step of the scheme.");
     for (std::size_t l = 1; l < steps.parts.size(); ++l)
         if (steps.parts[l] <= steps.parts[l - 1] || steps.parts[l] % steps.parts[l - 1] != 0)

@@ -15,7 +15,7 @@ struct LocalSteps {
 };
 
 namespace detail {
-/// Throws std::invalid_argument.
+/// Throws BadInput.
 void check_local_steps(const LocalSteps& steps, std::size_t size);
 }  // namespace detail
 
@@ -38,7 +38,7 @@ public:
     static constexpr bool takes_after_step = false;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt_i/2 F(q). The system must outlive the integrator.
-    /// Throws std::invalid_argument if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local
+    /// Throws BadInput if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local
     /// steps do not fit. After an error in `step` q and p are of different times: the run is over.
     MemmAsync(S& system, std::vector<double> q, std::span<const double> p, double dt, LocalSteps steps)
         : Integrator<MemmAsync, S>(system, std::move(q), dt), steps_(std::move(steps)) {

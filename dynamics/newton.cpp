@@ -1,11 +1,11 @@
 #include "abut/dynamics/newton.hpp"
 
 #include <Eigen/SparseLU>
-#include <stdexcept>
 #include <string>
 
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/dynamics/sparse.hpp"
-#include "abut/geometry/messages.hpp"
 
 namespace abut::dynamics {
 struct NewtonMatrix::Impl {
@@ -27,8 +27,8 @@ void NewtonMatrix::factorise(std::span<const MatrixEntry> stiffness) {
     sum.makeCompressed();
     impl_->factors.compute(sum);
     if (impl_->factors.info() != Eigen::Success)
-        throw std::runtime_error("energy-momentum scheme: the matrix of Newton's method is singular (" +
-                                 impl_->factors.lastErrorMessage() + "). Take a smaller time step.");
+        throw Diverged("energy-momentum scheme: the matrix of Newton's method is singular (" +
+                       impl_->factors.lastErrorMessage() + "). Take a smaller time step.");
 }
 
 void NewtonMatrix::solve(std::span<const double> b, std::span<double> x) const { dense(x) = impl_->factors.solve(dense(b)); }
@@ -38,9 +38,9 @@ void NewtonMatrix::multiply_mass(std::span<const double> a, std::span<double> pr
 }
 
 void detail::refuse_newton(int iterations, double change, double dt) {
-    throw std::runtime_error("energy-momentum scheme: Newton's method has not converged after " +
-                             std::to_string(iterations) + " iterations (relative change " + number(change) +
-                             ") in a step of " + number(dt) + " s. Take a smaller time step.");
+    throw Diverged("energy-momentum scheme: Newton's method has not converged after " + std::to_string(iterations) +
+                   " iterations (relative change " + number(change) + ") in a step of " + number(dt) +
+                   " s. Take a smaller time step.");
 }
 
 }  // namespace abut::dynamics

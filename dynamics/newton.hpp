@@ -19,7 +19,7 @@ public:
     NewtonMatrix(NewtonMatrix&&) noexcept;
     NewtonMatrix& operator=(NewtonMatrix&&) noexcept;
 
-    /// Sets K. Throws std::runtime_error if M + K is singular.
+    /// Sets K. Throws Diverged if M + K is singular.
     void factorise(std::span<const MatrixEntry> stiffness);
     /// (M + K)^-1 b
     void solve(std::span<const double> b, std::span<double> x) const;

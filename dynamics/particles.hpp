@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/dynamics/system.hpp"
 
 namespace abut::dynamics {
@@ -89,11 +89,11 @@ public:
     static constexpr int dim = Law::dim;
     using V = Vector<dim>;
 
-    /// `load`: a constant force a degree of freedom [N]; empty: none. Throws std::invalid_argument if a bond has an end that
+    /// `load`: a constant force a degree of freedom [N]; empty: none. Throws BadInput if a bond has an end that
     /// is no particle, two ends that are the same, or if sizes disagree.
     Particles(Mass inverse_mass, std::vector<Bond<Law>> bonds, std::vector<double> load = {})
         : inverse_mass_(std::move(inverse_mass)), bonds_(std::move(bonds)), load_(std::move(load)) {
-        const auto refuse = [](const std::string& what) { throw std::invalid_argument("particles: " + what); };
+        const auto refuse = [](const std::string& what) { throw BadInput("particles: " + what); };
         if (size() % dim != 0 || (!load_.empty() && load_.size() != size()))
             refuse(std::to_string(size()) + " masses and " + std::to_string(load_.size()) + " loads are given; give " +
                    std::to_string(dim) + " a particle, of loads that many or none.");
@@ -134,7 +134,7 @@ public:
         }
     }
 
-    /// A bond goes with the higher level of its two particles. Levels of degrees of freedom: throws std::invalid_argument if
+    /// A bond goes with the higher level of its two particles. Levels of degrees of freedom: throws BadInput if
     /// those of a particle disagree.
     void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
         const auto level_of = [&](std::int32_t particle) {
@@ -142,8 +142,8 @@ public:
         };
         for (std::size_t i = 0; i < level.size(); ++i)
             if (level[i] != level[i - i % dim])
-                throw std::invalid_argument("particles: the components of particle " + std::to_string(i / dim) +
-                                            " are on different levels. A particle takes its steps as a whole.");
+                throw BadInput("particles: the components of particle " + std::to_string(i / dim) +
+                               " are on different levels. A particle takes its steps as a whole.");
         by_level_.assign(static_cast<std::size_t>(n_levels), {});
         for (std::int32_t b = 0; b < static_cast<std::int32_t>(bonds_.size()); ++b)
             by_level_[std::max(level_of(bonds_[b].first), level_of(bonds_[b].second))].push_back(b);

@@ -1,9 +1,9 @@
 #pragma once
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/dynamics/system.hpp"
 #include "abut/geometry/quadrature.hpp"
 
@@ -21,13 +21,13 @@ enum class PathMean {
 template <System S>
 class PathMeanForce {
 public:
-    /// Throws std::invalid_argument for a rule that the system does not allow.
+    /// Throws BadInput for a rule that the system does not allow.
     PathMeanForce(S& system, PathMean mean) : system_(system), mean_(mean) {
         if (mean == PathMean::system && !PathMeanSystem<S>)
-            throw std::invalid_argument(
+            throw BadInput(
                 "integrator: the system does not know the mean of its force along a way. Take PathMean::gauss_1, _2 or _3.");
         if (mean != PathMean::system && FollowedSystem<S>)
-            throw std::invalid_argument(
+            throw BadInput(
                 "integrator: the system must be led along every step. Take PathMean::system; contact has its own quadrature "
                 "in ContactOptions.");
         if (mean == PathMean::system) return;

@@ -1,10 +1,9 @@
 #include "abut/dynamics/power_iteration.hpp"
 
-#include <cmath>
-#include <limits>
 #include <random>
+#include <utility>
 
-#include "abut/geometry/parallel.hpp"
+#include "abut/dynamics/mass.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -13,11 +12,11 @@ inline constexpr int most_iterations = 2000;
 
 }  // namespace
 
-template <int Dim>
-HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options) {
+HighestMode highest_mode(std::span<const double> inverse_mass,
+                         const std::function<void(std::span<const double> x, std::span<double> product)>& stiffness,
+                         const PowerIterationOptions& options) {
     const auto& [least, least_beyond, enough, mask] = options;
-    const std::span<const double> inverse_mass = solid.inverse_mass();
-    const std::size_t n = solid.size();
+    const std::size_t n = inverse_mass.size();
     std::vector<double> x(n), k_x(n), m_x(n);
     std::minstd_rand random(1);
     for (double& value : x) value = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
@@ -31,7 +30,7 @@ HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options
         return iteration >= least && (change <= settled_change || iteration >= most_iterations);
     };
     while (!is_done()) {
-        solid.stiffness_product(x, k_x);
+        stiffness(x, k_x);
         for (std::size_t i = 0; i < n; ++i) m_x[i] = x[i] / inverse_mass[i];
         const double next = dot_product(x, k_x) / dot_product(x, m_x);
         change = std::abs(next - quotient) / next;
@@ -44,8 +43,5 @@ HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options
     }
     return {quotient, change, iteration, std::move(x)};
 }
-
-template HighestMode highest_mode<2>(Solid<2>&, const PowerIterationOptions&);
-template HighestMode highest_mode<3>(Solid<3>&, const PowerIterationOptions&);
 
 }  // namespace abut::dynamics

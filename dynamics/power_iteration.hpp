@@ -1,13 +1,21 @@
 #pragma once
-// Private to the sources of this layer.
 #include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "abut/dynamics/solid.hpp"
-
 namespace abut::dynamics {
+
+/// A system with a diagonal mass that knows the linear part K q of its restoring force.
+template <class S>
+concept StiffnessProductSystem = requires(S& system, std::span<const double> q, std::span<double> product) {
+    { system.size() } -> std::convertible_to<std::size_t>;
+    { system.inverse_mass() } -> std::convertible_to<std::span<const double>>;  ///< [1/kg]
+    system.stiffness_product(q, product);                                       ///< K q [N]
+};
 
 /// The highest mode of M^-1 K: x is the last iterate, of length 1.
 struct HighestMode {
@@ -30,8 +38,19 @@ struct PowerIterationOptions {
     std::span<const double> mask = {};                        ///< 1 for a degree of freedom that may move, 0; empty: all may
 };
 
-/// Iterations from a fixed start until the quotient has settled or is beyond `enough`, at most 2,000.
-template <int Dim>
-[[nodiscard]] HighestMode highest_mode(Solid<Dim>& solid, const PowerIterationOptions& options = {});
+/// Iterations from a fixed start until the quotient has settled or is beyond `enough`, at most 2,000. `stiffness` sets
+/// product = K x; M is diagonal, 1/m in `inverse_mass` (n) [1/kg].
+[[nodiscard]] HighestMode highest_mode(
+    std::span<const double> inverse_mass,
+    const std::function<void(std::span<const double> x, std::span<double> product)>& stiffness,
+    const PowerIterationOptions& options = {});
+
+/// The same of a system.
+template <StiffnessProductSystem S>
+[[nodiscard]] HighestMode highest_mode(S& system, const PowerIterationOptions& options = {}) {
+    return highest_mode(
+        system.inverse_mass(),
+        [&](std::span<const double> x, std::span<double> product) { system.stiffness_product(x, product); }, options);
+}
 
 }  // namespace abut::dynamics

@@ -1,22 +1,44 @@
 #pragma once
-#include "abut/dynamics/solid.hpp"
+#include "abut/dynamics/power_iteration.hpp"
 
 namespace abut::dynamics {
 
 struct StableStep {
     double omega_max;  ///< highest frequency without contact [rad/s]: the last Rayleigh quotient, a lower bound, times 1.02
-    double dt;         ///< 2 / omega_max, times 0.85 with contact: a closed contact stiffens its cells [s]
+    double dt;         ///< 2 / omega_max times the margin of the system [s]
     int iterations;
     double change;  ///< relative change of the last iteration
 };
 
-/// Power iteration on M^-1 K from a fixed start: at least 50 iterations and until the Rayleigh quotient changes by less than
-/// 1e-4, at most 2,000. docs/method.md, Space. Throws std::runtime_error if it does not settle.
-template <int Dim>
-[[nodiscard]] StableStep stable_step(Solid<Dim>& solid);
+/// The part of 2/omega_max that a system allows for a step [-]: its own `step_margin`, 1 if it has none. A closed contact
+/// stiffens its cells, and K knows nothing of it.
+template <StiffnessProductSystem S>
+[[nodiscard]] double step_margin(const S& system) {
+    if constexpr (requires { system.step_margin(); })
+        return system.step_margin();
+    else
+        return 1.0;
+}
 
-/// The stable step of cells whose highest frequency is omega [rad/s], with the same margin for contact [s].
-template <int Dim>
-[[nodiscard]] double stable_step_of(const Solid<Dim>& solid, double omega);
+/// The stable step of degrees of freedom whose highest frequency is omega [rad/s], with the margin of their system [s].
+template <StiffnessProductSystem S>
+[[nodiscard]] double stable_step_of(const S& system, double omega) {
+    return step_margin(system) * 2.0 / omega;
+}
+
+namespace detail {
+/// Throws BadInput if the iteration has not settled.
+void require_settled(const HighestMode& mode);
+}  // namespace detail
+
+/// Power iteration on M^-1 K from a fixed start: at least 50 iterations and until the Rayleigh quotient changes by less than
+/// 1e-4, at most 2,000. docs/method.md, Space. Throws BadInput if it does not settle.
+template <StiffnessProductSystem S>
+[[nodiscard]] StableStep stable_step(S& system) {
+    const HighestMode mode = highest_mode(system);
+    detail::require_settled(mode);
+    const double omega = bound_of(mode);
+    return {omega, stable_step_of(system, omega), mode.iterations, mode.change};
+}
 
 }  // namespace abut::dynamics

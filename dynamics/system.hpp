@@ -3,11 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 #include <vector>
 
+#include "abut/base/vector.hpp"
 #include "abut/dynamics/mass.hpp"
-#include "abut/geometry/vector.hpp"
 
 namespace abut::dynamics {
 
@@ -74,12 +73,5 @@ concept LocalSystem = System<S> && requires(S& system, std::span<const std::int3
     system.set_levels(1, level);                    ///< how many there are, and that of each degree of freedom
     system.add_impulse(0, flight, t, dt, impulse);  ///< + integral of the parts of a level over dt from now, t [N s]
 };
-
-/// Arrays of shape (n, Dim) and arrays of n vectors are the same memory.
-template <int Dim, class Double>
-[[nodiscard]] auto as_vectors(std::span<Double> values) {
-    using V = std::conditional_t<std::is_const_v<Double>, const Vector<Dim>, Vector<Dim>>;
-    return std::span<V>(reinterpret_cast<V*>(values.data()), values.size() / Dim);
-}
 
 }  // namespace abut::dynamics

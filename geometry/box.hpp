@@ -3,7 +3,7 @@
 #include <limits>
 #include <span>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::geometry {
 

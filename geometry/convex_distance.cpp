@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/geometry/box.hpp"
 
 namespace abut::geometry {
@@ -48,16 +48,15 @@ struct Bodies {
 
 template <int Dim>
 Box<3> bounding_box_of(std::span<const Vector<Dim>> points) {
-    if (points.empty())
-        throw std::invalid_argument("convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
+    if (points.empty()) throw BadInput("convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
     Box<3> box;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Vector<Dim>& point = points[i];
         for (int axis = 0; axis < Dim; ++axis)
             if (!std::isfinite(point[axis]))
-                throw std::invalid_argument("convex_proximity: point " + std::to_string(i) + " has the " + "xyz"[axis] +
-                                            " coordinate " + std::to_string(point[axis]) +
-                                            ", a finite number is needed. Has the motion behind it blown up?");
+                throw BadInput("convex_proximity: point " + std::to_string(i) + " has the " + "xyz"[axis] + " coordinate " +
+                               std::to_string(point[axis]) +
+                               ", a finite number is needed. Has the motion behind it blown up?");
         Vector<3> lifted = Vector<3>::Zero();
         lifted.template head<Dim>() = point;
         box.extend(lifted);

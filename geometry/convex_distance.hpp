@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::geometry {
 
@@ -20,7 +20,7 @@ struct ConvexProximity {
 /// bodies) the distance is a lower and the depth an upper bound. Relative accuracy otherwise: 1e-6 of the size of the
 /// bodies. With no more than 16 points in all (two hexahedra) all axes that can be the best are tried: the depth is then
 /// exact up to rounding.
-/// Throws std::invalid_argument if a set is empty or a coordinate is not finite.
+/// Throws BadInput if a set is empty or a coordinate is not finite.
 template <int Dim>
 [[nodiscard]] ConvexProximity<Dim> convex_proximity(std::span<const Vector<Dim>> body_1,
                                                     std::span<const Vector<Dim>> body_2);

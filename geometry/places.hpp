@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::geometry {
 

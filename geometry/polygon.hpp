@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::geometry {
 

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <limits>
 
-#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 
 namespace abut::geometry {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "abut/geometry/disjoint_sets.hpp"
+#include "abut/base/disjoint_sets.hpp"
 
 namespace abut::mesh {
 

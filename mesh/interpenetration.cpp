@@ -4,8 +4,8 @@
 #include <optional>
 #include <tuple>
 
+#include "abut/base/messages.hpp"
 #include "abut/geometry/convex_distance.hpp"
-#include "abut/geometry/messages.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/geometry/broad_phase.hpp"
+#include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::mesh {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/mesh.hpp"
 

@@ -6,11 +6,11 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
+#include "abut/base/error.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/geometry/box.hpp"
-#include "abut/geometry/sort_unique.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"
@@ -232,8 +232,8 @@ const BoundaryGroup& Mesh<Dim>::group(const std::string& group_name) const {
         if (candidate.name == group_name) return candidate;
         known += (known.empty() ? "'" : ", '") + candidate.name + "'";
     }
-    throw std::invalid_argument(name + ": there is no boundary group '" + group_name + "'. The mesh has " +
-                                (known.empty() ? "none: name surfaces as physical groups." : known + "."));
+    throw BadInput(name + ": there is no boundary group '" + group_name + "'. The mesh has " +
+                   (known.empty() ? "none: name surfaces as physical groups." : known + "."));
 }
 
 template <int Dim>

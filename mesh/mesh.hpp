@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/geometry/vector.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::mesh {
 
@@ -47,7 +47,7 @@ struct BuildReport {
     std::vector<std::string> warnings;    ///< what Gmsh warned of while it read the file
     /// Boundary vertices at the place of a vertex of another body, up to 1e-6 of the smallest boundary face. More than a
     /// few are bodies whose meshes match node by node: legal, but such contact is a special case, and often an accident
-    /// (see `variant` in mesh/shapes.hpp).
+    /// (see `variant` in mesh/shapes/shapes.hpp).
     std::int32_t n_coincident_vertices = 0;
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
@@ -91,7 +91,7 @@ struct Mesh {
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_measure.size()); }
     [[nodiscard]] std::int32_t n_bodies() const { return static_cast<std::int32_t>(body_names.size()); }
     [[nodiscard]] bool is_boundary(std::int32_t face) const { return face_cells[face][1] < 0; }
-    /// The group of that name; throws std::invalid_argument listing the names that exist.
+    /// The group of that name; throws BadInput listing the names that exist.
     [[nodiscard]] const BoundaryGroup& group(const std::string& group_name) const;
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/measures.hpp"
 

@@ -2,10 +2,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/mesh.hpp"
 
@@ -13,9 +13,8 @@ namespace abut::mesh {
 
 /// A mesh or a mesh file that cannot be used. The message names the mesh, the cell or face as numbered in the input, the
 /// value, the limit, and what to do.
-class MeshError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
+struct MeshError : BadInput {
+    using BadInput::BadInput;
 };
 
 /// Numbers to judge a mesh by. The cells are indices in the mesh.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/geometry/messages.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/local_faces.hpp"

@@ -1,11 +1,11 @@
 #include "abut/mesh/surface_mesh.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <unordered_map>
 #include <utility>
 
-#include "abut/geometry/disjoint_sets.hpp"
+#include "abut/base/disjoint_sets.hpp"
+#include "abut/base/error.hpp"
 #include "abut/geometry/places.hpp"
 #include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/quality.hpp"
@@ -237,10 +237,10 @@ SurfaceMesh boundary_of(const Mesh<3>& mesh, std::span<const Vector<3>> displace
 
 CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceHealth& health, UnusableFaces policy) {
     if (health.n_faces != mesh.faces.size() || at(health.n_vertices) != mesh.vertices.size())
-        throw std::invalid_argument(mesh.name + ": has " + std::to_string(mesh.faces.size()) + " faces and " +
-                                    std::to_string(mesh.vertices.size()) + " vertices, but the health is that of " +
-                                    std::to_string(health.n_faces) + " faces and " + std::to_string(health.n_vertices) +
-                                    " vertices. Give that of this surface.");
+        throw BadInput(mesh.name + ": has " + std::to_string(mesh.faces.size()) + " faces and " +
+                       std::to_string(mesh.vertices.size()) + " vertices, but the health is that of " +
+                       std::to_string(health.n_faces) + " faces and " + std::to_string(health.n_vertices) +
+                       " vertices. Give that of this surface.");
     if (!health.unusable_faces.empty() && (policy == UnusableFaces::fail || health.n_usable() == 0))
         refuse_faces(mesh, health);
     if (health.n_usable() == 0)

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "abut/geometry/face_soup.hpp"
-#include "abut/geometry/surface_health.hpp"
+#include "abut/geometry/health/face_soup.hpp"
+#include "abut/geometry/health/surface_health.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::mesh {
@@ -65,7 +65,7 @@ struct CleanSurface {
 /// `health` is examine(mesh.soup()). A polygon that is not flat is cut into triangles (geometry/triangulate.hpp); a corner
 /// that repeats the one before it is left out. Flipped duplicates, holes, slivers and all else stay as they are. Throws
 /// MeshError under `fail`, naming the first faces, their faults, how many there are and the remedy; under both if nothing
-/// is left; std::invalid_argument if `health` is that of another surface.
+/// is left; BadInput if `health` is that of another surface.
 [[nodiscard]] CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceHealth& health, UnusableFaces policy);
 
 }  // namespace abut::mesh

@@ -39,7 +39,7 @@ struct Term {
     LinearForm<Rows> image;  // S times the coefficients
 };
 
-std::vector<Displacement> face_displacements(const mesh::Mesh<3>& mesh, const dynamics::Ccg<3>& ccg) {
+std::vector<Displacement> face_displacements(const mesh::Mesh<3>& mesh, const solid::Ccg<3>& ccg) {
     std::vector<Displacement> forms(static_cast<std::size_t>(mesh.n_faces()));
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
         if (!mesh.is_boundary(f))
@@ -70,7 +70,7 @@ Gradient cell_gradient(const mesh::Mesh<3>& mesh, std::int32_t c, std::span<cons
     return gradient;
 }
 
-Elasticity elasticity(const dynamics::Material& material) {
+Elasticity elasticity(const solid::Material& material) {
     Elasticity c = Elasticity::Zero();
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
@@ -179,8 +179,8 @@ inline void add_column(Four& y, const double* column, double x) {
 
 }  // namespace
 
-AssembledMatrix::AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const dynamics::Material> materials,
-                                 const dynamics::Ccg<3>& ccg) {
+AssembledMatrix::AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const solid::Material> materials,
+                                 const solid::Ccg<3>& ccg) {
     const auto faces = face_displacements(mesh, ccg);
     std::vector<Gradient> gradients;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) gradients.push_back(cell_gradient(mesh, c, faces));

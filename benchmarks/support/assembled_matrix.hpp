@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/dynamics/ccg.hpp"
+#include "abut/solid/ccg/ccg.hpp"
 
 namespace abut::benchmark {
 
@@ -13,7 +13,7 @@ class AssembledMatrix {
 public:
     /// Adds up the terms of the energy (elastic of each cell, stabilisation of each interior face; docs/method.md, Space)
     /// from the mesh, the stencils and the boundary reconstruction: independent of the code that it is compared with.
-    AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const dynamics::Material> materials, const dynamics::Ccg<3>& ccg);
+    AssembledMatrix(const mesh::Mesh<3>& mesh, std::span<const solid::Material> materials, const solid::Ccg<3>& ccg);
 
     /// result = K x, row after row.
     void multiply(std::span<const Vector<3>> x, std::span<Vector<3>> result) const;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 
 namespace abut::benchmark {
 

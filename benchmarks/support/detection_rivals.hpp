@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/geometry/broad_phase.hpp"
+#include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "support/detection_scenes.hpp"
 
 namespace abut::benchmark {

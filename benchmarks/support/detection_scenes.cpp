@@ -57,7 +57,7 @@ DetectionScene detection_scene(const std::string& name, int n) {
         append_wall(scene.bodies[1], n / 2, Vector<3>(0.0, 0.0, 0.3 * side), 1.0 + gap, 0.1, false);
         append_wall(scene.bodies[1], n / 2, Vector<3>(0.0, 0.0, 0.3 * side), 1.2, 0.1, true);
     } else {
-        throw std::invalid_argument("there is no scene '" + name + "'; there are 'press' and 'plug'.");
+        throw BadInput("there is no scene '" + name + "'; there are 'press' and 'plug'.");
     }
     return scene;
 }

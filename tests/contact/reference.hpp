@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/path_integral.hpp"
+#include "abut/contact/path/path_integral.hpp"
 #include "abut/contact/surface.hpp"
 
 namespace abut::test {

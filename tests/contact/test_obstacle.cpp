@@ -28,10 +28,10 @@ TEMPLATE_TEST_CASE_SIG("a plane obstacle is a flat face of the wanted size that 
 TEMPLATE_TEST_CASE_SIG("a plane obstacle without a direction or a size is refused", "[contact][obstacle]", ((int Dim), Dim),
                        2, 3) {
     const Vector<Dim> origin = Vector<Dim>::Zero();
-    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, origin, 1.0), std::invalid_argument);
-    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), 0.0), std::invalid_argument);
-    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), -1.0), std::invalid_argument);
-    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), std::nan("")), std::invalid_argument);
+    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, origin, 1.0), BadInput);
+    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), 0.0), BadInput);
+    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), -1.0), BadInput);
+    CHECK_THROWS_AS(contact::plane_obstacle<Dim>(origin, up<Dim>(), std::nan("")), BadInput);
 }
 
 TEMPLATE_TEST_CASE_SIG("an obstacle pushes a face out to its own plane: the correction of a covered face is -g n",

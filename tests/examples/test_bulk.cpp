@@ -4,9 +4,9 @@
 #include <string>
 
 #include "examples/program.hpp"
-#include "scenes/half_plane.hpp"
-#include "scenes/manufactured.hpp"
-#include "scenes/plane_wave.hpp"
+#include "studies/scenes/half_plane.hpp"
+#include "studies/scenes/manufactured.hpp"
+#include "studies/scenes/plane_wave.hpp"
 
 namespace {
 

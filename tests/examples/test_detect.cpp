@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/candidate_search.hpp"
-#include "detect/motion.hpp"
-#include "detect/shapes.hpp"
-#include "detect/verification.hpp"
+#include "abut/contact/search/candidate_search.hpp"
+#include "apps/detect/motion.hpp"
+#include "apps/detect/shapes.hpp"
+#include "apps/detect/verification.hpp"
 #include "examples/program.hpp"
 
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
+#include "apps/support/preset.hpp"
 #include "examples/program.hpp"
-#include "support/preset.hpp"
-#include "trade/ladder.hpp"
+#include "studies/trade/ladder.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/geometry/overlap.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 
 namespace abut::test {
 

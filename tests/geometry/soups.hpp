@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/geometry/face_soup.hpp"
+#include "abut/geometry/health/face_soup.hpp"
 
 namespace abut::test {
 

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "abut/geometry/broad_phase.hpp"
-#include "abut/geometry/spatial_order.hpp"
+#include "abut/geometry/broad_phase/broad_phase.hpp"
+#include "abut/geometry/broad_phase/spatial_order.hpp"
 
 using namespace abut;
 using namespace abut::geometry;
@@ -209,7 +209,7 @@ TEST_CASE("a bound that is not finite is an error that names the box", "[broad_p
     Boxes<3> boxes(4, good);
     boxes[2].upper.y() = bad;
     for (const BroadPhase method : broad_phases) {
-        CHECK_THROWS_AS(within(method, boxes), std::invalid_argument);
+        CHECK_THROWS_AS(within(method, boxes), BadInput);
         CHECK_THROWS_WITH(within(method, boxes), Contains("box 2"));
         CHECK_THROWS_WITH(between(method, Boxes<3>{good}, boxes), Contains("box 2"));
     }
@@ -345,9 +345,9 @@ TEST_CASE("more pairs than allowed are an error that gives both numbers", "[broa
             (void)between<3>({method, {.pairs = allowed}}, boxes, boxes);
             FAIL("no error with " << allowed << " pairs allowed");
         } catch (const SearchLimitError& error) {
-            CHECK(error.allowed == static_cast<double>(allowed));
-            CHECK(error.needed > error.allowed);
-            CHECK(error.needed <= static_cast<double>(all));
+            CHECK(error.facts().allowed == static_cast<double>(allowed));
+            CHECK(error.facts().value > error.facts().allowed);
+            CHECK(error.facts().value <= static_cast<double>(all));
             CHECK_THAT(error.what(), Contains(std::to_string(allowed) + " are allowed") && Contains("SearchLimits::pairs"));
         }
 }
@@ -369,8 +369,8 @@ TEST_CASE("a search that would take more memory than allowed is refused", "[broa
         (void)between<3>(allowing(64'000'000), boxes, boxes);
         FAIL("no error where the trees do not fit beside the pairs");
     } catch (const SearchLimitError& error) {
-        CHECK(error.allowed == 64e6);
-        CHECK(error.needed > error.allowed);
+        CHECK(error.facts().allowed == 64e6);
+        CHECK(error.facts().value > error.facts().allowed);
     }
 }
 

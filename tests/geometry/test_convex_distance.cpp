@@ -158,9 +158,9 @@ TEST_CASE("single points and coinciding bodies give an answer", "[convex_distanc
 
 TEST_CASE("bodies without points and coordinates that are not finite are errors", "[convex_distance][errors]") {
     const Points body = cube({0, 0, 0}, 1.0), bad = {{0, std::numeric_limits<double>::quiet_NaN(), 0}};
-    CHECK_THROWS_AS(proximity(body, {}), std::invalid_argument);
+    CHECK_THROWS_AS(proximity(body, {}), BadInput);
     CHECK_THROWS_WITH(proximity(body, {}),
                       "convex_proximity: a body has 0 points, at least 1 is needed. Leave the body out.");
-    CHECK_THROWS_AS(proximity(bad, body), std::invalid_argument);
+    CHECK_THROWS_AS(proximity(bad, body), BadInput);
     CHECK_THROWS_WITH(proximity(bad, body), Catch::Contains("point 0 has the y coordinate nan, a finite number is needed."));
 }

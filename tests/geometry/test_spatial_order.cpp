@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "abut/geometry/spatial_order.hpp"
+#include "abut/geometry/broad_phase/spatial_order.hpp"
 
 using namespace abut;
 using geometry::spatial_order;

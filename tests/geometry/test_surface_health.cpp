@@ -10,9 +10,9 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "abut/geometry/overlap.hpp"
-#include "abut/geometry/self_intersections.hpp"
-#include "abut/geometry/surface_health.hpp"
+#include "abut/geometry/health/self_intersections.hpp"
+#include "abut/geometry/health/surface_health.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
 #include "abut/geometry/triangulate.hpp"
 #include "geometry/soups.hpp"
 
@@ -97,7 +97,7 @@ TEST_CASE("offsets that do not fit are the host's mistake and throw", "[geometry
     bad.offsets = {0, 2};
     CHECK_THROWS_WITH(examine(bad.soup()), Contains("`face_offsets` ends with 2 for 3 entries"));
     bad.offsets = {1, 3};
-    CHECK_THROWS_AS(examine(bad.soup()), std::invalid_argument);
+    CHECK_THROWS_AS(examine(bad.soup()), BadInput);
     bad.offsets = {0, 5, 3};
     CHECK_THROWS_WITH(face_faults(bad.soup()), Contains("`face_offsets` falls after face 1"));
 }
@@ -501,5 +501,5 @@ TEST_CASE("the health of a bad surface in words: what is wrong, how often, and w
 TEST_CASE("a report of another surface is not put into words", "[geometry][health]") {
     const Faces one = one_face(corner_triangle());
     CHECK_THROWS_WITH(describe(one.soup(), examined(cube())), Contains("a report of 6 faces") && Contains("for 1 faces"));
-    CHECK_THROWS_AS(describe(one.soup(), examined(one), std::vector<std::int64_t>{1, 2}), std::invalid_argument);
+    CHECK_THROWS_AS(describe(one.soup(), examined(one), std::vector<std::int64_t>{1, 2}), BadInput);
 }

@@ -11,7 +11,7 @@
 
 #include "abut/mesh/mesh.hpp"
 #include "abut/mesh/quality.hpp"
-#include "abut/mesh/shapes.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::mesh::test {
 

@@ -1,8 +1,8 @@
 // Every broad phase against brute force, over all the kinds of surfaces there are.
 #include <catch2/catch.hpp>
 
-#include "abut/geometry/broad_phase.hpp"
-#include "abut/mesh/surface_shapes.hpp"
+#include "abut/geometry/broad_phase/broad_phase.hpp"
+#include "abut/mesh/shapes/surface_shapes.hpp"
 
 using namespace abut;
 using namespace abut::mesh;

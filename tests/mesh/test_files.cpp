@@ -4,10 +4,10 @@
 
 #include <fstream>
 
-#include "abut/mesh/read_gmsh.hpp"
-#include "abut/mesh/read_mesh.hpp"
-#include "abut/mesh/read_vtu.hpp"
-#include "abut/mesh/write_vtu.hpp"
+#include "abut/mesh/io/read_gmsh.hpp"
+#include "abut/mesh/io/read_mesh.hpp"
+#include "abut/mesh/io/read_vtu.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
 
 using namespace abut;
 using namespace abut::mesh;

@@ -13,7 +13,7 @@
 
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/mesh/quality.hpp"
-#include "abut/mesh/shapes.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::mesh {
 namespace {

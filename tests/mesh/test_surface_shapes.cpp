@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "abut/geometry/polygon.hpp"
-#include "abut/mesh/surface_shapes.hpp"
+#include "abut/mesh/shapes/surface_shapes.hpp"
 
 using namespace abut;
 using namespace abut::mesh;

@@ -19,11 +19,11 @@
 #include <limits>
 #include <sstream>
 
-#include "abut/mesh/read_mesh.hpp"
-#include "abut/mesh/read_surface.hpp"
-#include "abut/mesh/surface_shapes.hpp"
-#include "abut/mesh/write_vtp.hpp"
-#include "abut/mesh/write_vtu.hpp"
+#include "abut/mesh/io/read_mesh.hpp"
+#include "abut/mesh/io/read_surface.hpp"
+#include "abut/mesh/io/write_vtp.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
+#include "abut/mesh/shapes/surface_shapes.hpp"
 
 using namespace abut;
 using namespace abut::mesh;
@@ -444,7 +444,7 @@ TEST_CASE("cleaning under `fail` names the first faces, their faults and the rem
     const CleanSurface rest = clean(mesh, health, UnusableFaces::skip);
     CHECK(rest.n_skipped_faces == 6);
     CHECK(health_of(rest.mesh).sound());
-    CHECK_THROWS_AS(clean(torus_surface({.n_tube = 8}), health, UnusableFaces::skip), std::invalid_argument);
+    CHECK_THROWS_AS(clean(torus_surface({.n_tube = 8}), health, UnusableFaces::skip), BadInput);
 }
 
 TEST_CASE("cleaning cuts what is not flat and says where each face came from", "[mesh][surface]") {

@@ -16,7 +16,7 @@
 #include <locale>
 #include <regex>
 
-#include "abut/mesh/write_vtu.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
 
 using namespace abut;
 using namespace abut::mesh;

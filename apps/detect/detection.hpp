@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "abut/contact/overlaps.hpp"
+#include "abut/contact/search/candidate_search.hpp"
+#include "apps/detect/motion.hpp"
+
+namespace abut::examples {
+
+/// What counts as near, once every default is known.
+struct Nearness {
+    double distance;  ///< [m] gaps up to here are kept
+    double depth;     ///< [m] gaps above minus this
+    double skin;      ///< [m] 0: the library chooses
+};
+
+/// Defaults from the bodies at the start and from what comes after it.
+[[nodiscard]] Nearness nearness(const DetectOptions& options, const Bodies& bodies, const Motion& motion);
+
+/// What one step has found.
+struct StepResult {
+    int step = 0;
+    bool searched = false;       ///< a list was made
+    std::int64_t box_pairs = 0;  ///< of the last list
+    std::int64_t candidates = 0;
+    double area = 0.0;  ///< of the overlaps kept, together [m^2]
+    double gap_min = 0.0, gap_max = 0.0;
+    std::int64_t too_far = 0, too_deep = 0;  ///< overlaps left out because of their gap
+    contact::OverlapReport narrow;
+    std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance
+};
+
+/// Finds candidates and overlaps step by step. Keeps a reference to the bodies.
+class Detection {
+public:
+    Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near);
+
+    /// At the place where the bodies are. The list of candidates is made anew where it does not cover the motion since, or
+    /// where bodies have `turned`: normals decide which faces look at each other, and no skin allows for that.
+    [[nodiscard]] const StepResult& find(int step, bool turned);
+
+    [[nodiscard]] std::span<const geometry::IndexPair> candidates() const { return search_.candidates(); }
+    [[nodiscard]] double skin() const { return search_.skin(); }
+    [[nodiscard]] const contact::CandidateReport& report() const { return search_.report(); }
+    [[nodiscard]] double seconds_search() const { return seconds_search_; }
+    [[nodiscard]] double seconds_narrow() const { return seconds_narrow_; }
+
+private:
+    void search();
+    [[nodiscard]] double motion_since() const;
+    void keep_near_ones();
+
+    const Bodies& bodies_;
+    geometry::AreaMethod area_;
+    Nearness near_;
+    std::vector<Vector<3>> at_rest_;    // (n faces) no displacement: the arrays move themselves
+    std::vector<Vector<3>> at_search_;  // vertices
+    contact::CandidateSearch<3> search_;
+    contact::Overlaps<3> found_;
+    StepResult result_;
+    double seconds_search_ = 0.0;
+    double seconds_narrow_ = 0.0;
+};
+
+}  // namespace abut::examples

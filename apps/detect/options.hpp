@@ -1,0 +1,52 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "abut/contact/options.hpp"
+#include "abut/mesh/surface_mesh.hpp"
+#include "apps/support/program.hpp"
+
+namespace abut::examples {
+
+extern const Program detect_program;
+
+/// What the command line of `detect` asks for. NaN: not given.
+struct DetectOptions {
+    DetectOptions();
+
+    std::vector<std::string> inputs;  ///< files and shapes
+    bool connected = false;
+    mesh::UnusableFaces unusable = mesh::UnusableFaces::fail;
+    bool self_intersections = false;
+
+    std::vector<std::string> translations, rotations;
+    std::string script;
+    std::string displacement;
+    int steps = 0;  ///< 0: not given
+    double largest_motion = 1.0;
+
+    contact::CandidateOptions search;  ///< of these `distance` and `skin` come from the two below
+    double distance, depth, skin;      ///< [m]
+    geometry::AreaMethod area = geometry::AreaMethod::fast;
+    double max_memory;  ///< [MB]
+    double max_pairs;
+    int threads = 0;
+
+    bool verify = false;
+    double verify_tests = 1e8;
+    int verify_samples = 0;
+    int seed = 1;
+
+    std::filesystem::path out = "out/detect";
+    bool no_files = false;
+    int write_every = 0;
+};
+
+void add_options(CLI::App& app, DetectOptions& options);
+[[nodiscard]] nlohmann::ordered_json to_json(const DetectOptions& options);
+
+}  // namespace abut::examples

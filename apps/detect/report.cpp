@@ -1,0 +1,250 @@
+#include "apps/detect/report.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <map>
+
+#include "apps/support/choices.hpp"
+
+namespace abut::examples {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_lines = 10;  // bodies, or pairs of them, that are printed
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+/// Of this process, so far [MB].
+double peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return 1024.0 * static_cast<double>(usage.ru_maxrss) / 1e6;
+}
+
+/// Contact of two bodies.
+struct BodyContact {
+    std::int64_t overlaps = 0;
+    double area = 0.0;
+    double gap_min = 0.0;
+};
+using BodyContacts = std::map<std::pair<std::int32_t, std::int32_t>, BodyContact>;
+
+BodyContacts contacts_of(const DetectReport& report) {
+    BodyContacts contacts;
+    const auto& body = report.bodies.surface.body;
+    for (const contact::Overlap<3>& overlap : report.last.overlaps) {
+        BodyContact& contact = contacts[std::minmax(body[at(overlap.face_1)], body[at(overlap.face_2)])];
+        contact.gap_min = contact.overlaps == 0 ? overlap.gap : std::min(contact.gap_min, overlap.gap);
+        contact.area += overlap.area;
+        ++contact.overlaps;
+    }
+    return contacts;
+}
+
+Json gap_or_null(const DetectReport& report, double gap) { return report.last.overlaps.empty() ? Json() : Json(gap); }
+
+Json health_json(const InputReport& input) {
+    const auto& health = input.health;
+    Json faults = Json::object();
+    for (std::size_t fault = 1; fault < health.n_faults.size(); ++fault)
+        if (health.n_faults[fault] > 0)
+            faults[std::string(geometry::name(static_cast<geometry::FaceFault>(fault)))] = health.n_faults[fault];
+    return {{"faces", health.n_faces},
+            {"vertices", health.n_vertices},
+            {"components", health.components.size()},
+            {"closed", health.closed()},
+            {"sound", health.sound()},
+            {"area", health.area},
+            {"holes", health.n_holes},
+            {"boundary_edges", health.boundary_edges.size()},
+            {"non_manifold_edges", health.non_manifold_edges.size()},
+            {"inconsistent_edges", health.inconsistent_edges.size()},
+            {"flipped_duplicates", health.flipped_duplicates.size()},
+            {"unusable_faces", health.unusable_faces.size()},
+            {"unusable_by_reason", faults},
+            {"slivers", health.slivers.size()},
+            {"worst_aspect", health.worst_aspect},
+            {"worst_aspect_face", health.worst_aspect_face},
+            {"non_planar_faces", health.non_planar_faces.size()},
+            {"unreferenced_vertices", health.unreferenced_vertices.size()},
+            {"unwelded_vertices", health.n_unwelded_vertices},
+            {"self_intersections", health.looked_for_self_intersections ? Json(health.n_self_intersections) : Json()}};
+}
+
+Json inputs_json(const Bodies& bodies) {
+    Json inputs = Json::array();
+    for (const InputReport& input : bodies.inputs)
+        inputs.push_back({{"name", input.name},
+                          {"health", health_json(input)},
+                          {"in_words", input.lines},
+                          {"used_faces", input.n_used_faces},
+                          {"skipped_faces", input.n_skipped_faces},
+                          {"cut_faces", input.n_cut_faces},
+                          {"flat_pieces_left_out", input.n_flat_pieces},
+                          {"ignored_elements", input.n_ignored_elements},
+                          {"warnings", input.warnings}});
+    return inputs;
+}
+
+Json contacts_json(const DetectReport& report) {
+    Json contacts = Json::array();
+    for (const auto& [pair, contact] : contacts_of(report))
+        contacts.push_back({{"body_1", pair.first},
+                            {"body_2", pair.second},
+                            {"overlaps", contact.overlaps},
+                            {"area", contact.area},
+                            {"gap_min", contact.gap_min}});
+    return contacts;
+}
+
+Json search_json(const DetectReport& report) {
+    const auto& search = report.search;
+    return {{"lists_made", search.searches},         {"skin", report.skin},
+            {"box_pairs", search.box_pairs},         {"neighbours", search.neighbours},
+            {"not_facing", search.not_facing},       {"out_of_reach", search.out_of_reach},
+            {"candidates", search.candidates},       {"candidates_max", search.candidates_max},
+            {"seconds_boxes", search.seconds_boxes}, {"seconds_broad_phase", search.seconds_broad_phase}};
+}
+
+Json last_json(const DetectReport& report) {
+    const StepResult& last = report.last;
+    return {{"step", last.step},
+            {"overlaps", last.overlaps.size()},
+            {"too_far", last.too_far},
+            {"too_deep", last.too_deep},
+            {"area", last.area},
+            {"gap_min", gap_or_null(report, last.gap_min)},
+            {"gap_max", gap_or_null(report, last.gap_max)}};
+}
+
+Json verification_json(const Verification& verification) {
+    return {{"faces", verification.faces},
+            {"sampled", verification.sampled},
+            {"pairs_tested", verification.tested},
+            {"required", verification.required},
+            {"on_limit", verification.on_limit},
+            {"missed_candidates", verification.missed_candidates},
+            {"missed_overlaps", verification.missed_overlaps},
+            {"wrong_overlaps", verification.wrong_overlaps},
+            {"area_error_max", verification.area_error},
+            {"gap_error_max", verification.gap_error},
+            {"first_fault", verification.first_fault.empty() ? Json() : Json(verification.first_fault)}};
+}
+
+Json seconds_json(const DetectTimes& seconds) {
+    return {{"reading", seconds.input.reading},
+            {"health", seconds.input.health},
+            {"setup", seconds.setup},
+            {"motion", seconds.motion},
+            {"search", seconds.search},
+            {"narrow", seconds.narrow},
+            {"verification", seconds.verification},
+            {"writing", seconds.writing}};
+}
+
+void print_line(const std::string& name, const std::string& value) { fmt::print("  {:<44}{}\n", name, value); }
+
+void print_bodies(const Bodies& bodies) {
+    std::vector<std::int64_t> n_faces(bodies.names.size(), 0);
+    for (const std::int32_t body : bodies.surface.body) ++n_faces[at(body)];
+    for (std::size_t body = 0; body < std::min(n_faces.size(), most_lines); ++body)
+        print_line(fmt::format("body {}", body), fmt::format("{}, {} faces", bodies.names[body], n_faces[body]));
+    if (n_faces.size() > most_lines) print_line("", fmt::format("and {} more bodies", n_faces.size() - most_lines));
+}
+
+void print_search(const DetectReport& report) {
+    const auto& search = report.search;
+    print_line("lists made", fmt::format("{}, the last with a skin of {:.4g} m", search.searches, report.skin));
+    print_line("pairs of boxes, last list", fmt::format("{}", search.box_pairs));
+    print_line("  left out: not facing, reach, neighbours",
+               fmt::format("{}, {}, {}", search.not_facing, search.out_of_reach, search.neighbours));
+    print_line("candidates", fmt::format("{} (at most {})", search.candidates, search.candidates_max));
+}
+
+void print_last(const DetectReport& report) {
+    const StepResult& last = report.last;
+    print_line("overlaps", fmt::format("{} ({} more are too far apart, {} too deep)", last.overlaps.size(), last.too_far,
+                                       last.too_deep));
+    if (last.overlaps.empty()) return;
+    print_line("area in contact", fmt::format("{:.9g} m^2", last.area));
+    print_line("gap, least and largest", fmt::format("{:.9g} to {:.9g} m", last.gap_min, last.gap_max));
+    std::size_t line = 0;
+    const BodyContacts contacts = contacts_of(report);
+    for (const auto& [pair, contact] : contacts) {
+        if (++line > most_lines) break;
+        print_line(
+            fmt::format("  {} - {}", report.bodies.names[at(pair.first)], report.bodies.names[at(pair.second)]),
+            fmt::format("{} overlaps, {:.6g} m^2, least gap {:.6g} m", contact.overlaps, contact.area, contact.gap_min));
+    }
+    if (contacts.size() > most_lines)
+        print_line("", fmt::format("and {} more pairs of bodies", contacts.size() - most_lines));
+}
+
+void print_verification(const DetectReport& report) {
+    if (!report.verified) return;
+    const Verification& found = report.verification;
+    print_line(
+        "verified against all pairs",
+        fmt::format("{} pairs tested, {} required, {} missed, {} wrong, {} within rounding of a limit", found.tested,
+                    found.required, found.missed_candidates + found.missed_overlaps, found.wrong_overlaps, found.on_limit));
+    if (found.sampled) print_line("  by a sample of faces against all", fmt::format("{}", found.faces));
+    print_line("  largest error of area and gap",
+               fmt::format("{:.2g} of the smaller face, {:.2g} m", found.area_error, found.gap_error));
+}
+
+void print_costs(const DetectReport& report) {
+    const auto& [by_doubles, by_scalar_path, by_exact] = report.decided;
+    print_line("decided by doubles, one by one, exactly", fmt::format("{}, {}, {}", by_doubles, by_scalar_path, by_exact));
+    const DetectTimes& s = report.seconds;
+    print_line(
+        "time",
+        fmt::format("reading {:.2f} s, health {:.2f}, setup {:.2f}, motion {:.2f}, search {:.3f}, narrow phase "
+                    "{:.3f}, verification {:.2f}, writing {:.2f}",
+                    s.input.reading, s.input.health, s.setup, s.motion, s.search, s.narrow, s.verification, s.writing));
+    print_line("memory at most", fmt::format("{:.1f} MB", peak_memory()));
+}
+
+}  // namespace
+
+Json summary(const DetectReport& report, const DetectOptions& options) {
+    Json json = {{"program", detect_program.name},
+                 {"version", ABUT_VERSION},
+                 {"inputs", inputs_json(report.bodies)},
+                 {"bodies", report.bodies.names},
+                 {"faces", report.bodies.surface.size()},
+                 {"steps", report.steps},
+                 {"mean_face_size", report.bodies.mean_face_size()},
+                 {"distance", report.near.distance},
+                 {"depth", report.near.depth}};
+    json["search"] = search_json(report);
+    json["last_step"] = last_json(report);
+    json["overlaps_max"] = report.overlaps_max;
+    json["contacts"] = contacts_json(report);
+    json["decided"] = {{"by_doubles", report.decided.by_doubles},
+                       {"by_scalar_path", report.decided.by_scalar_path},
+                       {"by_exact_arithmetic", report.decided.by_exact_arithmetic}};
+    json["verification"] = report.verified ? verification_json(report.verification) : Json();
+    json["seconds"] = seconds_json(report.seconds);
+    json["memory_peak_mb"] = peak_memory();
+    json["options"] = to_json(options);
+    return json;
+}
+
+void print(const DetectReport& report, const DetectOptions& options) {
+    const Bodies& bodies = report.bodies;
+    fmt::print("detect: {}, {} faces, step {} of {}\n",
+               bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()), bodies.surface.size(),
+               report.last.step, report.steps);
+    print_bodies(bodies);
+    print_line("mean size of a face, sqrt(area)", fmt::format("{:.6g} m", bodies.mean_face_size()));
+    print_line("gaps kept", fmt::format("above {:.6g} m, up to {:.6g} m", -report.near.depth, report.near.distance));
+    print_search(report);
+    print_last(report);
+    print_verification(report);
+    print_costs(report);
+    if (!options.no_files) print_line("files in", options.out.string());
+}
+
+}  // namespace abut::examples

@@ -1,0 +1,17 @@
+#pragma once
+#include "abut/geometry/broad_phase/broad_phase.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
+#include "apps/support/choices.hpp"
+
+namespace abut::examples {
+
+/// What `--broad-phase` and `--area` may be in every program.
+inline const Choices<geometry::BroadPhase> broad_phases = [] {
+    Choices<geometry::BroadPhase> choices;
+    for (const geometry::BroadPhase method : geometry::broad_phases) choices.emplace_back(geometry::name(method), method);
+    return choices;
+}();
+inline const Choices<geometry::AreaMethod> areas = {{"fast", geometry::AreaMethod::fast},
+                                                    {"exact", geometry::AreaMethod::exact}};
+
+}  // namespace abut::examples

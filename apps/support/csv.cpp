@@ -1,0 +1,32 @@
+#include "apps/support/csv.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "apps/support/files.hpp"
+
+namespace abut::examples {
+
+void write_csv(const std::filesystem::path& path, const Table& table) {
+    fmt::memory_buffer text;
+    fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(table.columns, ","));
+    for (const auto& row : table.rows) fmt::format_to(std::back_inserter(text), "{:.17g}\n", fmt::join(row, ","));
+    write_whole(path, fmt::to_string(text));
+}
+
+std::string all_digits(double number) { return std::isnan(number) ? "" : fmt::format("{:.17g}", number); }
+std::string two_digits(double number) { return std::isnan(number) ? "-" : fmt::format("{:.2g}", number); }
+nlohmann::ordered_json json_number(double number) {
+    return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json();
+}
+
+std::string quoted(const std::string& text) {
+    std::string result = "\"";
+    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + "\"";
+}
+
+}  // namespace abut::examples

@@ -1,0 +1,49 @@
+#include "apps/support/program.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "apps/support/choices.hpp"
+
+namespace abut::examples {
+namespace {
+
+std::string message_of(const CLI::App* app, const CLI::Error& error) {
+    return fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what());
+}
+
+int report_errors(const std::string& name, const std::function<void()>& body) {
+    try {
+        spdlog::set_default_logger(spdlog::stdout_color_mt(name));
+        spdlog::set_pattern("[%T] %v");
+        body();
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}: error: {}\n", name, error.what());
+        return 1;
+    }
+}
+
+}  // namespace
+
+int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+                const std::function<void()>& body) {
+    CLI::App app(program.purpose, program.name);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.failure_message(message_of);
+    app.footer(program.footer);
+    add_options(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 1;
+    }
+    return report_errors(program.name, body);
+}
+
+}  // namespace abut::examples

@@ -1,0 +1,158 @@
+#include "apps/support/run_options.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "apps/support/contact_choices.hpp"
+
+namespace abut::examples {
+namespace {
+
+using contact::OverlapMode;
+using contact::Weights;
+using solid::Neumann;
+
+const Choices<OverlapMode> overlap_modes = {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}};
+const Choices<Weights> weights = {{"half", Weights::half}, {"stiffness", Weights::stiffness}};
+const Choices<SolidIntegrator> integrators = {{"memm", SolidIntegrator::memm},
+                                              {"memm_async", SolidIntegrator::memm_async},
+                                              {"leapfrog", SolidIntegrator::leapfrog},
+                                              {"bilbao", SolidIntegrator::bilbao}};
+const Choices<bool> switches = {{"on", true}, {"off", false}};
+const Choices<bool> filters = {{"none", false}, {"neutral", true}};
+const Choices<int> quadratures = {{"1", 1}, {"2", 2}, {"3", 3}};
+const Choices<Neumann> neumanns = {{"local_equilibrium", Neumann::local_equilibrium},
+                                   {"extrapolate", Neumann::extrapolate},
+                                   {"adjacent", Neumann::adjacent}};
+
+}  // namespace
+
+std::string name_of(SolidIntegrator integrator) { return name_of(integrators, integrator); }
+
+void add_time_options(CLI::App& app, RunOptions& options, const std::string& default_of_time) {
+    const Limits positive{.unit = "s", .above = 0.0};
+    auto* time = add_number(app, "--time", options.time, "end of the run; by default " + default_of_time, positive);
+    time->group("Time");
+    add_count(app, "--steps", options.steps, "steps of the run, instead of --time; 0: as many as the time takes", 0)
+        ->excludes(time)
+        ->group("Time");
+    const char* cfl_help = "time step over the stable step, at most 1 (the margin for contact is in the stable step)";
+    auto* cfl = add_number(app, "--cfl", options.cfl, cfl_help,
+                           {.above = 0.0,
+                            .below = 1.0,
+                            .closed = true,
+                            .remedy = "Give a time step above the stable one with --dt and --allow-unstable."});
+    cfl->group("Time");
+    const char* dt_help = "time step, refused above the stable step; by default --cfl decides";
+    auto* dt = add_number(app, "--dt", options.dt, dt_help, positive)->excludes(cfl)->group("Time");
+    app.add_flag("--allow-unstable", options.allow_unstable, "take --dt even above the stable step")
+        ->needs(dt)
+        ->default_str("off")
+        ->group("Time");
+    add_choice(app, "--integrator", options.integrator, "scheme in time (docs/integrators.md)", integrators)->group("Time");
+    add_count(app, "--levels", options.levels, "of memm_async: different steps at most, each half the one before; 0: 8", 0)
+        ->group("Time");
+    add_count(app, "--contact-margin", options.contact_margin,
+              "of memm_async: how often the steps of cells in contact are halved more than they need, down to the shortest",
+              0)
+        ->group("Time");
+    add_count(app, "--contact-levels", options.contact_levels,
+              "of memm_async: how often the steps of cells in contact are halved beyond the shortest of the others", 0)
+        ->group("Time");
+    add_number(app, "--gauge", options.gauge,
+               "c of the Bilbao scheme; by default the energy at the start, from rest twice that of the fall",
+               {.unit = "J", .above = 0.0})
+        ->group("Time");
+    add_choice(app, "--filter", options.filter, "energy-neutral filter of the parasitic mode, after each step in contact",
+               filters)
+        ->group("Time");
+}
+
+void add_model_options(CLI::App& app, RunOptions& options) {
+    auto& contact = options.contact;
+    const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
+    grouped(add_choice(app, "--weights", contact.weights,
+                       "share of a correction between two faces: halves or by their stiffness", weights));
+    grouped(add_choice(app, "--area", contact.area, "arithmetic of overlap areas: filtered doubles or CGAL's exact numbers",
+                       areas));
+    grouped(add_choice(app, "--neumann", options.neumann,
+                       "displacement of free faces; extrapolate and adjacent are there for comparison", neumanns));
+}
+
+void add_contact_options(CLI::App& app, RunOptions& options) {
+    add_model_options(app, options);
+    auto& contact = options.contact;
+    const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
+    grouped(add_choice(app, "--broad-phase", contact.search.broad_phase,
+                       "what finds faces that are near; all give the same bits", broad_phases));
+    grouped(add_choice(app, "--overlap", contact.overlap,
+                       "area that follows the motion in a step (energy exact) or is frozen (cheaper)", overlap_modes));
+    grouped(add_choice(app, "--events", contact.events,
+                       "cut steps where a pair opens, closes or changes its overlap (energy exact)", switches));
+    grouped(add_choice(app, "--quadrature", contact.quadrature,
+                       "Gauss points on each part of a step; by default the exact number: 2 in 2D, 3 in 3D", quadratures));
+    grouped(add_number(
+        app, "--facing-cosine", contact.search.facing_cosine,
+        "faces look at each other where the cosine between their normals is below it; nearer to 0 sharper tips are seen",
+        {.above = -1.0, .below = 0.0}));
+    grouped(add_number(app, "--skin", contact.search.skin,
+                       "how far faces move before the list of near faces is made anew; 0: chosen from the number of faces "
+                       "and pairs and the motion",
+                       {.unit = "m", .above = 0.0, .zero = true}));
+    add_compression_limit(app, options);
+}
+
+void add_compression_limit(CLI::App& app, RunOptions& options) {
+    const char* help =
+        "how deep faces may be pressed into each other, over D, the depth of their cells, before the run stops";
+    add_number(app, "--compression-limit", options.contact.compression_limit, help, {.above = 0.0})->group("Contact");
+}
+
+void add_output_options(CLI::App& app, RunOptions& options) {
+    app.add_option("--out", options.out, "folder of all results; made if it is not there")
+        ->type_name("DIR")
+        ->capture_default_str()
+        ->group("Output");
+    const auto grouped = [](CLI::Option* option) { option->group("Output"); };
+    grouped(add_count(app, "--interval", options.interval, "steps between two records of the energies; 0: 1 in 2D, 10 in 3D",
+                      0));
+    grouped(add_count(app, "--frames", options.frames, "frames for ParaView, first and last included; 0: none", 0));
+    grouped(add_count(app, "--threads", options.threads, "threads; 0: all. The results do not depend on it", 0));
+}
+
+nlohmann::ordered_json model_json(const RunOptions& options) {
+    return {{"weights", name_of(weights, options.contact.weights)},
+            {"area", name_of(areas, options.contact.area)},
+            {"neumann", name_of(neumanns, options.neumann)}};
+}
+
+nlohmann::ordered_json to_json(const RunOptions& options) {
+    const auto& contact = options.contact;
+    nlohmann::ordered_json json;
+    if (std::isnan(options.dt))
+        json = {{"cfl", options.cfl}};
+    else
+        json = {{"dt", options.dt}, {"allow_unstable", options.allow_unstable}};
+    json["integrator"] = name_of(options.integrator);
+    if (options.integrator == SolidIntegrator::memm_async)
+        json.update({{"levels", options.levels},
+                     {"contact_margin", options.contact_margin},
+                     {"contact_levels", options.contact_levels}});
+    if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge)) json["gauge"] = options.gauge;
+    json.update({{"filter", name_of(filters, options.filter)},
+                 {"broad_phase", name_of(broad_phases, contact.search.broad_phase)},
+                 {"overlap", name_of(overlap_modes, contact.overlap)},
+                 {"weights", name_of(weights, contact.weights)},
+                 {"area", name_of(areas, contact.area)},
+                 {"events", name_of(switches, contact.events)},
+                 {"quadrature", contact.quadrature},
+                 {"facing_cosine", contact.search.facing_cosine},
+                 {"compression_limit", contact.compression_limit},
+                 {"neumann", name_of(neumanns, options.neumann)},
+                 {"out", options.out.string()},
+                 {"interval", options.interval},
+                 {"frames", options.frames}});
+    return json;
+}
+
+}  // namespace abut::examples

@@ -1,0 +1,105 @@
+#include "apps/support/schemes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "abut/base/error.hpp"
+#include "apps/support/choices.hpp"
+
+namespace abut::examples {
+namespace {
+
+using dynamics::PathMean;
+
+const Choices<Scheme> scheme_names = {{"memm", Scheme::memm},
+                                      {"leapfrog", Scheme::leapfrog},
+                                      {"bilbao", Scheme::bilbao},
+                                      {"energy_momentum", Scheme::energy_momentum},
+                                      {"memm_async", Scheme::memm_async}};
+const Choices<PathMean> means = {
+    {"system", PathMean::system}, {"1", PathMean::gauss_1}, {"2", PathMean::gauss_2}, {"3", PathMean::gauss_3}};
+const Choices<bool> starts = {{"half", false}, {"naive", true}};
+
+std::vector<std::string> names_of(const std::vector<Scheme>& schemes) {
+    std::vector<std::string> names;
+    for (const Scheme scheme : schemes) names.push_back(name_of(scheme));
+    return names;
+}
+
+bool known_to_any(const std::vector<Scheme>& known, const std::vector<Scheme>& chosen) {
+    return std::ranges::any_of(chosen, [&](Scheme scheme) { return std::ranges::find(known, scheme) != known.end(); });
+}
+
+}  // namespace
+
+std::string name_of(Scheme scheme) { return name_of(scheme_names, scheme); }
+void add_integrator(CLI::App& app, SchemeOptions& options) {
+    Choices<std::vector<Scheme>> choices = {{"all", options.schemes}};
+    for (const Scheme scheme : options.schemes) choices.push_back({name_of(scheme), {scheme}});
+    add_choice(app, "--integrator", options.schemes, "scheme in time (docs/integrators.md)", choices)->group("Schemes");
+}
+
+void add_mean(CLI::App& app, SchemeOptions& options) {
+    auto* mean = add_choice(app, "--mean", options.mean,
+                            "of memm and energy_momentum: mean of the force along a step, exact or by Gauss points", means);
+    restrict_to(mean->group("Schemes"), options, {Scheme::memm, Scheme::energy_momentum});
+}
+
+void add_gauge(CLI::App& app, SchemeOptions& options) {
+    auto* gauge = add_number(app, "--gauge", options.gauge, "of bilbao: c in psi = sqrt(2 (V + c))",
+                             {.unit = "J", .above = 0.0, .zero = true});
+    restrict_to(gauge->group("Schemes"), options, {Scheme::bilbao});
+}
+
+void add_local_steps(CLI::App& app, SchemeOptions& options) {
+    auto* parts =
+        add_count(app, "--parts", options.parts, "of memm_async: steps of the fast masses in one of the others", 1);
+    auto* fast = add_count(app, "--fast", options.fast, "of memm_async: how many masses, from the first on, are fast", 0);
+    for (auto* option : {parts, fast}) restrict_to(option->group("Schemes"), options, {Scheme::memm_async});
+}
+
+void add_start(CLI::App& app, SchemeOptions& options) {
+    auto* start = add_choice(app, "--start", options.naive_start,
+                             "momenta half a step before and after: p -+ dt/2 F, or naively p for both", starts);
+    restrict_to(start->group("Schemes"), options, {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::memm_async});
+}
+
+void restrict_to(CLI::Option* option, SchemeOptions& options, std::vector<Scheme> schemes) {
+    options.special.emplace_back(option, std::move(schemes));
+}
+
+void check(const SchemeOptions& options) {
+    for (const auto& [option, schemes] : options.special) {
+        if (option->count() == 0 || known_to_any(schemes, options.schemes)) continue;
+        throw BadInput(fmt::format("{}: {} does not know it. Take --integrator {}, or leave {} out.", option->get_name(),
+                                   fmt::join(names_of(options.schemes), ", "), fmt::join(names_of(schemes), " or "),
+                                   option->get_name()));
+    }
+}
+
+nlohmann::ordered_json to_json(const SchemeOptions& options) {
+    nlohmann::ordered_json json = {{"integrator", names_of(options.schemes)}};
+    const nlohmann::ordered_json values = {{"--mean", name_of(means, options.mean)},
+                                           {"--gauge", options.gauge},
+                                           {"--fast", options.fast},
+                                           {"--parts", options.parts},
+                                           {"--start", name_of(starts, options.naive_start)}};
+    for (const auto& [option, schemes] : options.special)
+        if (known_to_any(schemes, options.schemes) && values.contains(option->get_name()))
+            json[option->get_name().substr(2)] = values[option->get_name()];
+    return json;
+}
+
+dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::size_t n) {
+    const auto fast = static_cast<std::size_t>(options.fast);
+    if (fast > n) throw BadInput(fmt::format("--fast: {} masses, there are {}. Give at most that many.", fast, n));
+    dynamics::LocalSteps steps{.parts = {1}, .level = std::vector<std::int32_t>(n, 0)};
+    if (options.parts == 1) return steps;
+    steps.parts.push_back(options.parts);
+    std::fill_n(steps.level.begin(), fast, 1);
+    return steps;
+}
+
+}  // namespace abut::examples

@@ -1,0 +1,86 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/dynamics/bilbao.hpp"
+#include "abut/dynamics/energy_momentum.hpp"
+#include "abut/dynamics/leapfrog.hpp"
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/memm_async.hpp"
+
+namespace abut::examples {
+
+/// The schemes that small systems run under. docs/integrators.md says which to choose.
+enum class Scheme { memm, leapfrog, bilbao, energy_momentum, memm_async };
+
+inline const std::vector<Scheme> all_schemes = {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::energy_momentum,
+                                                Scheme::memm_async};
+
+/// As on the command line: "memm".
+[[nodiscard]] std::string name_of(Scheme scheme);
+
+/// What a program that compares schemes on a small system lets its user choose about them.
+struct SchemeOptions {
+    std::vector<Scheme> schemes = all_schemes;
+    dynamics::PathMean mean = dynamics::PathMean::system;  ///< of memm and energy_momentum
+    double gauge = 10.0;                                   ///< c of bilbao [J]
+    int fast = 2;                                          ///< of memm_async: so many masses, from the first on, take ...
+    int parts = 2;                                         ///< ... so many steps in one of the others
+    bool naive_start = false;                              ///< p^{-1/2} = p^{1/2} = p^0 instead of p^0 -+ dt/2 F(q^0)
+
+    /// Options that only some schemes know.
+    std::vector<std::pair<CLI::Option*, std::vector<Scheme>>> special;
+};
+
+/// Options by themselves; their defaults are the present values. `add_integrator` offers the present schemes, one or all.
+void add_integrator(CLI::App& app, SchemeOptions& options);
+void add_mean(CLI::App& app, SchemeOptions& options);
+void add_gauge(CLI::App& app, SchemeOptions& options);
+void add_local_steps(CLI::App& app, SchemeOptions& options);
+void add_start(CLI::App& app, SchemeOptions& options);
+
+/// Says that an option is for some schemes only.
+void restrict_to(CLI::Option* option, SchemeOptions& options, std::vector<Scheme> schemes);
+/// Throws BadInput if an option was given that none of the chosen schemes knows.
+void check(const SchemeOptions& options);
+
+/// What was used of the options that were offered, by the names of the command line.
+[[nodiscard]] nlohmann::ordered_json to_json(const SchemeOptions& options);
+
+/// The first `options.fast` of n masses take `options.parts` steps. Throws BadInput if there are not so many.
+[[nodiscard]] dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::size_t n);
+
+/// What an integrator is made from.
+struct Start {
+    std::vector<double> q;
+    std::vector<double> p;             ///< at the same time as q
+    double dt;                         ///< [s]
+    dynamics::LocalSteps local_steps;  ///< of memm_async
+};
+
+/// Calls body(integrator). This is the one place that knows all schemes. The first step must be step(dt, StepChange::keep):
+/// an integrator that starts naively was made for a step of nearly nothing, so that both of its half-step momenta are p^0.
+template <class S, class Body>
+void with_integrator(Scheme scheme, S& system, const Start& start, const SchemeOptions& options, const Body& body) {
+    const double dt = options.naive_start ? 1e-100 * start.dt : start.dt;
+    const auto with = [&](auto integrator) { body(integrator); };
+    switch (scheme) {
+        case Scheme::memm:
+            return with(dynamics::Memm<S>(system, start.q, start.p, dt, options.mean));
+        case Scheme::leapfrog:
+            return with(dynamics::Leapfrog<S>(system, start.q, start.p, dt));
+        case Scheme::bilbao:
+            return with(dynamics::Bilbao<S>(system, start.q, start.p, dt, options.gauge));
+        case Scheme::energy_momentum:
+            return with(dynamics::EnergyMomentum<S>(system, start.q, start.p, dt, options.mean));
+        case Scheme::memm_async:
+            return with(dynamics::MemmAsync<S>(system, start.q, start.p, dt, start.local_steps));
+    }
+}
+
+}  // namespace abut::examples

@@ -1,0 +1,29 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/LU>  // inverse() and determinant() of small matrices
+#include <span>
+#include <type_traits>
+
+namespace abut {
+
+/// Point or direction in Dim dimensions. Plain packed doubles without an alignment demand, so that a view of vectors
+/// can be laid over any host array of shape (n, Dim).
+template <int Dim>
+using Vector = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
+
+/// Second-order tensor, (Dim, Dim).
+template <int Dim>
+using Matrix = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;
+
+/// A point of the plane (3D) or line (2D) onto which two facing faces are projected.
+template <int Dim>
+using PlaneVector = Eigen::Matrix<double, Dim - 1, 1, Eigen::DontAlign>;
+
+/// Arrays of shape (n, Dim) and arrays of n vectors are the same memory.
+template <int Dim, class Double>
+[[nodiscard]] auto as_vectors(std::span<Double> values) {
+    using V = std::conditional_t<std::is_const_v<Double>, const Vector<Dim>, Vector<Dim>>;
+    return std::span<V>(reinterpret_cast<V*>(values.data()), values.size() / Dim);
+}
+
+}  // namespace abut

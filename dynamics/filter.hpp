@@ -1,0 +1,88 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/dynamics/ledger.hpp"
+
+namespace abut::dynamics {
+
+/// Points that touched something in the last step and so may carry the parasitic mode of the scheme.
+struct ContactPatch {
+    std::vector<std::int32_t> points;  ///< increasing; no point is in two patches
+    bool held = false;                 ///< touches an obstacle or a prescribed boundary: its momentum is not its own
+};
+
+/// A system that says which of its points were in contact, and what acts on them now.
+template <class S>
+concept PatchSystem = PointSystem<S> && requires(S& system, std::span<const std::int32_t> points, std::span<const double> q,
+                                                 std::span<Vector<S::dimension>> force) {
+    { system.contact_patches() } -> std::convertible_to<std::vector<ContactPatch>>;  ///< of the last step
+    system.end_force_on(points, q, force);  ///< F(q) on some points (n_points, dimension) [N], q where the last step ended
+};
+
+namespace detail {
+
+/// One patch and the arrays of the whole system.
+template <int Dim>
+struct PatchState {
+    std::span<const double> mass;                ///< of all points (n)
+    std::span<const Vector<Dim>> rest_position;  ///< (n)
+    std::span<const Vector<Dim>> q;              ///< (n)
+    std::span<const Vector<Dim>> p_before;       ///< (n)
+    std::span<Vector<Dim>> p_after;              ///< (n)
+    std::span<const std::int32_t> points;        ///< of all patches, increasing
+    std::span<const Vector<Dim>> force;          ///< on these
+    double dt;
+};
+
+/// Takes e' - alpha M v' out of the patch, kappa of it.
+template <int Dim>
+void filter_patch(const ContactPatch& patch, const PatchState<Dim>& state, double kappa);
+
+}  // namespace detail
+
+/// Takes the alternating mode of MEMM out of the points that were in contact, without touching H~, momentum or angular
+/// momentum. docs/method.md, Time:
+///
+///     p^{n+3/2} <- p^{n+3/2} - kappa (e' - alpha M v'),   alpha = v . e' / (v . M v')
+///
+/// e is the parasitic momentum, v = M^-1 p^{n+1/2}; e' and v' are without their rigid-body parts over the patch, unless the
+/// patch is held by an obstacle or a prescribed boundary. Costs one force evaluation near the contact.
+template <PatchSystem S>
+class NeutralFilter {
+public:
+    static constexpr int Dim = S::dimension;
+
+    /// The system must outlive the filter.
+    explicit NeutralFilter(S& system, double kappa = 1.0) : system_(system), kappa_(kappa) {}
+
+    /// To be called after each step (Integrator::set_after_step).
+    void operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after) {
+        const std::vector<ContactPatch> patches = system_.contact_patches();
+        if (patches.empty()) return;
+        points_.clear();
+        for (const ContactPatch& patch : patches) points_.insert(points_.end(), patch.points.begin(), patch.points.end());
+        std::sort(points_.begin(), points_.end());
+        force_.resize(points_.size());
+        system_.end_force_on(points_, q, force_);
+        const detail::PatchState<Dim> state{.mass = system_.masses(),
+                                            .rest_position = system_.rest_positions(),
+                                            .q = as_vectors<Dim>(q),
+                                            .p_before = as_vectors<Dim>(p_before),
+                                            .p_after = as_vectors<Dim>(p_after),
+                                            .points = points_,
+                                            .force = force_,
+                                            .dt = dt};
+        for (const ContactPatch& patch : patches) detail::filter_patch<Dim>(patch, state, kappa_);
+    }
+
+private:
+    S& system_;
+    double kappa_;
+    std::vector<std::int32_t> points_;
+    std::vector<Vector<Dim>> force_;
+};
+
+}  // namespace abut::dynamics

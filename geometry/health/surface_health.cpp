@@ -1,0 +1,290 @@
+#include "abut/geometry/health/surface_health.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "abut/base/disjoint_sets.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/geometry/health/self_intersections.hpp"
+#include "abut/geometry/overlap/overlap.hpp"
+#include "abut/geometry/places.hpp"
+#include "abut/geometry/polygon.hpp"
+
+namespace abut::geometry {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+/// One face along one edge.
+struct EdgeUse {
+    std::int32_t first, second;  ///< places, first < second
+    std::int32_t face;
+    bool forward;  ///< the face runs from first to second
+
+    [[nodiscard]] bool is_same_edge(const EdgeUse& other) const { return first == other.first && second == other.second; }
+    friend bool operator<(const EdgeUse& a, const EdgeUse& b) {
+        if (a.first != b.first) return a.first < b.first;
+        return a.second != b.second ? a.second < b.second : a.face < b.face;
+    }
+};
+
+/// Fills a report part by part.
+class Examination {
+public:
+    Examination(const FaceSoup& soup, const HealthOptions& options) : soup_(soup), options_(options) {
+        check_offsets(soup);
+        health_.n_faces = soup.size();
+        health_.n_vertices = static_cast<std::int32_t>(soup.vertices.size());
+    }
+
+    SurfaceHealth report() && {
+        examine_vertices();
+        examine_faces();
+        measure_faces();
+        find_flipped_duplicates();
+        const std::vector<EdgeUse> uses = edge_uses();
+        find_components(uses);
+        examine_edges(uses);
+        count_holes();
+        measure_components();
+        if (options_.self_intersections) find_self_intersections();
+        return std::move(health_);
+    }
+
+private:
+    [[nodiscard]] bool is_usable(std::int32_t face) const { return health_.faults[at(face)] == FaceFault::none; }
+    [[nodiscard]] std::vector<std::int32_t> loop_of(std::int32_t face) const {
+        return distinct_corners(soup_, health_.place, face);
+    }
+    void corners_of(const std::vector<std::int32_t>& loop, std::vector<Vector<3>>& corners) const {
+        corners.clear();
+        for (const std::int32_t place : loop) corners.push_back(soup_.vertices[at(place)]);
+    }
+
+    void examine_vertices() {
+        health_.place = first_at_same_place<3>(soup_.vertices);
+        std::vector<char> is_named(soup_.vertices.size(), 0);
+        for (const std::int32_t v : soup_.face_vertices)
+            if (v >= 0 && v < health_.n_vertices) is_named[at(v)] = 1;
+        for (std::int32_t v = 0; v < health_.n_vertices; ++v) {
+            if (is_named[at(v)] == 0) health_.unreferenced_vertices.push_back(v);
+            if (health_.place[at(v)] != v) ++health_.n_unwelded_vertices;
+            if (!soup_.vertices[at(v)].allFinite()) ++health_.n_bad_vertices;
+        }
+    }
+
+    void examine_faces() {
+        health_.faults = face_faults(soup_, health_.place);
+        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+            ++health_.n_faults[static_cast<std::size_t>(health_.faults[at(face)])];
+            if (!is_usable(face)) health_.unusable_faces.push_back(face);
+        }
+    }
+
+    void measure_faces() {
+        std::vector<Vector<3>> corners;
+        double shortest = infinity;
+        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+            if (!is_usable(face)) continue;
+            const std::vector<std::int32_t> loop = loop_of(face);
+            if (loop.size() < soup_.vertices_of(face).size()) health_.repeated_corner_faces.push_back(face);
+            corners_of(loop, corners);
+            measure_edges(corners, shortest);
+            const double area = face_measure<3>(corners);
+            health_.area += area;
+            record_aspect(face, aspect_ratio(corners));
+            if (corners.size() > 3) record_planarity(face, corners, area);
+        }
+        if (health_.n_usable() > 0) health_.shortest_edge = shortest;
+    }
+    void measure_edges(const std::vector<Vector<3>>& corners, double& shortest) {
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            health_.box.extend(corners[i]);
+            const double length = (corners[(i + 1) % corners.size()] - corners[i]).stableNorm();
+            health_.longest_edge = std::max(health_.longest_edge, length);
+            shortest = std::min(shortest, length);
+        }
+    }
+    void record_aspect(std::int32_t face, double aspect) {
+        if (aspect > options_.sliver_aspect) health_.slivers.push_back(face);
+        constexpr auto last = static_cast<double>(std::tuple_size_v<decltype(SurfaceHealth::aspect_decades)> - 1);
+        const double decade = aspect < infinity ? std::clamp(std::floor(std::log10(aspect)), 0.0, last) : last;
+        ++health_.aspect_decades[static_cast<std::size_t>(decade)];
+        if (aspect <= health_.worst_aspect) return;
+        health_.worst_aspect = aspect;
+        health_.worst_aspect_face = face;
+    }
+    void record_planarity(std::int32_t face, const std::vector<Vector<3>>& corners, double area) {
+        const double deviation = planarity_deviation<3>(corners) / std::sqrt(area);
+        if (deviation > shape_tolerance(corners)) health_.non_planar_faces.push_back(face);
+        if (deviation <= health_.worst_planarity) return;
+        health_.worst_planarity = deviation;
+        health_.worst_planarity_face = face;
+    }
+
+    /// Sorted; every face has each of its edges once.
+    [[nodiscard]] std::vector<EdgeUse> edge_uses() const {
+        std::vector<EdgeUse> uses;
+        uses.reserve(soup_.face_vertices.size());
+        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+            if (!is_usable(face)) continue;
+            const std::vector<std::int32_t> loop = loop_of(face);
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const std::int32_t a = loop[i], b = loop[(i + 1) % loop.size()];
+                uses.push_back({std::min(a, b), std::max(a, b), face, a < b});
+            }
+        }
+        std::sort(uses.begin(), uses.end());
+        return uses;
+    }
+
+    /// Calls visit(faces along the edge) for every edge in turn.
+    template <class Visitor>
+    static void for_each_edge(const std::vector<EdgeUse>& uses, Visitor&& visit) {
+        for (auto begin = uses.begin(); begin != uses.end();) {
+            const auto end = std::find_if(begin, uses.end(), [&](const EdgeUse& use) { return !use.is_same_edge(*begin); });
+            visit(std::span<const EdgeUse>(begin, end));
+            begin = end;
+        }
+    }
+
+    void find_components(const std::vector<EdgeUse>& uses) {
+        DisjointSets sets(at(health_.n_faces));
+        for_each_edge(uses, [&](std::span<const EdgeUse> along) {
+            for (const EdgeUse& use : along.subspan(1)) sets.join(along[0].face, use.face);
+        });
+        health_.face_component.assign(soup_.face_offsets.empty() ? 0 : at(health_.n_faces), -1);
+        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+            if (!is_usable(face)) continue;
+            const std::int32_t first = sets.find(face);
+            if (first == face) {
+                health_.face_component[at(face)] = static_cast<std::int32_t>(health_.components.size());
+                health_.components.push_back({.first_face = face});
+            }
+            health_.face_component[at(face)] = health_.face_component[at(first)];
+            ++health_.components[at(health_.face_component[at(face)])].n_faces;
+        }
+    }
+
+    void examine_edges(const std::vector<EdgeUse>& uses) {
+        for_each_edge(uses, [&](std::span<const EdgeUse> along) {
+            const auto n = static_cast<std::int32_t>(along.size());
+            const auto n_forward = static_cast<std::int32_t>(
+                std::count_if(along.begin(), along.end(), [](const EdgeUse& u) { return u.forward; }));
+            const SurfaceEdge edge{along[0].first, along[0].second, along[0].face, n};
+            SurfaceComponent& component = health_.components[at(health_.face_component[at(edge.face)])];
+            ++health_.n_edges;
+            if (n == 1) health_.boundary_edges.push_back(edge);
+            if (n > 2) health_.non_manifold_edges.push_back(edge);
+            if (n == 2 && n_forward != 1) health_.inconsistent_edges.push_back(edge);
+            if (n % 2 != 0) component.closed = false;
+            if (n > 1 && std::abs(2 * n_forward - n) > n % 2) component.oriented = false;
+        });
+    }
+
+    void count_holes() {
+        DisjointSets rims(at(health_.n_vertices));
+        for (const SurfaceEdge& edge : health_.boundary_edges) rims.join(edge.first, edge.second);
+        std::vector<std::int32_t> found;
+        for (const SurfaceEdge& edge : health_.boundary_edges) found.push_back(rims.find(edge.first));
+        sort_unique(found);
+        health_.n_holes = static_cast<std::int32_t>(found.size());
+    }
+
+    /// A sixth of the sum of the determinants about a corner of the component, so that a distant origin costs no digits.
+    void measure_components() {
+        std::vector<Vector<3>> corners;
+        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+            if (!is_usable(face)) continue;
+            SurfaceComponent& component = health_.components[at(health_.face_component[at(face)])];
+            if (!component.closed || !component.oriented) continue;
+            const Vector<3>& origin = soup_.vertices[at(soup_.vertices_of(component.first_face)[0])];
+            corners_of(loop_of(face), corners);
+            const Vector<3> apex = corners[0] - origin;
+            for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+                component.volume += apex.dot((corners[i] - origin).cross(corners[i + 1] - origin)) / 6.0;
+        }
+        for (SurfaceComponent& component : health_.components) component.inside_out = component.volume < 0.0;
+    }
+
+    /// Of each set of corners the first face, whichever way it runs: at most one other is not a duplicate of it.
+    void find_flipped_duplicates() {
+        struct Key {
+            std::array<std::int32_t, max_polygon_vertices> corners{};
+            std::int32_t face = -1;
+        };
+        std::vector<Key> keys;
+        keys.reserve(at(health_.n_usable()));
+        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+            if (!is_usable(face)) continue;
+            std::vector<std::int32_t> loop = loop_of(face);
+            std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+            if (loop[1] > loop.back()) std::reverse(loop.begin() + 1, loop.end());
+            Key key;
+            key.corners.fill(-1);
+            std::copy(loop.begin(), loop.end(), key.corners.begin());
+            key.face = face;
+            keys.push_back(key);
+        }
+        std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+            return a.corners != b.corners ? a.corners < b.corners : a.face < b.face;
+        });
+        for (std::size_t i = 1; i < keys.size(); ++i)
+            if (keys[i].corners == keys[i - 1].corners)
+                health_.flipped_duplicates.push_back({keys[i].face, keys[i - 1].face});
+        std::sort(health_.flipped_duplicates.begin(), health_.flipped_duplicates.end(),
+                  [](const FlippedFace& a, const FlippedFace& b) { return a.face < b.face; });
+    }
+
+    void find_self_intersections() {
+        health_.looked_for_self_intersections = true;
+        health_.self_intersections = self_intersections(soup_, health_.place, health_.faults);
+        health_.n_self_intersections = static_cast<std::int64_t>(health_.self_intersections.size());
+        const std::size_t most = at(std::max(options_.max_listed_pairs, 0));
+        if (health_.self_intersections.size() > most) health_.self_intersections.resize(most);
+    }
+
+    const FaceSoup& soup_;
+    const HealthOptions& options_;
+    SurfaceHealth health_;
+};
+
+}  // namespace
+
+double aspect_ratio(std::span<const Vector<3>> corners) {
+    const std::size_t n = corners.size();
+    double longest = 0.0;
+    for (std::size_t i = 0; i < n; ++i) longest = std::max(longest, (corners[(i + 1) % n] - corners[i]).stableNorm());
+    if (!(longest > 0.0)) return infinity;
+    double smallest_height = infinity;  // in units of the longest edge, so that nothing overflows or vanishes
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vector<3> edge = (corners[(i + 1) % n] - corners[i]) / longest;
+        const double length = edge.stableNorm();
+        if (!(length > 0.0)) continue;
+        double height = 0.0;
+        for (const Vector<3>& corner : corners)
+            height = std::max(height, edge.cross(Vector<3>((corner - corners[i]) / longest)).stableNorm() / length);
+        smallest_height = std::min(smallest_height, height);
+    }
+    return smallest_height > 0.0 ? 1.0 / smallest_height : infinity;
+}
+
+bool SurfaceHealth::closed() const {
+    return !components.empty() &&
+           std::all_of(components.begin(), components.end(), [](const SurfaceComponent& c) { return c.closed; });
+}
+
+bool SurfaceHealth::sound() const {
+    const auto is_sound = [](const SurfaceComponent& c) { return c.closed && c.oriented && !c.inside_out; };
+    return unusable_faces.empty() && flipped_duplicates.empty() && non_planar_faces.empty() && non_manifold_edges.empty() &&
+           n_self_intersections == 0 && !components.empty() && std::all_of(components.begin(), components.end(), is_sound);
+}
+
+SurfaceHealth examine(const FaceSoup& soup, const HealthOptions& options) { return Examination(soup, options).report(); }
+
+}  // namespace abut::geometry

@@ -1,0 +1,170 @@
+#include <algorithm>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/geometry/health/surface_health.hpp"
+
+namespace abut::geometry {
+namespace {
+
+constexpr std::size_t most_faces = 3;  // that one line names
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+/// "1 face", "12 faces"
+std::string counted(std::int64_t n, const std::string& one, const std::string& many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string point(const Vector<3>& x) { return "(" + number(x[0]) + ", " + number(x[1]) + ", " + number(x[2]) + ")"; }
+
+class Description {
+public:
+    Description(const FaceSoup& soup, const SurfaceHealth& health, std::span<const std::int64_t> labels)
+        : soup_(soup), health_(health), labels_(labels) {}
+
+    std::vector<std::string> lines() && {
+        add_size();
+        add_closed();
+        add_unusable();
+        add_vertices();
+        add_edges();
+        add_flipped();
+        add_components();
+        add_shapes();
+        add_self_intersections();
+        return std::move(lines_);
+    }
+
+private:
+    [[nodiscard]] std::string face(std::int32_t index) const {
+        return "face " + std::to_string(labels_.empty() ? index : labels_[at(index)]);
+    }
+    /// "face 3, face 7, face 9 and 5 more"
+    [[nodiscard]] std::string first_of(std::span<const std::int32_t> faces) const {
+        std::string text;
+        for (std::size_t i = 0; i < std::min(faces.size(), most_faces); ++i) text += (i > 0 ? ", " : "") + face(faces[i]);
+        return text + (faces.size() > most_faces ? " and " + std::to_string(faces.size() - most_faces) + " more" : "");
+    }
+
+    void add_size() {
+        lines_.push_back(counted(health_.n_faces, "face", "faces") + ", " +
+                         counted(health_.n_vertices, "vertex", "vertices") + ", " +
+                         counted(static_cast<std::int64_t>(health_.components.size()), "component", "components"));
+        if (health_.n_usable() == 0) return;
+        lines_.push_back("from " + point(health_.box.lower) + " to " + point(health_.box.upper) + " m, area " +
+                         number(health_.area) + " m^2, edges of " + number(health_.shortest_edge) + " to " +
+                         number(health_.longest_edge) + " m");
+    }
+
+    void add_closed() {
+        if (health_.n_usable() == 0) return;
+        if (health_.boundary_edges.empty() && health_.closed()) return lines_.push_back("closed" + volume());
+        if (health_.boundary_edges.empty()) return lines_.push_back("not closed: edges with an odd number of faces");
+        lines_.push_back("open: " + counted(health_.n_holes, "hole or rim", "holes or rims") + " of " +
+                         counted(static_cast<std::int64_t>(health_.boundary_edges.size()), "edge", "edges") +
+                         ", the first edge at " + face(health_.boundary_edges.front().face));
+    }
+    [[nodiscard]] std::string volume() const {
+        double sum = 0.0;
+        for (const SurfaceComponent& component : health_.components) {
+            if (!component.oriented) return "";
+            sum += component.volume;
+        }
+        return ", volume " + number(sum) + " m^3";
+    }
+
+    void add_unusable() {
+        if (health_.unusable_faces.empty()) return lines_.push_back("every face can be used");
+        std::string reasons;
+        for (std::size_t fault = 1; fault < health_.n_faults.size(); ++fault)
+            if (health_.n_faults[fault] > 0)
+                reasons += (reasons.empty() ? "" : ", ") + std::to_string(health_.n_faults[fault]) + " " +
+                           std::string(name(static_cast<FaceFault>(fault)));
+        const auto n = static_cast<std::int64_t>(health_.unusable_faces.size());
+        lines_.push_back(counted(n, "face", "faces") + " cannot be used: " + reasons);
+        for (std::size_t i = 0; i < std::min(health_.unusable_faces.size(), most_faces); ++i) {
+            const std::int32_t bad = health_.unusable_faces[i];
+            lines_.push_back("  " + face(bad) + " " + describe(soup_, bad, health_.faults[at(bad)]));
+        }
+        if (n > static_cast<std::int64_t>(most_faces))
+            lines_.push_back("  and " + std::to_string(n - static_cast<std::int64_t>(most_faces)) + " more");
+    }
+
+    void add_vertices() {
+        const auto unreferenced = static_cast<std::int64_t>(health_.unreferenced_vertices.size());
+        if (unreferenced > 0) lines_.push_back(counted(unreferenced, "vertex", "vertices") + " that no face names");
+        if (health_.n_unwelded_vertices > 0)
+            lines_.push_back(counted(health_.n_unwelded_vertices, "vertex", "vertices") +
+                             " at the place of an earlier one (counted as one)");
+        if (health_.n_bad_vertices > 0)
+            lines_.push_back(counted(health_.n_bad_vertices, "vertex", "vertices") +
+                             " with a coordinate that is not finite");
+    }
+
+    void add_edges() {
+        const auto add = [&](const std::vector<SurfaceEdge>& edges, const std::string& what) {
+            if (edges.empty()) return;
+            lines_.push_back(counted(static_cast<std::int64_t>(edges.size()), "edge ", "edges ") + what + ", the first at " +
+                             face(edges.front().face));
+        };
+        add(health_.non_manifold_edges, "of three faces or more (not manifold)");
+        add(health_.inconsistent_edges, "along which two faces run the same way (orientation not consistent)");
+    }
+
+    void add_flipped() {
+        if (health_.flipped_duplicates.empty()) return;
+        const auto& [later, earlier] = health_.flipped_duplicates.front();
+        lines_.push_back(
+            counted(static_cast<std::int64_t>(health_.flipped_duplicates.size()), "face repeats", "faces repeat") +
+            " an earlier one the other way round: first " + face(later) + " that of " + face(earlier));
+    }
+
+    void add_components() {
+        const auto inside_out = [](const SurfaceComponent& component) { return component.inside_out; };
+        const auto first = std::ranges::find_if(health_.components, inside_out);
+        if (first == health_.components.end()) return;
+        lines_.push_back(counted(std::ranges::count_if(health_.components, inside_out), "component is", "components are") +
+                         " inside out (turned round, or the wall of a cavity), the first from " + face(first->first_face) +
+                         " on");
+    }
+
+    void add_shapes() {
+        if (health_.n_usable() == 0) return;
+        lines_.push_back("worst aspect ratio " + number(health_.worst_aspect) + " (" + face(health_.worst_aspect_face) +
+                         "), " + counted(static_cast<std::int64_t>(health_.slivers.size()), "sliver", "slivers") +
+                         (health_.slivers.empty() ? "" : ": " + first_of(health_.slivers)));
+        if (!health_.repeated_corner_faces.empty())
+            lines_.push_back("a corner twice in a row: " + first_of(health_.repeated_corner_faces));
+        if (!health_.non_planar_faces.empty())
+            lines_.push_back("not flat: " + first_of(health_.non_planar_faces) + "; at worst " +
+                             number(health_.worst_planarity) + " face sizes (" + face(health_.worst_planarity_face) + ")");
+    }
+
+    void add_self_intersections() {
+        if (!health_.looked_for_self_intersections) return;
+        if (health_.n_self_intersections == 0) return lines_.push_back("no self-intersection");
+        std::string line = counted(health_.n_self_intersections, "pair of faces intersects", "pairs of faces intersect");
+        if (!health_.self_intersections.empty())
+            line += ": first " + face(health_.self_intersections.front().first) + " and " +
+                    face(health_.self_intersections.front().second);
+        lines_.push_back(line);
+    }
+
+    const FaceSoup& soup_;
+    const SurfaceHealth& health_;
+    std::span<const std::int64_t> labels_;
+    std::vector<std::string> lines_;
+};
+
+}  // namespace
+
+std::vector<std::string> describe(const FaceSoup& soup, const SurfaceHealth& health, std::span<const std::int64_t> labels) {
+    if (health.n_faces != soup.size() || (!labels.empty() && labels.size() != at(soup.size())))
+        throw BadInput("surface health: a report of " + std::to_string(health.n_faces) + " faces and " +
+                       std::to_string(labels.size()) + " labels are given for " + std::to_string(soup.size()) +
+                       " faces; give those of this surface.");
+    return Description(soup, health, labels).lines();
+}
+
+}  // namespace abut::geometry

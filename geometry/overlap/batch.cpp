@@ -1,0 +1,297 @@
+#include "abut/geometry/overlap/batch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/base/simd.hpp"
+#include "abut/geometry/overlap/kernels.hpp"
+
+namespace abut::geometry {
+namespace {
+
+// A height is cross(edge, arm) of coordinates of size E. What was rounded before (three times 2^-53 E, where a is shifted),
+// the differences, the products and their difference make it uncertain by less than 80 * 2^-53 E^2 = 9e-15 E^2. The limit
+// is larger because edges that coincide within the tolerance are not for this kernel: their heights are at most
+// tolerance * (face size <= 2 E) * (edge length <= 2.9 E).
+constexpr double least_certain_height = 8.0 * coincidence_tolerance;
+
+// Of coordinates: what is multiplied here, three of them at most, is then neither too large nor too small for a double.
+constexpr double least_extent = 1e-90, largest_extent = 1e90;
+
+struct PlaneLanes {
+    Lanes x, y;
+    friend PlaneLanes operator+(PlaneLanes a, PlaneLanes b) { return {a.x + b.x, a.y + b.y}; }
+    friend PlaneLanes operator-(PlaneLanes a, PlaneLanes b) { return {a.x - b.x, a.y - b.y}; }
+    friend PlaneLanes operator*(Lanes s, PlaneLanes a) { return {s * a.x, s * a.y}; }
+};
+
+Lanes cross(PlaneLanes a, PlaneLanes b) { return a.x * b.y - a.y * b.x; }
+Lanes dot(PlaneLanes a, PlaneLanes b) { return a.x * b.x + a.y * b.y; }
+
+constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
+
+struct Triangle {
+    PlaneLanes corner[3], edge[3];
+
+    Triangle(const std::array<TriangleBatch::Row, 3>& x, const std::array<TriangleBatch::Row, 3>& y, int first) {
+        for (int i = 0; i < 3; ++i) corner[i] = {load_lanes(&x[i][first]), load_lanes(&y[i][first])};
+        for (int i = 0; i < 3; ++i) edge[i] = corner[next(i)] - corner[i];
+    }
+};
+
+struct LanePair {
+    Triangle a, b;
+    PlaneLanes a_from_b[3];  // corners of a seen from corner 0 of b
+    Lanes limit;             // least certain height
+    LaneMask is_proper;      // neither triangle is too thin, too small or too large
+    LaneMask is_given;       // coordinates are those to decide on
+
+    LaneMask is_proper_face(const Triangle& t) const {
+        const Lanes twice_area = cross(t.edge[0], t.edge[1]);
+        return (twice_area > limit) &
+               (twice_area > thin_face * larger(dot(t.edge[0], t.edge[0]), dot(t.edge[1], t.edge[1])));
+    }
+
+    LanePair(const TriangleBatch& batch, int first) : a(batch.x_a, batch.y_a, first), b(batch.x_b, batch.y_b, first) {
+        const Lanes shift = load_lanes(&batch.rounded_shift[first]);
+        Lanes extent = shift;
+        const auto include = [&extent](PlaneLanes p) { extent = larger(extent, larger(absolute(p.x), absolute(p.y))); };
+        for (int i = 0; i < 3; ++i) {
+            a_from_b[i] = a.corner[i] - b.corner[0];
+            include(a_from_b[i]);
+        }
+        include(b.edge[0]);
+        include(b.edge[2]);
+        limit = least_certain_height * (extent * extent);
+        is_proper = is_proper_face(a) & is_proper_face(b) & (extent > least_extent) & (extent < largest_extent);
+        is_given = shift == 0.0;
+    }
+};
+
+// Of every corner of one triangle over the lines of the edges of the other, times the length of the edge; > 0 inside.
+struct Heights {
+    Lanes of[3][3];  // [edge][corner]
+
+    Heights(const Triangle& line, const Triangle& point) {
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) of[j][i] = cross(line.edge[j], point.corner[i] - line.corner[j]);
+    }
+    LaneMask beyond(int j, Lanes limit) const { return larger(larger(of[j][0], of[j][1]), of[j][2]) < -limit; }
+    LaneMask separate(Lanes limit) const { return beyond(0, limit) | beyond(1, limit) | beyond(2, limit); }
+    Lanes least() const {
+        Lanes smallest = absolute(of[0][0]);
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) {
+                const Lanes height = absolute(of[j][i]);
+                smallest = height < smallest ? height : smallest;
+            }
+        return smallest;
+    }
+};
+
+// Where corner i lies on the line of edge j as sure as the coordinates are what they are.
+LaneMask is_on_line(const Triangle& line, int j, const Triangle& point, int i) {
+    const PlaneLanes p = point.corner[i], start = line.corner[j], end = line.corner[next(j)];
+    const LaneMask at_x = p.x == start.x, at_y = p.y == start.y;
+    return (at_x & at_y) | ((p.x == end.x) & (p.y == end.y)) | (at_x & (start.x == end.x)) | (at_y & (start.y == end.y));
+}
+
+struct Certainty {
+    LaneMask is_separated, is_known;
+};
+
+// What heights tell where some are within the limit: those are zero for sure, or unknown.
+Certainty certainty_with_zeros(const Heights& heights, const Triangle& line, const Triangle& point, const LanePair& pair) {
+    Certainty result{LaneMask{}, ~LaneMask{}};
+    for (int j = 0; j < 3; ++j) {
+        LaneMask is_beyond = ~LaneMask{};
+        for (int i = 0; i < 3; ++i) {
+            const LaneMask is_zero = pair.is_given & is_on_line(line, j, point, i);
+            const Lanes height = heights.of[j][i];
+            is_beyond &= is_zero | (height < -pair.limit);
+            result.is_known &= is_zero | (absolute(height) > pair.limit);
+        }
+        result.is_separated |= is_beyond;
+    }
+    return result;
+}
+
+// Whether a step by (e, e^2), with e > 0 as small as one likes, goes to the left of the direction.
+LaneMask leans_left(PlaneLanes direction) { return (direction.y < 0.0) | ((direction.y == 0.0) & (direction.x > 0.0)); }
+
+// Which corners are inside the edges of the other triangle. Zero heights are decided as if b were moved by (e, e^2), or by
+// the opposite: every choice is then that of triangles in general position, whose area differs by less than any number.
+struct Sides {
+    LaneMask a[3][3], b[3][3];  // corner i of a, of b inside edge j of the other: [j][i]
+
+    Sides(const Heights& a_over_b, const Heights& b_over_a) {
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) {
+                a[j][i] = a_over_b.of[j][i] > 0.0;
+                b[j][i] = b_over_a.of[j][i] > 0.0;
+            }
+    }
+    Sides(const Heights& a_over_b, const Heights& b_over_a, const LanePair& pair, bool backward)
+        : Sides(a_over_b, b_over_a) {
+        for (int j = 0; j < 3; ++j) {
+            const LaneMask turned = backward ? ~LaneMask{} : LaneMask{};
+            const LaneMask a_ties = ~leans_left(pair.b.edge[j]) ^ turned, b_ties = leans_left(pair.a.edge[j]) ^ turned;
+            for (int i = 0; i < 3; ++i) {
+                a[j][i] |= (a_over_b.of[j][i] == 0.0) & a_ties;
+                b[j][i] |= (b_over_a.of[j][i] == 0.0) & b_ties;
+            }
+        }
+    }
+    // 1 where edge i of a enters b through edge j, -1 where it leaves, else 0.
+    Lanes crossing(int i, int j) const {
+        const LaneMask cross = (a[j][i] ^ a[j][next(i)]) & (b[i][j] ^ b[i][next(j)]);
+        const Lanes one = Lanes{} + 1.0, zero{};
+        return cross ? (a[j][next(i)] ? one : -one) : zero;
+    }
+    Lanes contains_a(int i) const { return a[0][i] & a[1][i] & a[2][i] ? Lanes{} + 1.0 : Lanes{}; }
+    Lanes contains_b(int j) const { return b[0][j] & b[1][j] & b[2][j] ? Lanes{} + 1.0 : Lanes{}; }
+};
+
+// Both choices for zeros, each with the weight 1/2: edges that coincide then count half.
+struct MeanSides {
+    Sides forward, backward;
+    Lanes crossing(int i, int j) const { return 0.5 * (forward.crossing(i, j) + backward.crossing(i, j)); }
+    Lanes contains_a(int i) const { return 0.5 * (forward.contains_a(i) + backward.contains_a(i)); }
+    Lanes contains_b(int j) const { return 0.5 * (forward.contains_b(j) + backward.contains_b(j)); }
+};
+
+struct AreaLanes {
+    Lanes twice_area;
+    PlaneLanes along_b;  // sum of the pieces of the edges of b inside a
+};
+
+// The boundary of the overlap goes along edges of a and of b in turn. A piece from p to q of an edge through a point m adds
+// cross(p, q) = cross(m, q) - cross(m, p) to twice the area. So a crossing X of an edge of a through m with an edge of b
+// through b_j adds -+cross(m - b_j, X), less where a enters b; a corner of a inside b adds cross(m_before - m, a_i), of b
+// inside a cross(b_j-1, b_j). X is one point for both edges: an error along nearly parallel edges cancels. The origin is
+// b_0, and m is the point of the line that is nearest to it: a larger a brings no larger numbers.
+template <class AllSides>
+AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const AllSides& sides) {
+    const Triangle &a = pair.a, &b = pair.b;
+    const PlaneLanes b_corner[3] = {PlaneLanes{}, b.edge[0], PlaneLanes{} - b.edge[2]};
+    PlaneLanes nearest[3];
+    for (int i = 0; i < 3; ++i) {
+        const Lanes fraction = dot(pair.a_from_b[i], a.edge[i]) / dot(a.edge[i], a.edge[i]);
+        nearest[i] = pair.a_from_b[i] - fraction * a.edge[i];
+    }
+    AreaLanes sum{sides.contains_b(2) * cross(b_corner[1], b_corner[2]), {}};
+    for (int i = 0; i < 3; ++i) {
+        const PlaneLanes between = nearest[i == 0 ? 2 : i - 1] - nearest[i];
+        sum.twice_area += sides.contains_a(i) * cross(between, pair.a_from_b[i]);
+    }
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) {
+            const Lanes weight = sides.crossing(i, j), start = b_over_a.of[i][j], end = b_over_a.of[i][next(j)];
+            const Lanes fall = weight != 0.0 ? start - end : Lanes{} + 1.0;
+            const PlaneLanes crossing = b_corner[j] + (start / fall) * b.edge[j];
+            sum.twice_area -= weight * cross(nearest[i] - b_corner[j], crossing);
+            sum.along_b = sum.along_b + weight * crossing;
+        }
+    return sum;
+}
+
+void store(const AreaLanes& sum, LaneMask is_separated, AreaBatch& result, int first) {
+    const Lanes zero{}, smallest = Lanes{} + std::numeric_limits<double>::min();
+    store_lanes(is_separated ? zero : larger(0.5 * sum.twice_area, smallest), &result.area[first]);
+    store_lanes(is_separated ? zero : sum.along_b.y, &result.shift_derivative[0][first]);
+    store_lanes(is_separated ? zero : -sum.along_b.x, &result.shift_derivative[1][first]);
+}
+
+// The columns from `first` on that fit in one register.
+void share(const TriangleBatch& batch, int first, AreaBatch& result) {
+    const LanePair pair(batch, first);
+    const Heights a_over_b(pair.b, pair.a), b_over_a(pair.a, pair.b);
+    LaneMask is_separated = a_over_b.separate(pair.limit) | b_over_a.separate(pair.limit);
+    LaneMask is_known = is_separated | ((a_over_b.least() > pair.limit) & (b_over_a.least() > pair.limit));
+    if (!any(~is_known)) {
+        store(area_of(pair, b_over_a, Sides(a_over_b, b_over_a)), is_separated, result, first);
+    } else {
+        const Certainty of_a = certainty_with_zeros(a_over_b, pair.b, pair.a, pair),
+                        of_b = certainty_with_zeros(b_over_a, pair.a, pair.b, pair);
+        is_separated = of_a.is_separated | of_b.is_separated;
+        is_known = is_separated | (of_a.is_known & of_b.is_known);
+        const MeanSides sides{{a_over_b, b_over_a, pair, false}, {a_over_b, b_over_a, pair, true}};
+        store(area_of(pair, b_over_a, sides), is_separated, result, first);
+    }
+    result.undecided |= bits_of(~(is_known & pair.is_proper)) << first;
+}
+
+double twice_area_of(const std::array<PlaneVector<3>, 3>& face) {
+    return geometry::cross(PlaneVector<3>(face[1] - face[0]), PlaneVector<3>(face[2] - face[0]));
+}
+
+// Puts a pair into column k, the smaller face as b; whether that is face 1. Both are seen from a corner of b if there is a
+// shift to be added: what is large and common cancels before anything is rounded.
+bool put(const TrianglePair& pair, int k, TriangleBatch& batch) {
+    const bool is_swapped = twice_area_of(pair.face_2) > twice_area_of(pair.face_1);
+    const auto &a = is_swapped ? pair.face_2 : pair.face_1, &b = is_swapped ? pair.face_1 : pair.face_2;
+    const PlaneVector<3> shift_of_a = is_swapped ? pair.shift : -pair.shift;
+    const double size = pair.shift.cwiseAbs().maxCoeff();
+    const PlaneVector<3> origin = size == 0.0 ? PlaneVector<3>::Zero() : b[0];
+    for (int i = 0; i < 3; ++i) {
+        batch.x_a[i][k] = (a[i].x() - origin.x()) + shift_of_a.x();
+        batch.y_a[i][k] = (a[i].y() - origin.y()) + shift_of_a.y();
+        batch.x_b[i][k] = b[i].x() - origin.x();
+        batch.y_b[i][k] = b[i].y() - origin.y();
+    }
+    batch.rounded_shift[k] = size;
+    return is_swapped;
+}
+
+SharedArea<3> taken(const AreaBatch& result, int k, bool is_swapped) {
+    const PlaneVector<3> derivative(result.shift_derivative[0][k], result.shift_derivative[1][k]);
+    return {result.area[k], is_swapped ? PlaneVector<3>(-derivative) : derivative};
+}
+
+// At most TriangleBatch::size pairs. Columns that are left over repeat the first one.
+void share(std::span<const TrianglePair> pairs, std::span<SharedArea<3>> areas, DecisionCounts& counts) {
+    TriangleBatch batch;
+    std::array<bool, TriangleBatch::size> is_swapped;
+    const int n = static_cast<int>(pairs.size());
+    for (int k = 0; k < TriangleBatch::size; ++k) is_swapped[k] = put(pairs[k < n ? k : 0], k, batch);
+    const AreaBatch result = shared_areas(batch);
+    for (int k = 0; k < n; ++k) {
+        if (result.undecided >> k & 1u) {
+            areas[k] = counted_shared_area(pairs[k].face_1, pairs[k].face_2, pairs[k].shift, counts);
+        } else {
+            areas[k] = taken(result, k, is_swapped[k]);
+            ++counts.by_doubles;
+        }
+    }
+}
+
+}  // namespace
+
+DecisionCounts& DecisionCounts::operator+=(const DecisionCounts& other) {
+    by_doubles += other.by_doubles;
+    by_scalar_path += other.by_scalar_path;
+    by_exact_arithmetic += other.by_exact_arithmetic;
+    return *this;
+}
+
+AreaBatch shared_areas(const TriangleBatch& triangles) {
+    AreaBatch result;
+    for (int first = 0; first < TriangleBatch::size; first += lane_count) share(triangles, first, result);
+    return result;
+}
+
+DecisionCounts shared_areas(std::span<const TrianglePair> pairs, std::span<SharedArea<3>> areas) {
+    if (pairs.size() != areas.size())
+        throw BadInput("shared areas: `areas` has " + std::to_string(areas.size()) + " entries for " +
+                       std::to_string(pairs.size()) + " pairs. Give as many.");
+    DecisionCounts counts;
+    for (std::size_t first = 0; first < pairs.size(); first += TriangleBatch::size) {
+        const std::size_t n = std::min<std::size_t>(TriangleBatch::size, pairs.size() - first);
+        share(pairs.subspan(first, n), areas.subspan(first, n), counts);
+    }
+    return counts;
+}
+
+}  // namespace abut::geometry

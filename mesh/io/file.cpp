@@ -1,0 +1,69 @@
+#include "abut/mesh/io/file.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "abut/mesh/quality.hpp"
+
+namespace abut::mesh {
+
+std::string file_contents(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found)
+        throw MeshError(path.string() + ": there is no such file. Check the path.");
+    if (error) throw MeshError(path.string() + ": cannot be read: " + error.message() + ". Check the path.");
+    if (std::filesystem::is_directory(status))
+        throw MeshError(path.string() + ": is a folder, a mesh file is needed. Check the path.");
+    std::ifstream file(path, std::ios::binary);
+    std::string contents{std::istreambuf_iterator<char>(file), {}};
+    if (!file) throw MeshError(path.string() + ": cannot be read. Check its permissions.");
+    if (contents.empty()) throw MeshError(path.string() + ": the file is empty (0 bytes). Write the mesh again.");
+    return contents;
+}
+
+void make_directory(const std::filesystem::path& directory) {
+    std::error_code error, unknown;
+    std::filesystem::create_directories(directory, error);
+    const auto status = std::filesystem::status(directory, unknown);
+    if (!std::filesystem::is_directory(status))
+        throw MeshError(directory.string() + ": the folder cannot be made: " +
+                        (std::filesystem::exists(status) ? "a file is in its place" : (error ? error : unknown).message()) +
+                        ". Choose another one or change its permissions.");
+}
+
+PreparedFile::PreparedFile(std::filesystem::path path)
+    : path_(std::move(path)),
+      temporary_(path_.parent_path() / ("." + path_.stem().string() + ".part" + path_.extension().string())) {}
+
+PreparedFile::~PreparedFile() {
+    std::error_code ignored;
+    if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+}
+
+void PreparedFile::move_into_place() {
+    std::error_code error;
+    std::filesystem::rename(temporary_, path_, error);
+    if (error)
+        throw MeshError(path_.string() + ": cannot be written: " + error.message() +
+                        ". Check permissions and free space of its folder.");
+    temporary_.clear();
+}
+
+PreparedFile prepared_text(const std::filesystem::path& path, const std::string& text) {
+    PreparedFile prepared(path);
+    errno = 0;
+    std::ofstream file(prepared.temporary(), std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) {
+        const std::string reason = errno != 0 ? std::generic_category().message(errno) : "the folder takes no more";
+        throw MeshError(path.string() + ": cannot be written: " + reason +
+                        ". Check permissions and free space of its folder.");
+    }
+    return prepared;
+}
+
+}  // namespace abut::mesh

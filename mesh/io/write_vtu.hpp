@@ -1,0 +1,64 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::mesh {
+
+/// Numbers, vectors or tensors, one for each cell or boundary face. Of a tensor the symmetric part is written.
+template <int Dim>
+using FieldValues = std::variant<std::span<const double>, std::span<const Vector<Dim>>, std::span<const Matrix<Dim>>>;
+
+template <int Dim>
+struct Field {
+    std::string name;  ///< as ParaView will show it; put the unit in, for example "contact pressure [Pa]"
+    FieldValues<Dim> values;
+};
+
+/// What one moment of a run shows.
+template <int Dim>
+struct Frame {
+    double time = 0.0;                            ///< [s]
+    std::span<const Vector<Dim>> displacement{};  ///< u_c [m], (n_cells, Dim), or empty
+    std::vector<Field<Dim>> cell_fields{};        ///< each of n_cells
+    std::vector<Field<Dim>> boundary_fields{};    ///< each of boundary_faces.size(), in that order
+};
+
+/// The mesh in motion, as files for ParaView: <basename>_000000.vtu, ... with the cells and
+/// <basename>_surface_000000.vtp, ... with the boundary faces, and <basename>.pvd and <basename>_surface.pvd that list
+/// them with their times (open these two).
+///
+/// Both carry the cell array "body". The displacement is written on cells and, averaged over the cells around a vertex, on
+/// points: that is what the filter Warp By Vector takes. 2D vectors get a third component 0, tensors six components (xx, yy,
+/// zz, xy, yz, xz). Data are binary and compressed. Every file is written under another name and then moved, the lists last:
+/// a run that breaks off leaves a readable series.
+template <int Dim>
+class VtuSeries {
+public:
+    /// Makes the folder if needed; files of an earlier series of that name are written over as frames come. Keeps its own
+    /// copy of what it needs of the mesh. Throws MeshError if the folder cannot be made.
+    VtuSeries(const std::filesystem::path& directory, const std::string& basename, const Mesh<Dim>& mesh);
+    ~VtuSeries();
+    VtuSeries(VtuSeries&&) noexcept;
+    VtuSeries& operator=(VtuSeries&&) noexcept;
+
+    /// Throws BadInput naming the field whose size is wrong, MeshError if a file cannot be written: the
+    /// lists are then as before the call, and the next call writes the same frame again.
+    void write(const Frame<Dim>& frame);
+    [[nodiscard]] int n_frames() const;
+
+private:
+    struct Files;
+    std::unique_ptr<Files> files_;
+};
+
+/// The mesh alone, with the cell array "body", in one .vtu file. Throws MeshError if it cannot be written.
+template <int Dim>
+void write_vtu(const Mesh<Dim>& mesh, const std::filesystem::path& path);
+
+}  // namespace abut::mesh

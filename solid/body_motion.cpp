@@ -1,0 +1,41 @@
+#include "abut/solid/body_motion.hpp"
+
+#include <string>
+
+#include "abut/base/error.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid) {
+    std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()), {0.0, Vector<Dim>::Zero()});
+    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
+        BodyMotion<Dim>& body = motions[solid.mesh().cell_body[c]];
+        body.mass += solid.masses()[c];
+        body.velocity += run.momentum(c);
+    }
+    for (BodyMotion<Dim>& body : motions) body.velocity /= body.mass;
+    return motions;
+}
+
+template <int Dim>
+std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity) {
+    const auto n_bodies = static_cast<std::size_t>(solid.mesh().n_bodies());
+    if (body_velocity.size() != n_bodies)
+        throw BadInput(std::to_string(body_velocity.size()) + " velocities are given for " + std::to_string(n_bodies) +
+                       " bodies. Give one a body.");
+    std::vector<double> momentum(solid.size());
+    const auto p = as_vectors<Dim>(std::span<double>(momentum));
+    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
+        p[c] = solid.masses()[c] * body_velocity[solid.mesh().cell_body[c]];
+    return momentum;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                  \
+    template std::vector<BodyMotion<Dim>> body_motions<Dim>(const dynamics::RunView<Dim>&, const Solid<Dim>&); \
+    template std::vector<double> uniform_momentum<Dim>(const Solid<Dim>&, std::span<const Vector<Dim>>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid

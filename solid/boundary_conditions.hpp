@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::solid {
+
+/// What the displacement of a boundary face without a prescribed value is. docs/method.md, Space.
+enum class Neumann {
+    local_equilibrium,  ///< sigma_c n = t in the cell: the face minimises the energy of its cell
+    extrapolate,        ///< affine extrapolation from nearby cells: large parasitic energy in contact, for comparison
+    adjacent,           ///< u_f = u_c: loses accuracy and costs energy in a rotation, for comparison
+};
+
+/// A vector that may depend on time and place.
+template <int Dim>
+using Field = std::function<Vector<Dim>(double time, const Vector<Dim>& position)>;
+
+/// Which part of a face's displacement is prescribed.
+enum class Constraint {
+    full,        ///< all of it
+    normal,      ///< along the face normal; tangential free (roller, symmetry plane)
+    components,  ///< the chosen components
+};
+
+template <int Dim>
+struct DirichletCondition {
+    std::string group;  ///< name of a boundary group of the mesh
+    Constraint constraint = Constraint::full;
+    std::array<bool, Dim> components{};       ///< for Constraint::components
+    Vector<Dim> value = Vector<Dim>::Zero();  ///< u_D [m]
+    Field<Dim> history;                       ///< u_D(t, x) [m] if it varies; then `value` is not used
+};
+
+template <int Dim>
+struct TractionCondition {
+    std::string group;
+    Vector<Dim> value = Vector<Dim>::Zero();  ///< t [Pa]
+    Field<Dim> history;                       ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
+};
+
+template <int Dim>
+struct BoundaryConditions {
+    Neumann neumann = Neumann::local_equilibrium;
+    std::vector<DirichletCondition<Dim>> dirichlet;
+    std::vector<TractionCondition<Dim>> traction;
+};
+
+/// The conditions sorted to the boundary faces of a mesh, in the order of `Mesh::boundary_faces`.
+template <int Dim>
+struct FaceConditions {
+    std::vector<Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
+    /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
+    struct Prescribed {
+        std::int32_t face;
+        Matrix<Dim> projector;
+    };
+    std::vector<std::vector<Prescribed>> dirichlet;   ///< by condition
+    std::vector<std::vector<std::int32_t>> traction;  ///< boundary faces by condition
+};
+
+/// Throws BadInput for an unknown group, two conditions that prescribe the same direction of a face, a
+/// traction on a fully prescribed face, or a component condition without components.
+template <int Dim>
+[[nodiscard]] FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryConditions<Dim>& conditions);
+
+}  // namespace abut::solid

@@ -1,0 +1,86 @@
+#pragma once
+// Private to the sources of this layer.
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/base/sort_unique.hpp"
+#include "abut/solid/ccg/boundary_reconstruction.hpp"
+#include "abut/solid/ccg/lanes.hpp"
+
+namespace abut::solid {
+
+/// A face as one of its cells has it.
+struct Slot {
+    std::int32_t face;
+    std::int32_t first;     // cell on the first side of the face
+    std::int32_t opposite;  // slot of the same face in the cell on its other side; the slot itself on the boundary
+};
+
+/// A boundary face has no stiffness.
+template <int Dim>
+struct FaceGeometry {
+    std::array<double, Dim> area_vector;  // |f| n_f, out of the first side
+    double jump_stiffness;                // k_f = |f| eta / h_f
+};
+
+template <int Dim>
+struct CellGeometry {
+    double inverse_measure;  // 1/|c|
+    double lambda;
+    double mu;
+};
+
+/// For each index of a range: the rows in which it occurs, increasing, and its weights there. The transpose of a sparse
+/// matrix.
+template <class Weight>
+struct Occurrences {
+    std::vector<std::int32_t> offsets;
+    std::vector<std::int32_t> rows;
+    std::vector<Weight> weights;
+};
+
+/// What the operators of a mesh are made of, in the order in which they run over it.
+template <int Dim>
+struct CcgArrays {
+    CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
+              Neumann neumann);
+
+    [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
+    [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(sides.size()); }
+    [[nodiscard]] std::int32_t n_boundary() const { return boundary.size(); }
+    /// The only cell of a boundary face.
+    [[nodiscard]] std::int32_t cell_of(std::int32_t b) const { return sides[boundary_faces[b]][0]; }
+    [[nodiscard]] std::span<const Slot> slots_of(std::int32_t c) const {
+        return {slots.data() + slot_offsets[c], static_cast<std::size_t>(slot_offsets[c + 1] - slot_offsets[c])};
+    }
+
+    // Faces. A boundary face has its one cell on both sides, no stiffness and an empty stencil: the sweeps need no branch.
+    std::vector<std::array<std::int32_t, 2>> sides;
+    std::vector<FaceStencil<Dim>> stencils;
+    std::vector<FaceGeometry<Dim>> faces;
+    StencilReport report;
+    // Cells and their slots, cell by cell.
+    std::vector<CellGeometry<Dim>> cells;
+    std::vector<std::int32_t> slot_offsets;  // (n_cells + 1)
+    std::vector<Slot> slots;
+    std::vector<std::array<double, Dim>> arms;  // x_f - x_c, by slot
+    Occurrences<double> of_cell;                // interior stencils that use a cell
+    // Boundary faces.
+    std::vector<std::int32_t> boundary_faces;
+    std::vector<std::int32_t> boundary_place;  // of a face, -1 inside
+    BoundaryReconstruction<Dim> boundary;
+    std::vector<LaneTensor<Dim>> boundary_weights;  // as boundary.weights
+    std::vector<std::int32_t> boundary_cells;       // cells that some boundary face depends on
+    std::vector<std::int32_t> boundary_cell_place;  // of a cell, -1 elsewhere
+    Occurrences<LaneTensor<Dim>> of_boundary_cell;  // rows of `boundary` by place in boundary_cells, transposed
+
+private:
+    void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
+    void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
+    void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                      const FaceConditions<Dim>& conditions, Neumann neumann);
+};
+
+}  // namespace abut::solid

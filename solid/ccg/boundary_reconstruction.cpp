@@ -1,0 +1,214 @@
+#include "abut/solid/ccg/boundary_reconstruction.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace abut::solid {
+namespace {
+
+inline constexpr double null_space_cut = 1e-10;  // of the largest eigenvalue
+
+/// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
+template <int Dim>
+struct Row {
+    struct Term {
+        std::int32_t index;
+        Matrix<Dim> weight;
+    };
+    std::vector<Term> cells;
+    std::vector<Term> displacement;  // of boundary faces
+    std::vector<Term> traction;
+
+    static void add(std::vector<Term>& terms, std::int32_t index, const Matrix<Dim>& weight) {
+        const auto place =
+            std::lower_bound(terms.begin(), terms.end(), index, [](const Term& t, std::int32_t i) { return t.index < i; });
+        if (place != terms.end() && place->index == index)
+            place->weight += weight;
+        else
+            terms.insert(place, {index, weight});
+    }
+    void add_stencil(const FaceStencil<Dim>& stencil, const Matrix<Dim>& weight) {
+        for (int j = 0; j <= Dim; ++j) add(cells, stencil.cells[j], stencil.weights[j] * weight);
+    }
+};
+
+template <int Dim>
+class Builder {
+public:
+    Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
+            const FaceConditions<Dim>& conditions, Neumann neumann)
+        : mesh_(mesh),
+          interior_(interior),
+          materials_(materials),
+          conditions_(conditions),
+          neumann_(neumann),
+          place_(static_cast<std::size_t>(mesh.n_faces()), -1),
+          affine_(mesh.boundary_faces.size()),
+          rows_(mesh.boundary_faces.size()) {
+        for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b)
+            place_[mesh.boundary_faces[b]] = static_cast<std::int32_t>(b);
+    }
+
+    BoundaryReconstruction<Dim> build() {
+        select_affine_stencils();
+        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell) reconstruct(cell);
+        return pack();
+    }
+
+private:
+    /// Boundary faces of a cell, as places in mesh.boundary_faces.
+    std::vector<std::int32_t> boundary_of(std::int32_t cell) const {
+        std::vector<std::int32_t> places;
+        for (const std::int32_t face : mesh_.cell_faces[cell])
+            if (place_[face] >= 0) places.push_back(place_[face]);
+        return places;
+    }
+
+    bool is_free(std::int32_t b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
+
+    /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces.
+    void select_affine_stencils() {
+        if (neumann_ == Neumann::adjacent) return;
+        std::vector<std::int32_t> wanted;
+        for (std::int32_t b = 0; b < static_cast<std::int32_t>(mesh_.boundary_faces.size()); ++b) {
+            if (!is_free(b)) continue;
+            const std::int32_t cell = mesh_.face_cells[mesh_.boundary_faces[b]][0];
+            const auto others = boundary_of(cell);
+            const auto n_free =
+                std::count_if(others.begin(), others.end(), [&](std::int32_t other) { return is_free(other); });
+            if (neumann_ == Neumann::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
+                wanted.push_back(b);
+        }
+        std::vector<std::int32_t> faces;
+        for (const std::int32_t b : wanted) faces.push_back(mesh_.boundary_faces[b]);
+        const auto stencils = select_stencils<Dim>(mesh_, faces, report_);
+        for (std::size_t i = 0; i < wanted.size(); ++i) affine_[wanted[i]] = stencils[i];
+    }
+
+    void reconstruct(std::int32_t cell) {
+        const auto boundary = boundary_of(cell);
+        if (boundary.empty()) return;
+        for (const std::int32_t b : boundary) Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
+        if (neumann_ == Neumann::local_equilibrium) return balance(cell, boundary);
+        for (const std::int32_t b : boundary) {
+            const Matrix<Dim> free = Matrix<Dim>::Identity() - conditions_.prescribed[b];
+            if (free.isZero(1e-12)) continue;
+            if (neumann_ == Neumann::extrapolate)
+                rows_[b].add_stencil(affine_[b], free);
+            else
+                Row<Dim>::add(rows_[b].cells, cell, free);
+        }
+    }
+
+    Matrix<Dim> stiffness(std::int32_t cell, std::int32_t f, std::int32_t g) const {
+        const auto outward = [&](std::int32_t face) -> Vector<Dim> {
+            return (mesh_.face_cells[face][0] == cell ? 1.0 : -1.0) * mesh_.face_measure[face] * mesh_.face_normal[face];
+        };
+        const Material& material = materials_[mesh_.cell_body[cell]];
+        return face_stiffness<Dim>(material.lambda(), material.mu(), mesh_.cell_measure[cell], outward(f), outward(g));
+    }
+
+    /// Minimum of the cell's energy over what is free of its boundary faces:
+    ///   N A N z = N (|f| t - A_interior u_g - A P u_D),  z = pinv(...) + the part of the affine extrapolation in the null
+    /// space.
+    void balance(std::int32_t cell, const std::vector<std::int32_t>& boundary) {
+        const auto n = static_cast<Eigen::Index>(boundary.size()) * Dim;
+        const auto block = [](Eigen::MatrixXd& m, std::size_t i, std::size_t j) {
+            return m.block<Dim, Dim>(static_cast<Eigen::Index>(i) * Dim, static_cast<Eigen::Index>(j) * Dim);
+        };
+        Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+        Eigen::MatrixXd free = Eigen::MatrixXd::Zero(n, n);
+        for (std::size_t i = 0; i < boundary.size(); ++i) {
+            block(free, i, i) = Matrix<Dim>::Identity() - conditions_.prescribed[boundary[i]];
+            for (std::size_t j = 0; j < boundary.size(); ++j)
+                block(a, i, j) = stiffness(cell, mesh_.boundary_faces[boundary[i]], mesh_.boundary_faces[boundary[j]]);
+        }
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(free * a * free);
+        Eigen::VectorXd inverse = eigen.eigenvalues();
+        const double cut = null_space_cut * inverse.maxCoeff();
+        for (Eigen::Index i = 0; i < n; ++i) inverse[i] = inverse[i] > cut ? 1.0 / inverse[i] : 0.0;
+        Eigen::MatrixXd compliance = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+        compliance = free * compliance * free;
+        Eigen::MatrixXd undetermined = free - compliance * a * free;
+        Eigen::MatrixXd from_prescribed = -compliance * a;
+
+        for (std::size_t i = 0; i < boundary.size(); ++i) {
+            Row<Dim>& row = rows_[boundary[i]];
+            for (std::size_t j = 0; j < boundary.size(); ++j) {
+                const std::int32_t b = boundary[j];
+                const std::int32_t face = mesh_.boundary_faces[b];
+                const Matrix<Dim> answer = block(compliance, i, j);
+                Row<Dim>::add(row.displacement, b, block(from_prescribed, i, j) * conditions_.prescribed[b]);
+                Row<Dim>::add(row.traction, b, mesh_.face_measure[face] * answer);
+                if (!block(undetermined, i, j).isZero(1e-9)) row.add_stencil(affine_[b], block(undetermined, i, j));
+                for (const std::int32_t g : mesh_.cell_faces[cell])
+                    if (place_[g] < 0) row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
+            }
+        }
+    }
+
+    BoundaryReconstruction<Dim> pack() {
+        BoundaryReconstruction<Dim> packed;
+        packed.report = report_;
+        for (const Row<Dim>& row : rows_) {
+            Matrix<Dim> sum = Matrix<Dim>::Zero();
+            for (const auto& [cell, weight] : row.cells) {
+                packed.cells.push_back(cell);
+                packed.weights.push_back(weight);
+                sum += weight;
+            }
+            packed.offsets.push_back(static_cast<std::int32_t>(packed.cells.size()));
+            const bool prescribed = std::any_of(row.displacement.begin(), row.displacement.end(),
+                                                [](const auto& term) { return !term.weight.isZero(0.0); });
+            packed.deficit.push_back(prescribed ? Matrix<Dim>(Matrix<Dim>::Identity() - sum)
+                                                : Matrix<Dim>(Matrix<Dim>::Zero()));
+            for (std::size_t i = 0; i < row.displacement.size(); ++i) {
+                const auto& [face, weight] = row.displacement[i];
+                packed.load_faces.push_back(face);
+                packed.from_displacement.push_back(weight);
+                packed.from_traction.push_back(row.traction.empty() ? Matrix<Dim>(Matrix<Dim>::Zero())
+                                                                    : row.traction[i].weight);
+            }
+            packed.load_offsets.push_back(static_cast<std::int32_t>(packed.load_faces.size()));
+        }
+        return packed;
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    std::span<const FaceStencil<Dim>> interior_;
+    std::span<const Material> materials_;
+    const FaceConditions<Dim>& conditions_;
+    Neumann neumann_;
+    std::vector<std::int32_t> place_;       // of a face among the boundary faces, -1 inside
+    std::vector<FaceStencil<Dim>> affine_;  // by boundary face, where wanted
+    std::vector<Row<Dim>> rows_;
+    StencilReport report_;
+};
+
+}  // namespace
+
+template <int Dim>
+Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f,
+                           const Vector<Dim>& area_g) {
+    return (lambda * area_f * area_g.transpose() +
+            mu * (area_f.dot(area_g) * Matrix<Dim>::Identity() + area_g * area_f.transpose())) /
+           cell_measure;
+}
+
+template <int Dim>
+BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior,
+                                                 std::span<const Material> materials, const FaceConditions<Dim>& conditions,
+                                                 Neumann neumann) {
+    return Builder<Dim>(mesh, interior, materials, conditions, neumann).build();
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                             \
+    template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
+    template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
+        const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
+        Neumann);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid

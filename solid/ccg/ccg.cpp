@@ -1,0 +1,252 @@
+#include "abut/solid/ccg/ccg.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/region.hpp"
+#include "abut/solid/ccg/sweeps.hpp"
+#include "abut/solid/motion_bound.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
+    const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
+    if (materials.size() != n_bodies)
+        throw BadInput(mesh.name + ": " + std::to_string(materials.size()) + " materials are given for " +
+                       std::to_string(n_bodies) + " bodies. Give one a body.");
+    for (std::size_t body = 0; body < n_bodies; ++body) check(materials[body], static_cast<int>(body));
+    return materials;
+}
+
+}  // namespace
+
+template <int Dim>
+struct Ccg<Dim>::Impl {
+    BoundaryConditions<Dim> conditions;
+    FaceConditions<Dim> face_conditions;
+    CcgArrays<Dim> arrays;
+    CcgSweeps<Dim> sweeps;
+    MotionBound<Dim> motion_bound;
+    std::vector<Vector<Dim>> boundary_centroid;
+    std::vector<double> boundary_measure;
+    std::vector<double> boundary_stiffness;
+    bool varies = false;
+
+    Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+         const BoundaryConditions<Dim>& boundary_conditions);
+};
+
+template <int Dim>
+Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
+                     const BoundaryConditions<Dim>& boundary_conditions)
+    : conditions(boundary_conditions),
+      face_conditions(sort_to_faces(mesh, boundary_conditions)),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann),
+      sweeps(arrays),
+      motion_bound(arrays) {
+    for (const std::int32_t f : arrays.boundary_faces) {
+        const std::int32_t c = mesh.face_cells[f][0];
+        boundary_centroid.push_back(mesh.face_centroid[f]);
+        boundary_measure.push_back(mesh.face_measure[f]);
+        boundary_stiffness.push_back(materials[mesh.cell_body[c]].wave_modulus() * mesh.face_measure[f] /
+                                     mesh.cell_measure[c]);
+    }
+    for (const auto& condition : conditions.dirichlet) varies = varies || condition.history;
+    for (const auto& condition : conditions.traction) varies = varies || condition.history;
+}
+
+template <int Dim>
+Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions)) {}
+
+template <int Dim>
+Ccg<Dim>::~Ccg() = default;
+template <int Dim>
+Ccg<Dim>::Ccg(Ccg&&) noexcept = default;
+template <int Dim>
+Ccg<Dim>& Ccg<Dim>::operator=(Ccg&&) noexcept = default;
+
+template <int Dim>
+std::int32_t Ccg<Dim>::n_cells() const {
+    return impl_->arrays.n_cells();
+}
+
+template <int Dim>
+std::int32_t Ccg<Dim>::n_boundary() const {
+    return impl_->arrays.n_boundary();
+}
+
+template <int Dim>
+bool Ccg<Dim>::load_varies() const {
+    return impl_->varies;
+}
+
+template <int Dim>
+BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_time) const {
+    const Impl& m = *impl_;
+    BoundaryLoad<Dim> load;
+    if (m.conditions.dirichlet.empty() && m.conditions.traction.empty()) return load;
+    const BoundaryReconstruction<Dim>& boundary = m.arrays.boundary;
+    const auto n = static_cast<std::size_t>(boundary.size());
+    std::vector<Vector<Dim>> prescribed(n, Vector<Dim>::Zero());
+    std::vector<Vector<Dim>> traction(n, Vector<Dim>::Zero());
+    const auto value_at = [&](const auto& condition, double time, std::int32_t b) {
+        const Vector<Dim> value = condition.history ? condition.history(time, m.boundary_centroid[b]) : condition.value;
+        if (!value.allFinite())
+            throw BadInput("boundary condition on '" + condition.group + "': its value at t = " + number(time) +
+                           " s is not finite. Correct its value or history.");
+        return value;
+    };
+    for (std::size_t i = 0; i < m.conditions.dirichlet.size(); ++i)
+        for (const auto& [b, projector] : m.face_conditions.dirichlet[i])
+            prescribed[b] += projector * value_at(m.conditions.dirichlet[i], displacement_time, b);
+    for (std::size_t i = 0; i < m.conditions.traction.size(); ++i)
+        for (const std::int32_t b : m.face_conditions.traction[i])
+            traction[b] += value_at(m.conditions.traction[i], traction_time, b);
+
+    load.displacement.assign(n, Vector<Dim>::Zero());
+    load.traction.assign(n, Vector<Dim>::Zero());
+    for (std::size_t b = 0; b < n; ++b) {
+        load.traction[b] = m.boundary_measure[b] * traction[b];
+        for (std::int32_t i = boundary.load_offsets[b]; i < boundary.load_offsets[b + 1]; ++i)
+            load.displacement[b] += boundary.from_displacement[i] * prescribed[boundary.load_faces[i]] +
+                                    boundary.from_traction[i] * traction[boundary.load_faces[i]];
+    }
+    return load;
+}
+
+template <int Dim>
+BoundaryLoad<Dim> Ccg<Dim>::load_free() const {
+    if (impl_->conditions.dirichlet.empty() && impl_->conditions.traction.empty()) return {};
+    const std::vector<Vector<Dim>> zero(static_cast<std::size_t>(impl_->arrays.n_boundary()), Vector<Dim>::Zero());
+    return {zero, zero};
+}
+
+template <int Dim>
+std::span<const Matrix<Dim>> Ccg<Dim>::prescribed() const {
+    return impl_->face_conditions.prescribed;
+}
+
+template <int Dim>
+bool Ccg<Dim>::has_prescribed_face(std::int32_t cell) const {
+    return std::ranges::any_of(impl_->arrays.slots_of(cell), [&](const Slot& slot) {
+        const std::int32_t b = impl_->arrays.boundary_place[slot.face];
+        return b >= 0 && !impl_->face_conditions.prescribed[b].isZero(0.0);
+    });
+}
+
+template <int Dim>
+void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                     std::span<Vector<Dim>> displacement) {
+    impl_->sweeps.boundary_displacement(u, load, displacement);
+}
+
+template <int Dim>
+void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->sweeps.gradient(u, load, corrections, result);
+}
+
+template <int Dim>
+Vector<Dim> Ccg<Dim>::boundary_force(std::int32_t boundary_face) const {
+    return impl_->sweeps.face_force(impl_->arrays.boundary_faces[boundary_face]);
+}
+
+template <int Dim>
+double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                           const FaceCorrections<Dim>& corrections) {
+    const double stored = impl_->sweeps.stored_energy(u, load, corrections);
+    double work = 0.0;
+    for (std::size_t b = 0; b < load.traction.size(); ++b)
+        work += load.traction[b].dot(impl_->sweeps.face_displacement(impl_->arrays.boundary_faces[b]));
+    return stored - work;
+}
+
+template <int Dim>
+Region<Dim> Ccg<Dim>::region_of_faces(std::span<const std::int32_t> faces) const {
+    return solid::region_of_faces(impl_->arrays, faces);
+}
+
+template <int Dim>
+Region<Dim> Ccg<Dim>::region_of_cells(std::span<const std::int32_t> cells) const {
+    Region<Dim> region = solid::region_of_cells(impl_->arrays, cells);
+    impl_->sweeps.divide_into_chunks(region);
+    return region;
+}
+
+template <int Dim>
+void Ccg<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                              std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force) {
+    impl_->sweeps.evaluate_faces(region, u, load, displacement, force);
+}
+
+template <int Dim>
+void Ccg<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->sweeps.evaluate_cells(region, u, load, corrections, result);
+}
+
+template <int Dim>
+contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const std::int32_t> faces) const {
+    return face_coupling(impl_->arrays, faces);
+}
+
+template <int Dim>
+double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                              std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
+    return impl_->motion_bound(u_from, load_from, u_to, load_to);
+}
+
+template <int Dim>
+double Ccg<Dim>::motion_amplification() const {
+    return impl_->motion_bound.amplification();
+}
+
+template <int Dim>
+Matrix<Dim> Ccg<Dim>::displacement_gradient(std::int32_t cell) const {
+    return impl_->sweeps.displacement_gradient(cell);
+}
+
+template <int Dim>
+Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
+    return impl_->sweeps.stress(cell);
+}
+
+template <int Dim>
+const StencilReport& Ccg<Dim>::stencil_report() const {
+    return impl_->arrays.report;
+}
+
+template <int Dim>
+const BoundaryReconstruction<Dim>& Ccg<Dim>::boundary() const {
+    return impl_->arrays.boundary;
+}
+
+template <int Dim>
+std::span<const FaceStencil<Dim>> Ccg<Dim>::stencils() const {
+    return impl_->arrays.stencils;
+}
+
+template <int Dim>
+double Ccg<Dim>::normal_stiffness(std::int32_t boundary_face) const {
+    return impl_->boundary_stiffness[boundary_face];
+}
+
+template <int Dim>
+std::span<const std::int32_t> Ccg<Dim>::cells_of(std::int32_t boundary_face) const {
+    const BoundaryReconstruction<Dim>& boundary = impl_->arrays.boundary;
+    const std::int32_t begin = boundary.offsets[boundary_face];
+    return {boundary.cells.data() + begin, static_cast<std::size_t>(boundary.offsets[boundary_face + 1] - begin)};
+}
+
+template class Ccg<2>;
+template class Ccg<3>;
+
+}  // namespace abut::solid

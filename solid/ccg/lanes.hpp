@@ -1,0 +1,141 @@
+#pragma once
+// Private to the sources of this layer.
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+
+// Passing 32-byte vectors by value has no fixed ABI without AVX; everything here is inlined within one source file.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace abut::solid {
+
+using Register2 = double __attribute__((vector_size(16)));
+using Register4 = double __attribute__((vector_size(32)));
+
+/// A vector of Dim components in one SIMD register; in 3D the fourth lane is kept at zero.
+template <int Dim>
+struct Lanes {
+    using Register = std::conditional_t<Dim == 2, Register2, Register4>;
+    Register r{};
+
+    [[nodiscard]] double operator[](int i) const { return r[i]; }
+    friend Lanes operator+(Lanes a, Lanes b) { return {a.r + b.r}; }
+    friend Lanes operator-(Lanes a, Lanes b) { return {a.r - b.r}; }
+    friend Lanes operator-(Lanes a) { return {-a.r}; }
+    friend Lanes operator*(double s, Lanes a) { return {s * a.r}; }
+    Lanes& operator+=(Lanes a) {
+        r += a.r;
+        return *this;
+    }
+    Lanes& operator-=(Lanes a) {
+        r -= a.r;
+        return *this;
+    }
+};
+
+template <int Dim>
+[[nodiscard]] inline Lanes<Dim> load(const Vector<Dim>& v) {
+    if constexpr (Dim == 2)
+        return {Register2{v[0], v[1]}};
+    else
+        return {Register4{v[0], v[1], v[2], 0.0}};
+}
+
+/// Doubles that an element of an array of registers takes.
+template <int Dim>
+inline constexpr std::size_t lane_width = Dim == 2 ? 2 : 4;
+
+template <int Dim>
+[[nodiscard]] inline Lanes<Dim> load(const std::vector<double>& packed, std::ptrdiff_t i) {
+    Lanes<Dim> a;
+    std::memcpy(&a.r, packed.data() + lane_width<Dim> * i, sizeof a.r);
+    return a;
+}
+
+template <int Dim>
+inline void store(Lanes<Dim> a, std::vector<double>& packed, std::ptrdiff_t i) {
+    std::memcpy(packed.data() + lane_width<Dim> * i, &a.r, sizeof a.r);
+}
+
+template <int Dim>
+[[nodiscard]] inline Vector<Dim> unload(Lanes<Dim> a) {
+    Vector<Dim> v;
+    for (int i = 0; i < Dim; ++i) v[i] = a[i];
+    return v;
+}
+
+template <int Dim>
+[[nodiscard]] inline double dot(Lanes<Dim> a, Lanes<Dim> b) {
+    const auto p = a.r * b.r;
+    if constexpr (Dim == 2)
+        return p[0] + p[1];
+    else
+        return p[0] + p[1] + p[2];
+}
+
+/// A tensor by columns: T v = sum_j col[j] v_j.
+template <int Dim>
+struct LaneTensor {
+    Lanes<Dim> col[Dim];
+
+    [[nodiscard]] Lanes<Dim> operator*(Lanes<Dim> v) const {
+        Lanes<Dim> product = v[0] * col[0];
+        for (int j = 1; j < Dim; ++j) product += v[j] * col[j];
+        return product;
+    }
+    [[nodiscard]] Lanes<Dim> times(const std::array<double, Dim>& v) const {
+        Lanes<Dim> product = v[0] * col[0];
+        for (int j = 1; j < Dim; ++j) product += v[j] * col[j];
+        return product;
+    }
+    /// T += a (x) b
+    void add_outer(Lanes<Dim> a, const std::array<double, Dim>& b) {
+        for (int j = 0; j < Dim; ++j) col[j] += b[j] * a;
+    }
+    [[nodiscard]] LaneTensor transposed() const {
+        if constexpr (Dim == 2) {
+            return {Lanes<2>{__builtin_shufflevector(col[0].r, col[1].r, 0, 2)},
+                    Lanes<2>{__builtin_shufflevector(col[0].r, col[1].r, 1, 3)}};
+        } else {
+            const Register4 low = __builtin_shufflevector(col[0].r, col[1].r, 0, 4, 2, 6);
+            const Register4 high = __builtin_shufflevector(col[0].r, col[1].r, 1, 5, 3, 7);
+            const Register4 third = col[2].r;  // (x, y, z, 0)
+            return {Lanes<3>{__builtin_shufflevector(low, third, 0, 1, 4, 7)},
+                    Lanes<3>{__builtin_shufflevector(high, third, 0, 1, 5, 7)},
+                    Lanes<3>{__builtin_shufflevector(low, third, 2, 3, 6, 7)}};
+        }
+    }
+};
+
+/// Element i of a packed array of tensors, by columns: shape (n, Dim, Dim).
+template <int Dim>
+[[nodiscard]] inline LaneTensor<Dim> load_tensor(const std::vector<double>& packed, std::ptrdiff_t i) {
+    LaneTensor<Dim> t;
+    for (int j = 0; j < Dim; ++j) t.col[j] = load<Dim>(packed, Dim * i + j);
+    return t;
+}
+
+template <int Dim>
+inline void store_tensor(const LaneTensor<Dim>& t, std::vector<double>& packed, std::ptrdiff_t i) {
+    for (int j = 0; j < Dim; ++j) store(t.col[j], packed, Dim * i + j);
+}
+
+template <int Dim>
+[[nodiscard]] inline LaneTensor<Dim> load(const Matrix<Dim>& m) {
+    LaneTensor<Dim> t;
+    for (int j = 0; j < Dim; ++j) t.col[j] = load<Dim>(Vector<Dim>(m.col(j)));
+    return t;
+}
+
+template <int Dim>
+[[nodiscard]] inline Matrix<Dim> unload(const LaneTensor<Dim>& t) {
+    Matrix<Dim> m;
+    for (int j = 0; j < Dim; ++j) m.col(j) = unload<Dim>(t.col[j]);
+    return m;
+}
+
+}  // namespace abut::solid

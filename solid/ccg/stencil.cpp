@@ -1,0 +1,196 @@
+#include "abut/solid/ccg/stencil.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <nanoflann.hpp>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+inline constexpr std::size_t n_nearest = Dim == 2 ? 10 : 14;
+inline constexpr double volume_floor = 0.05;  // of the volume of the face's first cell
+inline constexpr int max_floor_halvings = 20;
+inline constexpr double extrapolation_step = 1e-3;
+inline constexpr double resolution = 1e-6;  // relative: numbers nearer to each other are equal but for rounding
+
+/// Centroids of one body's cells (a contiguous range), as nanoflann wants them.
+template <int Dim>
+struct BodyCentroids {
+    std::span<const Vector<Dim>> points;
+    std::int32_t first_cell;
+
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
+    [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        return points[i][static_cast<Eigen::Index>(axis)];
+    }
+    template <class Bounds>
+    bool kdtree_get_bbox(Bounds&) const {
+        return false;
+    }
+};
+
+template <int Dim>
+class NearestCells {
+public:
+    struct Near {
+        double distance;
+        std::int32_t cell;
+    };
+
+    NearestCells(const mesh::Mesh<Dim>& mesh) {
+        std::int32_t begin = 0;
+        for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
+            const auto end = static_cast<std::int32_t>(std::upper_bound(mesh.cell_body.begin(), mesh.cell_body.end(), body) -
+                                                       mesh.cell_body.begin());
+            bodies_.push_back(std::make_unique<BodyTree>(
+                BodyCentroids<Dim>{{mesh.cell_centroid.data() + begin, static_cast<std::size_t>(end - begin)}, begin}));
+            begin = end;
+        }
+    }
+
+    /// The nearest `wanted` cells of a body, or all if it has fewer, by distance, then number. Distances are whole multiples
+    /// of `resolution` times the least one: which of two equal ones rounding made the smaller does not count, so that a mesh
+    /// has the same stencils in any unit of length and anywhere.
+    [[nodiscard]] std::vector<Near> find(std::int32_t body, const Vector<Dim>& point, std::size_t wanted) const {
+        const BodyTree& tree = *bodies_[body];
+        const std::size_t with_ties = 2 * wanted;
+        std::vector<std::uint32_t> index(with_ties);
+        std::vector<double> squared(with_ties);
+        const std::size_t n = tree.index.knnSearch(point.data(), with_ties, index.data(), squared.data());
+        const double unit = n > 0 && squared[0] > 0.0 ? resolution * std::sqrt(squared[0]) : 1.0;
+        std::vector<Near> near;
+        near.reserve(n);
+        for (std::size_t i = 0; i < n; ++i)
+            near.push_back(
+                {std::round(std::sqrt(squared[i]) / unit), tree.centroids.first_cell + static_cast<std::int32_t>(index[i])});
+        std::sort(near.begin(), near.end(),
+                  [](const Near& a, const Near& b) { return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell); });
+        near.resize(std::min(n, wanted));
+        return near;
+    }
+
+private:
+    using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, BodyCentroids<Dim>>,
+                                                     BodyCentroids<Dim>, Dim, std::uint32_t>;
+    struct BodyTree {
+        explicit BodyTree(BodyCentroids<Dim> c) : centroids(c), index(Dim, centroids) { index.buildIndex(); }
+        BodyCentroids<Dim> centroids;
+        Tree index;
+    };
+    std::vector<std::unique_ptr<BodyTree>> bodies_;
+};
+
+/// Searches the simplices of the nearest cells for the best one around a point.
+template <int Dim>
+class SimplexSearch {
+public:
+    using Near = typename NearestCells<Dim>::Near;
+
+    SimplexSearch(const mesh::Mesh<Dim>& mesh, const Vector<Dim>& point, std::span<const Near> near, double smallest_volume)
+        : mesh_(mesh), point_(point), near_(near), smallest_volume_(smallest_volume) {}
+
+    [[nodiscard]] std::optional<FaceStencil<Dim>> best() {
+        descend(0, 0, 0.0);
+        if (std::isinf(best_sum_)) return std::nullopt;
+        return best_;
+    }
+
+private:
+    void descend(int corner, std::size_t first, double sum) {
+        if (corner == Dim + 1) return consider(sum);
+        for (std::size_t i = first; i < near_.size(); ++i) {
+            // Distances increase: once a simplex holds the point, none with a larger sum can be better; of equal sums the
+            // cell numbers decide.
+            if (best_extrapolation_ == 0.0 && sum + near_[i].distance * (Dim + 1 - corner) > best_sum_) return;
+            chosen_[corner] = i;
+            descend(corner + 1, i + 1, sum + near_[i].distance);
+        }
+    }
+
+    void consider(double sum) {
+        Matrix<Dim> edges;
+        const Vector<Dim>& origin = mesh_.cell_centroid[near_[chosen_[0]].cell];
+        for (int j = 0; j < Dim; ++j) edges.col(j) = mesh_.cell_centroid[near_[chosen_[j + 1]].cell] - origin;
+        if (std::abs(edges.determinant()) < (Dim == 2 ? 2.0 : 6.0) * smallest_volume_) return;
+        const Vector<Dim> coordinates = edges.inverse() * (point_ - origin);
+        FaceStencil<Dim> stencil;
+        for (int j = 0; j <= Dim; ++j) {
+            stencil.cells[j] = near_[chosen_[j]].cell;
+            stencil.weights[j] = j == 0 ? 1.0 - coordinates.sum() : coordinates[j - 1];
+        }
+        const double lowest = *std::min_element(stencil.weights.begin(), stencil.weights.end());
+        const double extrapolation =
+            extrapolation_step * std::floor(std::max(0.0, -lowest) / extrapolation_step + resolution);
+        auto cells = stencil.cells;
+        std::sort(cells.begin(), cells.end());
+        if (std::tie(extrapolation, sum, cells) >= std::tie(best_extrapolation_, best_sum_, best_cells_)) return;
+        best_extrapolation_ = extrapolation;
+        best_sum_ = sum;
+        best_cells_ = cells;
+        best_ = stencil;
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    Vector<Dim> point_;
+    std::span<const Near> near_;
+    double smallest_volume_;
+    std::array<std::size_t, Dim + 1> chosen_{};
+    FaceStencil<Dim> best_{};
+    std::array<std::int32_t, Dim + 1> best_cells_{};
+    double best_extrapolation_ = std::numeric_limits<double>::infinity();
+    double best_sum_ = std::numeric_limits<double>::infinity();
+};
+
+template <int Dim>
+FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face, int& halvings) {
+    const std::int32_t cell = mesh.face_cells[face][0];
+    // Regular layers may put the nearest centroids all in one plane: then look further.
+    for (std::size_t wanted = n_nearest<Dim>; wanted <= 4 * n_nearest<Dim>; wanted *= 2) {
+        const auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted);
+        double smallest_volume = volume_floor * mesh.cell_measure[cell];
+        for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5)
+            if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
+        if (near.size() < wanted) break;
+    }
+    throw BadInput(mesh.name + ": face " + std::to_string(face) + " of cell " + std::to_string(cell) +
+                   ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
+                   "The body is one cell thick there: put at least two cells across it.");
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> faces,
+                                              StencilReport& report) {
+    const NearestCells<Dim> nearest(mesh);
+    std::vector<FaceStencil<Dim>> stencils(faces.size());
+    std::vector<int> halvings(faces.size(), 0);
+    parallel_each(static_cast<std::ptrdiff_t>(faces.size()),
+                  [&](std::ptrdiff_t i) { stencils[i] = select(mesh, nearest, faces[i], halvings[i]); });
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const double lowest = *std::min_element(stencils[i].weights.begin(), stencils[i].weights.end());
+        ++report.faces;
+        if (lowest < -extrapolation_step) ++report.extrapolated;
+        if (halvings[i] > 0) ++report.lowered_floor;
+        if (lowest < report.worst_weight) {
+            report.worst_weight = lowest;
+            report.worst_face = faces[i];
+        }
+    }
+    return stencils;
+}
+
+template std::vector<FaceStencil<2>> select_stencils<2>(const mesh::Mesh<2>&, std::span<const std::int32_t>, StencilReport&);
+template std::vector<FaceStencil<3>> select_stencils<3>(const mesh::Mesh<3>&, std::span<const std::int32_t>, StencilReport&);
+
+}  // namespace abut::solid

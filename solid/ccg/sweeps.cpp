@@ -1,0 +1,415 @@
+#include "abut/solid/ccg/sweeps.hpp"
+
+#include <algorithm>
+
+#include "abut/base/parallel.hpp"
+
+namespace abut::solid {
+namespace {
+
+/// Cells a chunk: its work arrays fit the second-level cache several times.
+inline constexpr std::int32_t chunk_size = 512;
+
+/// Cells of a region that are worth the schedule of the whole mesh.
+inline constexpr std::size_t one_chunk = 1024;
+
+/// Elements of a region that are worth a task of their own.
+inline constexpr std::ptrdiff_t region_grain = 256;
+
+template <class Body>
+void for_all(const std::vector<std::int32_t>& list, const Body& body) {
+    parallel_each(
+        static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
+}
+
+template <int Dim>
+LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<Dim>& gradient) {
+    const LaneTensor<Dim> transposed = gradient.transposed();
+    double trace = 0.0;
+    for (int j = 0; j < Dim; ++j) trace += gradient.col[j][j];
+    LaneTensor<Dim> sigma;
+    for (int j = 0; j < Dim; ++j) {
+        sigma.col[j] = cell.mu * (gradient.col[j] + transposed.col[j]);
+        sigma.col[j].r[j] += cell.lambda * trace;
+    }
+    return sigma;
+}
+
+}  // namespace
+
+// One element --------------------------------------------------------------------------------------------------------
+
+// Displacements enter by their differences to that of a cell nearby: a translation of the body costs no accuracy.
+
+template <int Dim>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(std::ptrdiff_t f) const {
+    const FaceStencil<Dim>& stencil = arrays_.stencils[f];
+    const Lanes<Dim> origin = displacement(arrays_.sides[f][0]);
+    Lanes<Dim> sum;
+    for (int j = 0; j <= Dim; ++j) sum += stencil.weights[j] * (displacement(stencil.cells[j]) - origin);
+    return sum;
+}
+
+template <int Dim>
+Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
+    const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
+    const Lanes<Dim> origin = displacement(arrays_.cell_of(static_cast<std::int32_t>(b)));
+    Lanes<Dim> sum;
+    for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
+        sum += arrays_.boundary_weights[i] * (displacement(boundary.cells[i]) - origin);
+    sum += load<Dim>(correction_, b);
+    if (boundary_load.displacement.empty()) return sum;
+    return sum + load<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_gradient(std::ptrdiff_t c) {
+    const Lanes<Dim> u_c = displacement(c);
+    const std::int32_t begin = arrays_.slot_offsets[c];
+    const std::int32_t end = arrays_.slot_offsets[c + 1];
+    LaneTensor<Dim> gradient{};
+    for (std::int32_t i = begin; i < end; ++i) {
+        const Slot& slot = arrays_.slots[i];
+        const double sign = slot.first == c ? 1.0 : -1.0;
+        gradient.add_outer(sign * (load<Dim>(relative_, slot.face) + (displacement(slot.first) - u_c)),
+                           arrays_.faces[slot.face].area_vector);
+    }
+    for (Lanes<Dim>& column : gradient.col) column = arrays_.cells[c].inverse_measure * column;
+    store_tensor(gradient, g_, c);
+    for (std::int32_t i = begin; i < end; ++i)
+        store(gradient.times(arrays_.arms[i]) + (u_c - displacement(arrays_.slots[i].first)), trace_, i);
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
+    LaneTensor<Dim> sum{};
+    Lanes<Dim> direct;
+    for (std::int32_t i = arrays_.slot_offsets[c]; i < arrays_.slot_offsets[c + 1]; ++i) {
+        const Slot& slot = arrays_.slots[i];
+        const Lanes<Dim> force =
+            arrays_.faces[slot.face].jump_stiffness * (load<Dim>(trace_, i) - load<Dim>(trace_, slot.opposite));
+        sum.add_outer(force, arrays_.arms[i]);
+        direct += force;
+    }
+    const CellGeometry<Dim>& cell = arrays_.cells[c];
+    const LaneTensor<Dim> sigma = elastic_stress(cell, load_tensor<Dim>(g_, c));
+    for (int j = 0; j < Dim; ++j) sum.col[j] = sigma.col[j] + cell.inverse_measure * sum.col[j];
+    store_tensor(sum, s_, c);
+    store(direct, direct_, c);
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::interior_force(std::ptrdiff_t f) const {
+    const auto [a, b] = arrays_.sides[f];
+    LaneTensor<Dim> difference = load_tensor<Dim>(s_, a);
+    const LaneTensor<Dim> other = load_tensor<Dim>(s_, b);
+    for (int j = 0; j < Dim; ++j) difference.col[j] -= other.col[j];
+    return difference.times(arrays_.faces[f].area_vector);
+}
+
+template <int Dim>
+Lanes<Dim> CcgSweeps<Dim>::boundary_force(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
+    const std::int32_t f = arrays_.boundary_faces[b];
+    const Lanes<Dim> force =
+        load_tensor<Dim>(s_, arrays_.sides[f][0]).times(arrays_.faces[f].area_vector) + load<Dim>(pair_force_, b);
+    return boundary_load.traction.empty() ? force : force - load<Dim>(boundary_load.traction[b]);
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::cell_gradient(std::ptrdiff_t c) const {
+    const auto& [offsets, rows, weights] = arrays_.of_cell;
+    Lanes<Dim> sum = load<Dim>(direct_, c);
+    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i) sum += weights[i] * load<Dim>(y_, rows[i]);
+    return sum;
+}
+
+template <int Dim>
+Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t place) const {
+    const auto& [offsets, rows, weights] = arrays_.of_boundary_cell;
+    Lanes<Dim> sum;
+    for (std::int32_t i = offsets[place]; i < offsets[place + 1]; ++i)
+        sum += weights[i] * load<Dim>(y_, arrays_.boundary_faces[rows[i]]);
+    return sum;
+}
+
+/// 1/2 |c| eps:C:eps, and 1/2 k |[u]|^2 of the faces whose first side the cell is.
+template <int Dim>
+double CcgSweeps<Dim>::energy(std::ptrdiff_t c) const {
+    const CellGeometry<Dim>& cell = arrays_.cells[c];
+    const LaneTensor<Dim> gradient = load_tensor<Dim>(g_, c);
+    const LaneTensor<Dim> sigma = elastic_stress(cell, gradient);
+    double density = 0.0;
+    for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], gradient.col[j]);
+    double twice = density / cell.inverse_measure;
+    for (std::int32_t i = arrays_.slot_offsets[c]; i < arrays_.slot_offsets[c + 1]; ++i) {
+        const Slot& slot = arrays_.slots[i];
+        if (slot.first != c) continue;
+        const Lanes<Dim> jump = load<Dim>(trace_, i) - load<Dim>(trace_, slot.opposite);
+        twice += arrays_.faces[slot.face].jump_stiffness * dot(jump, jump);
+    }
+    return 0.5 * twice;
+}
+
+template <int Dim>
+Matrix<Dim> CcgSweeps<Dim>::stress(std::int32_t c) const {
+    return unload(elastic_stress(arrays_.cells[c], load_tensor<Dim>(g_, c)));
+}
+
+// One chunk ----------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void CcgSweeps<Dim>::load_displacement(std::span<const Vector<Dim>> u) {
+    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load<Dim>(u[c]), u_, c); });
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
+    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(reconstructed(f), relative_, f);
+    for (std::int32_t b = chunks_[k].boundary; b < chunks_[k + 1].boundary; ++b)
+        store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::gradients_of_chunk(std::int32_t k) {
+    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_gradient(c);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::stresses_of_chunk(std::int32_t k) {
+    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_stress(c);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::face_forces_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
+    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(interior_force(f), y_, f);
+    for (std::int32_t b = chunks_[k].boundary; b < chunks_[k + 1].boundary; ++b)
+        store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const {
+    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) result[c] = unload<Dim>(cell_gradient(c));
+    for (std::int32_t place = chunks_[k].boundary_cell; place < chunks_[k + 1].boundary_cell; ++place)
+        result[arrays_.boundary_cells[place]] += unload<Dim>(boundary_cell_gradient(place));
+}
+
+/// Chunks of cells with the faces they are the first side of, and which of them read each other's results.
+template <int Dim>
+void CcgSweeps<Dim>::set_chunks() {
+    const CcgArrays<Dim>& a = arrays_;
+    const std::int32_t n_chunks = std::max(1, (a.n_cells() + chunk_size - 1) / chunk_size);
+    const auto place = [](const auto& sorted, std::int32_t value) {
+        return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+    };
+    for (std::int32_t k = 0; k <= n_chunks; ++k) {
+        const std::int32_t cell = std::min(k * chunk_size, a.n_cells());
+        const auto face = static_cast<std::int32_t>(
+            std::partition_point(a.sides.begin(), a.sides.end(), [&](const auto& side) { return side[0] < cell; }) -
+            a.sides.begin());
+        chunks_.push_back({cell, face, place(a.boundary_faces, face), place(a.boundary_cells, cell)});
+    }
+
+    std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
+    for (auto& stage : needs) stage.resize(static_cast<std::size_t>(n_chunks));
+    const auto need = [&](Stage stage, std::int32_t cell, std::int32_t of_cell) {
+        auto& row = needs[stage - 1][cell / chunk_size];
+        if (const std::int32_t chunk = of_cell / chunk_size; row.empty() || row.back() != chunk) row.push_back(chunk);
+    };
+    for (const auto& [first, second] : a.sides) {
+        need(gradients, second, first);  // a face's displacement is made with its first side
+        need(stresses, first, second);
+        need(stresses, second, first);
+        need(face_forces, first, second);
+    }
+    for (std::int32_t c = 0; c < a.n_cells(); ++c) {
+        for (const Stage stage : {gradients, stresses, face_forces, cell_gradients}) need(stage, c, c);
+        for (std::int32_t i = a.of_cell.offsets[c]; i < a.of_cell.offsets[c + 1]; ++i)
+            need(cell_gradients, c, a.sides[a.of_cell.rows[i]][0]);
+        if (const std::int32_t p = a.boundary_cell_place[c]; p >= 0)
+            for (std::int32_t i = a.of_boundary_cell.offsets[p]; i < a.of_boundary_cell.offsets[p + 1]; ++i)
+                need(cell_gradients, c, a.cell_of(a.of_boundary_cell.rows[i]));
+    }
+    for (auto& stage : needs)
+        for (auto& row : stage) sort_unique(row);
+    schedule_ = SweepSchedule<n_stages>(n_chunks, needs);
+}
+
+// Whole meshes -------------------------------------------------------------------------------------------------------
+
+/// The sweeps see the corrections face by face; zero everywhere else.
+template <int Dim>
+class CcgSweeps<Dim>::PlacedCorrections {
+public:
+    PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
+        : sweeps_(sweeps), corrections_(corrections) {
+        for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
+            store(load<Dim>(corrections.displacement[i]), sweeps.correction_, corrections.faces[i]);
+            if (!corrections.force.empty()) store(load<Dim>(corrections.force[i]), sweeps.pair_force_, corrections.faces[i]);
+        }
+    }
+    ~PlacedCorrections() {
+        for (const std::int32_t b : corrections_.faces) {
+            store(Lanes<Dim>{}, sweeps_.correction_, b);
+            store(Lanes<Dim>{}, sweeps_.pair_force_, b);
+        }
+    }
+    PlacedCorrections(const PlacedCorrections&) = delete;
+    PlacedCorrections& operator=(const PlacedCorrections&) = delete;
+
+private:
+    CcgSweeps& sweeps_;
+    const FaceCorrections<Dim>& corrections_;
+};
+
+template <int Dim>
+CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays) : arrays_(arrays) {
+    constexpr std::size_t width = lane_width<Dim>;
+    u_.resize(width * arrays.cells.size());
+    relative_.resize(width * arrays.faces.size());
+    g_.resize(width * Dim * arrays.cells.size());
+    trace_.resize(width * arrays.slots.size());
+    s_.resize(width * Dim * arrays.cells.size());
+    direct_.resize(width * arrays.cells.size());
+    y_.resize(width * arrays.faces.size());
+    correction_.resize(width * arrays.boundary_faces.size());
+    pair_force_.resize(width * arrays.boundary_faces.size());
+    set_chunks();
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    const PlacedCorrections placed(*this, corrections);
+    load_displacement(u);
+    schedule_.run([&](int stage, std::int32_t chunk) {
+        switch (stage) {
+            case reconstruction:
+                return reconstruct_chunk(chunk, load);
+            case gradients:
+                return gradients_of_chunk(chunk);
+            case stresses:
+                return stresses_of_chunk(chunk);
+            case face_forces:
+                return face_forces_of_chunk(chunk, load);
+            default:
+                return cell_gradients_of_chunk(chunk, result);
+        }
+    });
+}
+
+template <int Dim>
+double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                     const FaceCorrections<Dim>& corrections) {
+    const PlacedCorrections placed(*this, corrections);
+    load_displacement(u);
+    const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
+    oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
+    oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { gradients_of_chunk(k); });
+    return ordered_sum(arrays_.n_cells(), 0.0, [&](std::ptrdiff_t c) { return energy(c); });
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                           std::span<Vector<Dim>> displacement) {
+    load_displacement(u);
+    parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
+        displacement[b] = u[arrays_.cell_of(static_cast<std::int32_t>(b))] + unload<Dim>(reconstructed_boundary(b, load));
+    });
+}
+
+// A part of the mesh -------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                        const BoundaryLoad<Dim>& boundary_load) {
+    for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
+    for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
+    for_all(region.reconstructed_boundary,
+            [&](std::int32_t b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]); });
+    for_all(region.gradient_cells, [&](std::int32_t c) { set_gradient(c); });
+    for_all(region.stress_cells, [&](std::int32_t c) { set_stress(c); });
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                    const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
+                                    std::span<Vector<Dim>> force) {
+    evaluate_to_stress(region, u, boundary_load);
+    for (std::size_t i = 0; i < region.faces.size(); ++i) {
+        displacement[i] = face_displacement(arrays_.boundary_faces[region.faces[i]]);
+        force[i] = unload<Dim>(boundary_force(region.faces[i], boundary_load));
+    }
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                    const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
+                                    std::span<Vector<Dim>> result) {
+    const PlacedCorrections placed(*this, corrections);
+    for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
+    const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); };
+    if (region.chunks.size() == chunks_.size()) return schedule_.run(task);
+    for (int stage = 0; stage < n_stages; ++stage) task(stage, 0);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
+    region.chunks.clear();
+    if (region.cells.size() < one_chunk) {  // all in one: it costs no more than its cells
+        const auto n = [](const auto& list) { return static_cast<std::int32_t>(list.size()); };
+        region.chunks = {{},
+                         {n(region.faces), n(region.cells), n(region.reconstructed), n(region.reconstructed_boundary),
+                          n(region.gradient_cells), n(region.stress_cells), n(region.force_faces)}};
+        return;
+    }
+    for (const Chunk& chunk : chunks_) {
+        const auto place = [](const std::vector<std::int32_t>& list, std::int32_t first) {
+            return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
+        };
+        region.chunks.push_back({.face = place(region.faces, chunk.boundary),
+                                 .cell = place(region.cells, chunk.cell),
+                                 .reconstructed = place(region.reconstructed, chunk.face),
+                                 .reconstructed_boundary = place(region.reconstructed_boundary, chunk.boundary),
+                                 .gradient_cell = place(region.gradient_cells, chunk.cell),
+                                 .stress_cell = place(region.stress_cells, chunk.cell),
+                                 .force_face = place(region.force_faces, chunk.face)});
+    }
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
+                              std::span<Vector<Dim>> result) {
+    using Offsets = typename Region<Dim>::Offsets;
+    const auto each = [&](const std::vector<std::int32_t>& list, std::int32_t Offsets::*of, const auto& body) {
+        for (std::int32_t i = region.chunks[k].*of; i < region.chunks[k + 1].*of; ++i) body(list[i]);
+    };
+    switch (stage) {
+        case reconstruction:
+            each(region.reconstructed, &Offsets::reconstructed,
+                 [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
+            return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](std::int32_t b) {
+                store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+            });
+        case gradients:
+            return each(region.gradient_cells, &Offsets::gradient_cell, [&](std::int32_t c) { set_gradient(c); });
+        case stresses:
+            return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) { set_stress(c); });
+        case face_forces:
+            each(region.force_faces, &Offsets::force_face, [&](std::int32_t f) { store(interior_force(f), y_, f); });
+            return each(region.faces, &Offsets::face,
+                        [&](std::int32_t b) { store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]); });
+        default:
+            for (std::int32_t i = region.chunks[k].cell; i < region.chunks[k + 1].cell; ++i) {
+                const std::int32_t c = region.cells[i];
+                Lanes<Dim> sum = cell_gradient(c);
+                if (const std::int32_t place = arrays_.boundary_cell_place[c]; place >= 0)
+                    sum += boundary_cell_gradient(place);
+                result[i] = unload<Dim>(sum);
+            }
+    }
+}
+
+template class CcgSweeps<2>;
+template class CcgSweeps<3>;
+
+}  // namespace abut::solid

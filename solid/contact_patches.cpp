@@ -1,0 +1,85 @@
+#include "abut/solid/contact_patches.hpp"
+
+#include <algorithm>
+
+#include "abut/base/disjoint_sets.hpp"
+#include "abut/base/sort_unique.hpp"
+
+namespace abut::solid {
+namespace {
+
+/// Cells by their place in an increasing list, joined to patches.
+template <int Dim>
+class PatchFinder {
+public:
+    PatchFinder(const Ccg<Dim>& ccg, std::span<const TouchingFaces> touching)
+        : ccg_(ccg), touching_(touching), cells_(cells_of_faces()), sets_(cells_.size()), patch_of_root_(cells_.size(), -1) {
+        for (const auto& [face_1, face_2] : touching_) {
+            join_cells_of(face_1);
+            join_cells_of(face_2);
+            if (face_1 != no_face && face_2 != no_face) sets_.join(place(face_1), place(face_2));
+        }
+    }
+
+    std::vector<dynamics::ContactPatch> find() {
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            dynamics::ContactPatch& patch = patch_of(static_cast<std::int32_t>(i));
+            patch.points.push_back(cells_[i]);
+            patch.held = patch.held || ccg_.has_prescribed_face(cells_[i]);
+        }
+        for (const auto& [face_1, face_2] : touching_)
+            if (face_1 == no_face || face_2 == no_face) patch_of(place(std::max(face_1, face_2))).held = true;
+        return std::move(patches_);
+    }
+
+private:
+    std::vector<std::int32_t> cells_of_faces() const {
+        std::vector<std::int32_t> cells;
+        for (const auto& [face_1, face_2] : touching_)
+            for (const std::int32_t face : {face_1, face_2}) {
+                if (face == no_face) continue;
+                const auto of_face = ccg_.cells_of(face);
+                cells.insert(cells.end(), of_face.begin(), of_face.end());
+            }
+        sort_unique(cells);
+        return cells;
+    }
+
+    std::int32_t place_of_cell(std::int32_t cell) const {
+        return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
+    }
+    std::int32_t place(std::int32_t face) const { return place_of_cell(ccg_.cells_of(face).front()); }
+
+    void join_cells_of(std::int32_t face) {
+        if (face == no_face) return;
+        for (const std::int32_t cell : ccg_.cells_of(face)) sets_.join(place(face), place_of_cell(cell));
+    }
+
+    dynamics::ContactPatch& patch_of(std::int32_t place) {
+        std::int32_t& patch = patch_of_root_[sets_.find(place)];
+        if (patch < 0) {
+            patch = static_cast<std::int32_t>(patches_.size());
+            patches_.emplace_back();
+        }
+        return patches_[patch];
+    }
+
+    const Ccg<Dim>& ccg_;
+    std::span<const TouchingFaces> touching_;
+    std::vector<std::int32_t> cells_;
+    DisjointSets sets_;
+    std::vector<std::int32_t> patch_of_root_;
+    std::vector<dynamics::ContactPatch> patches_;
+};
+
+}  // namespace
+
+template <int Dim>
+std::vector<dynamics::ContactPatch> contact_patches(const Ccg<Dim>& ccg, std::span<const TouchingFaces> touching) {
+    return PatchFinder<Dim>(ccg, touching).find();
+}
+
+template std::vector<dynamics::ContactPatch> contact_patches<2>(const Ccg<2>&, std::span<const TouchingFaces>);
+template std::vector<dynamics::ContactPatch> contact_patches<3>(const Ccg<3>&, std::span<const TouchingFaces>);
+
+}  // namespace abut::solid

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/dynamics/filter.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+
+namespace abut::solid {
+
+/// Two faces in contact, as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+struct TouchingFaces {
+    std::int32_t face_1;
+    std::int32_t face_2;
+};
+inline constexpr std::int32_t no_face = -1;
+
+/// The cells whose displacement enters these faces, sorted into patches: the cells of one face are in one patch, and so are
+/// the two faces of a pair. In the order of their first cells.
+template <int Dim>
+[[nodiscard]] std::vector<dynamics::ContactPatch> contact_patches(const Ccg<Dim>& ccg,
+                                                                  std::span<const TouchingFaces> touching);
+
+}  // namespace abut::solid

@@ -1,0 +1,47 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/lanes.hpp"
+
+namespace abut::solid {
+
+/// How far boundary faces have moved at most between two states. With D the deficit of a row of weights W_j and c the cell
+/// of the face,
+///
+///     dû_f = (1 - D) du_c + sum_j W_j (du_j - du_c) + what the loads have changed
+///
+/// and by Cauchy and Schwarz |sum_j W_j d_j|^2 <= sum |W_j| sum |W_j| |d_j|^2: a norm is read instead of each W_j.
+/// Neighbours move alike, so the bound is close.
+template <int Dim>
+class MotionBound {
+public:
+    /// The arrays must outlive it.
+    explicit MotionBound(const CcgArrays<Dim>& arrays);
+
+    [[nodiscard]] double operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
+                                    std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
+
+    /// Under constant loads the bound grows by at most this times the motion of the cell that moves farthest: the largest
+    /// |1 - D| + 2 sum_j |W_j|, j other cells than c [-]. The bound is a seminorm of du.
+    [[nodiscard]] double amplification() const { return amplification_; }
+
+private:
+    [[nodiscard]] double of_face(std::int32_t b) const;
+
+    const CcgArrays<Dim>& arrays_;
+    std::vector<std::int32_t> cells_;   // all that a boundary face depends on, and those of the faces, increasing
+    std::vector<std::int32_t> own_;     // place in cells_ of the face's cell (n_boundary)
+    std::vector<double> kept_;          // |1 - D| (n_boundary)
+    std::vector<std::int32_t> places_;  // place in cells_, by weight
+    std::vector<double> norms_;         // |W_j|, by weight; 0 for the face's own cell
+    std::vector<double> norm_sum_;      // of a row (n_boundary)
+    double amplification_ = 0.0;
+    std::vector<double> moved_;  // du of cells_, registers
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,75 @@
+// Where the method ends: one number of a scene at a time is taken to its extremes, and each run is held to the laws that it
+// must obey whatever the number is.
+//
+// A run `held` when it came to its end with finite numbers, H~ and linear momentum kept to 1e-10 of their scale, H - H~
+// below the energy of the run, and no contact lost. It is `refused` when it ended with a message, which then says what is
+// allowed; it `failed` when it came to its end and one of these is not so. A change of units must leave every number
+// without a unit as it is, to 1e-9. No energy is claimed without H - H~, |e|/m and the number of events beside it.
+#include <algorithm>
+#include <set>
+
+#include "apps/support/choices.hpp"
+#include "apps/support/files.hpp"
+#include "studies/extremes/families.hpp"
+#include "studies/extremes/report.hpp"
+
+namespace abut::examples::extremes {
+namespace {
+
+const Program program{
+    .name = "extremes",
+    .purpose = "Units, stiffness, density, speed, meshes, time steps and more, taken to their extremes.",
+    .footer = "A run held, was refused with a message, or failed: the head of the source says what is asked."};
+
+struct Options {
+    std::vector<std::string> only;
+    SweepOptions sweep{.run = {.out = "out/" + program.name}};
+};
+
+void add_options(CLI::App& app, Options& options) {
+    std::vector<std::string> names;
+    for (const Family& family : families()) names.push_back(family.name);
+    app.add_option("--only", options.only, "families to sweep; by default all of " + joined(names))
+        ->delimiter(',')
+        ->check(one_of(names))
+        ->type_name("NAME,...")
+        ->group("Sweeps");
+    add_count(app, "--steps", options.sweep.steps, "steps of the families long and rest", 1)->group("Sweeps");
+    app.add_flag("--quick", options.sweep.quick, "fewer values of each family, and at most 2,000 steps of a long run")
+        ->default_str("off")
+        ->group("Sweeps");
+    add_number(app, "--cfl", options.sweep.run.cfl, "time step over the stable step, where it is not swept",
+               {.above = 0.0, .below = 1.0, .closed = true})
+        ->group("Time");
+    add_contact_options(app, options.sweep.run);
+    app.add_option("--out", options.sweep.run.out, "folder of all results; made if it is not there")
+        ->type_name("DIR")
+        ->capture_default_str()
+        ->group("Output");
+}
+
+void sweep(const Options& options) {
+    prepare_directory(options.sweep.run.out);
+    remove_files(options.sweep.run.out, {"extremes.csv", "summary.json"});
+    const std::set<std::string> wanted(options.only.begin(), options.only.end());
+    std::vector<Row> rows;
+    for (const Family& family : families()) {
+        if (!wanted.empty() && !wanted.contains(family.name)) continue;
+        print_head(family);
+        family.sweep(options.sweep, [&](const Row& row) {
+            print(row);
+            rows.push_back(row);
+        });
+    }
+    write_report(program, options.sweep.run.out, options.sweep, rows);
+}
+
+}  // namespace
+}  // namespace abut::examples::extremes
+
+int main(int argc, char** argv) {
+    using namespace abut::examples;
+    extremes::Options options;
+    return run_program(
+        extremes::program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { sweep(options); });
+}

@@ -1,0 +1,44 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "studies/extremes/trial.hpp"
+
+namespace abut::examples::extremes {
+
+/// What a user chooses about the sweeps.
+struct SweepOptions {
+    int steps = 100'000;  ///< of the long runs
+    bool quick = false;   ///< fewer values a family, and no more than 2,000 steps in a long run
+    RunOptions run;       ///< cfl and choices of contact of all runs that do not sweep them
+};
+
+using Sink = std::function<void(const Row&)>;
+
+/// Runs that take one number of a scene to its extremes.
+struct Family {
+    std::string name;
+    std::string question;
+    std::function<void(const SweepOptions&, const Sink&)> sweep;
+};
+[[nodiscard]] const std::vector<Family>& families();
+
+// The sweeps, each in the file of its subject.
+void sweep_units(const SweepOptions& options, const Sink& sink);
+void sweep_offset(const SweepOptions& options, const Sink& sink);
+void sweep_stiffness(const SweepOptions& options, const Sink& sink);
+void sweep_density(const SweepOptions& options, const Sink& sink);
+void sweep_poisson(const SweepOptions& options, const Sink& sink);
+void sweep_speed(const SweepOptions& options, const Sink& sink);
+void sweep_cfl(const SweepOptions& options, const Sink& sink);
+void sweep_aspect(const SweepOptions& options, const Sink& sink);
+void sweep_refinement(const SweepOptions& options, const Sink& sink);
+void sweep_thickness(const SweepOptions& options, const Sink& sink);
+void sweep_wedge(const SweepOptions& options, const Sink& sink);
+void sweep_edge(const SweepOptions& options, const Sink& sink);
+void sweep_crowd(const SweepOptions& options, const Sink& sink);
+void sweep_long(const SweepOptions& options, const Sink& sink);
+void sweep_rest(const SweepOptions& options, const Sink& sink);
+
+}  // namespace abut::examples::extremes

@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "apps/support/program.hpp"
+#include "studies/extremes/families.hpp"
+
+namespace abut::examples::extremes {
+
+/// The head of a table, then a line a row as they come.
+void print_head(const Family& family);
+void print(const Row& row);
+
+/// Leaves extremes.csv, a line a row, and summary.json: of each family how many held, were refused and failed, the worst
+/// numbers of those that ran, and all rows.
+void write_report(const Program& program, const std::filesystem::path& out, const SweepOptions& options,
+                  const std::vector<Row>& rows);
+
+}  // namespace abut::examples::extremes

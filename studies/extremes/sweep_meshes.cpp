@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "abut/mesh/cell_shape.hpp"
+#include "studies/extremes/families.hpp"
+#include "studies/extremes/scenes.hpp"
+
+namespace abut::examples::extremes {
+namespace {
+
+using mesh::CellShape;
+
+const std::array plane_shapes = {CellShape::quadrangle, CellShape::triangle};
+const std::array solid_shapes = {CellShape::hexahedron, CellShape::tetrahedron};
+
+constexpr int steps_of_thin_cells = 2000;
+
+}  // namespace
+
+/// Cells are 1/6 wide at most; the thin way is 1/6 over the aspect. The gap closes within a few steps.
+void sweep_aspect(const SweepOptions& options, const Sink& sink) {
+    const std::vector<double> aspects = options.quick ? std::vector{1.0, 1e4} : std::vector{1.0, 10.0, 1e2, 1e3, 1e4};
+    RunOptions run = options.run;
+    run.steps = steps_of_thin_cells;
+    for (const CellShape shape : plane_shapes)
+        for (const double aspect : aspects)
+            for (const int thin : {0, 1}) {
+                Vector<2> sides = Vector<2>::Ones();
+                sides[thin] /= aspect;
+                const Meeting<2> meeting{.gap = 0.02 / aspect, .aside = 0.3};
+                const auto value =
+                    fmt::format("{} {:g} {}", mesh::name(shape), aspect, thin == 0 ? "along the normal" : "across it");
+                const std::array<Block<2>, 2> pair{{{sides, {6, 6}, shape}, {sides, {5, 5}, shape}}};
+                sink(attempt(meeting_of_blocks<2>("aspect", value, meeting, pair, run)));
+                if (thin == 1) continue;
+                RunOptions filtered = run;
+                filtered.filter = true;
+                sink(attempt(meeting_of_blocks<2>("aspect", value + ", filter", meeting, pair, filtered)));
+            }
+    for (const CellShape shape : solid_shapes)
+        for (const double aspect : aspects) {
+            if (aspect != aspects.front() && aspect != aspects.back()) continue;
+            const Vector<3> sides(1.0, 1.0, 1.0 / aspect);
+            const Meeting<3> meeting{.gap = 0.02 / aspect, .aside = 0.3};
+            RunOptions few = run;
+            few.steps = 300;
+            const std::array<Block<3>, 2> pair{{{sides, {3, 3, 3}, shape}, {sides, {2, 2, 2}, shape}}};
+            const auto value = fmt::format("{} {:g} across the normal", mesh::name(shape), aspect);
+            sink(attempt(meeting_of_blocks<3>("aspect", value, meeting, pair, few)));
+        }
+}
+
+/// Three cells below; above cells of 1/(3 ratio), as many as cover one and a bit of them.
+void sweep_refinement(const SweepOptions& options, const Sink& sink) {
+    for (const int ratio : options.quick ? std::vector{1, 100} : std::vector{1, 3, 10, 30, 100})
+        for (const CellShape shape : plane_shapes) {
+            const double fine = 1.0 / (3.0 * ratio);
+            const int along = ratio + ratio / 3 + 1, across = 4;
+            const Block<2> coarse{.sides = {1.0, 1.0}, .cells = {3, 3}, .shape = shape};
+            const Block<2> upper{.sides = {along * fine, across * fine}, .cells = {along, across}, .shape = shape};
+            const Meeting<2> meeting{.gap = 0.02 / ratio, .slide = 0.02};
+            RunOptions run = options.run;
+            run.steps = steps_of_thin_cells;
+            sink(attempt(meeting_of_blocks<2>("refinement", fmt::format("{} 1:{}", mesh::name(shape), ratio), meeting,
+                                              {coarse, upper}, run)));
+        }
+}
+
+void sweep_thickness(const SweepOptions& options, const Sink& sink) {
+    for (const int cells : {1, 2, 4}) {
+        const Meeting<2> meeting{.gap = 0.01, .time = 6.0};
+        for (const CellShape shape : plane_shapes) {
+            const Block<2> plate{.sides = {1.0, 0.1 * cells}, .cells = {10, cells}, .shape = shape};
+            const Block<2> block{.sides = {0.5, 0.5}, .cells = {6, 6}, .shape = shape};
+            sink(attempt(meeting_of_blocks<2>("thickness", fmt::format("2D {} {}", mesh::name(shape), cells), meeting,
+                                              {plate, block}, options.run)));
+        }
+        const Meeting<3> in_space{.gap = 0.01, .time = 2.0};
+        for (const CellShape shape : solid_shapes) {
+            const Block<3> plate{.sides = {1.0, 1.0, 0.25 * cells}, .cells = {4, 4, cells}, .shape = shape};
+            const Block<3> block{.sides = {0.5, 0.5, 0.5}, .cells = {3, 3, 3}, .shape = shape};
+            sink(attempt(meeting_of_blocks<3>("thickness", fmt::format("3D {} {}", mesh::name(shape), cells), in_space,
+                                              {plate, block}, options.run)));
+        }
+    }
+}
+
+/// A tip below 60 degrees looks at a flat face with no face of its own by the default facing cosine: -0.02 lets it.
+void sweep_wedge(const SweepOptions& options, const Sink& sink) {
+    for (const double degrees : {120.0, 90.0, 60.0, 20.0, 5.0})
+        for (const double facing : {options.run.contact.search.facing_cosine, -0.02})
+            for (const bool on_plane : {true, false}) {
+                const Meeting<2> meeting{.aside = 0.03, .time = 6.0};
+                RunOptions run = options.run;
+                run.contact.search.facing_cosine = facing;
+                sink(attempt<2>(
+                    {.family = "wedge",
+                     .value = fmt::format("{:g} degrees on a {}, {:g}", degrees, on_plane ? "plane" : "block", facing),
+                     .speed = meeting.speed,
+                     .keeps_momentum = !on_plane,
+                     .make = [=] { return wedge(meeting, degrees * std::numbers::pi / 180.0, on_plane); },
+                     .run = run}));
+            }
+}
+
+void sweep_edge(const SweepOptions& options, const Sink& sink) {
+    for (const double slide : {0.02, 0.1, 0.3}) {
+        const Meeting<2> meeting{.gap = 0.005, .aside = 0.8, .slide = slide};
+        const std::array<Block<2>, 2> pair{{{.cells = {7, 7}}, {.cells = {5, 5}}}};
+        sink(attempt(
+            meeting_of_blocks<2>("edge", fmt::format("2D off the edge, {:g} c", slide), meeting, pair, options.run)));
+        Meeting<3> in_space{.gap = 0.005, .aside = 0.6, .slide = slide, .time = 4.0};
+        const std::array<Block<3>, 2> boxes{{{.cells = {3, 3, 3}}, {.cells = {2, 2, 2}}}};
+        sink(attempt(
+            meeting_of_blocks<3>("edge", fmt::format("3D off the corner, {:g} c", slide), in_space, boxes, options.run)));
+    }
+}
+
+}  // namespace abut::examples::extremes

@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/support/run.hpp"
+#include "studies/extremes/scenes.hpp"
+
+namespace abut::examples::extremes {
+
+/// What became of a run at an extreme.
+enum class Verdict {
+    held,     ///< it ran to its end, and all that is asked of it is so (`Limits` below)
+    refused,  ///< it ended with a message
+    failed,   ///< it ran to its end, but something that is asked of it is not so
+};
+[[nodiscard]] std::string name_of(Verdict verdict);
+
+/// What is asked of a run for `held`, beside that the bodies meet and no contact is lost.
+inline constexpr double largest_drift = 1e-10;           ///< of H~ over the scale of the scene
+inline constexpr double largest_momentum_drift = 1e-10;  ///< over the sum of m |v| at the start
+inline constexpr double largest_excess = 1.0;      ///< H - H~ over the scale: the parasitic mode owns less than the run
+inline constexpr double largest_deviation = 1e-9;  ///< of dimensionless numbers that must not depend on the units
+
+/// A run and what is expected of it.
+template <int Dim>
+struct Trial {
+    std::string family;
+    std::string value;           ///< "E_2/E_1 = 1e+06"
+    double speed = 1.0;          ///< |e|/m is given over it [m/s]
+    bool keeps_momentum = true;  ///< false: walls or gravity act
+    std::function<Scene<Dim>()> make;
+    RunOptions run;
+};
+
+/// Two blocks that run into each other.
+template <int Dim>
+[[nodiscard]] Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
+                                           const std::array<Block<Dim>, 2>& pair, const RunOptions& run);
+
+/// A number without a unit.
+struct Number {
+    std::string name;
+    double value;
+};
+
+/// A line of the table. Numbers of a refused run are NaN or 0.
+struct Row {
+    std::string family, value;
+    Verdict verdict = Verdict::refused;
+    std::string message;             ///< of a refusal; what is not so of a failure
+    bool is_finite = false;          ///< all energies, momenta and speeds are
+    double drift = not_given;        ///< max |H~ - H~0 - work| over the scale of the scene
+    double excess = not_given;       ///< max (H - H~) over the scale
+    double parasitic = not_given;    ///< max |e|/m over the speed of the trial
+    double momentum = not_given;     ///< drift over the sum of m |v| at the start
+    double compression = not_given;  ///< largest |g|/D
+    double sliding = not_given;      ///< largest |g| |dA/ds| over the smaller face
+    double slipped = not_given;      ///< largest |g|/D of pairs that slid off each other
+    double deviation = not_given;    ///< from the same run in other units or at another place
+    std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
+    std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts
+};
+
+/// Runs it; every exception becomes a row.
+template <int Dim>
+[[nodiscard]] Row attempt(const Trial<Dim>& trial);
+
+/// Sets `deviation`: the largest difference of the first `how_many` numbers from those of the reference, over 1 or the number,
+/// whichever is larger; and `failed` where it is more than `allowed`.
+void compare(Row& row, const Row& reference, std::size_t how_many, double allowed);
+
+}  // namespace abut::examples::extremes

@@ -1,0 +1,42 @@
+#pragma once
+#include <array>
+
+#include "abut/contact/options.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/statics.hpp"
+
+/// Two blocks of unit width and height, one on the other, under a uniform pressure from above: the exact solution is one
+/// uniform stress in both, whatever their materials and meshes, since contact is free of friction.
+namespace abut::examples {
+
+enum class PatchMesh {
+    matching,      ///< bricks, node on node across the contact
+    non_matching,  ///< bricks, 3 above 4 in each direction of the contact
+    unstructured,  ///< triangles or tetrahedra of Gmsh that do not match
+};
+
+struct PatchOptions {
+    PatchMesh mesh = PatchMesh::matching;
+    bool free_sides = false;                ///< the sides at xmax (and ymax) are free, instead of held by rollers
+    std::array<double, 2> young{1.0, 7.0};  ///< lower and upper [Pa]
+    std::array<double, 2> poisson{0.3, 0.2};
+    /// Pressure over the wave modulus of the lower block [-]. Contact answers to the second order of it: areas shared by
+    /// faces at the edges change as the blocks slide
+    double strain = 1e-9;
+    contact::ContactOptions contact;
+    solid::Neumann neumann = solid::Neumann::local_equilibrium;
+};
+
+/// Largest errors of all cells and contact faces [-].
+struct PatchErrors {
+    double stress = 0.0;        ///< Frobenius norm of the error over the pressure
+    double displacement = 0.0;  ///< over the largest displacement
+    double pressure = 0.0;      ///< of the contact pressure, over the pressure
+    solid::StaticReport report;
+};
+
+/// Throws what `solve_statics` throws. The choices that are there for comparison may not come into balance: see the report.
+template <int Dim>
+[[nodiscard]] PatchErrors solve_patch(const PatchOptions& options);
+
+}  // namespace abut::examples

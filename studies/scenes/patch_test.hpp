@@ -1,0 +1,39 @@
+#pragma once
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/statics.hpp"
+
+/// What every discretisation of elasticity must keep: constant strain, and no energy of rigid motions.
+namespace abut::examples {
+
+/// Where the affine displacement of the patch test comes from.
+enum class PatchBoundary {
+    displacement,  ///< imposed on all sides
+    mixed,         ///< on the sides across the first axis; the others have the traction of the constant stress
+};
+
+/// Largest errors of the static solution, relative to the largest exact value.
+struct PatchErrors {
+    double displacement;  ///< of the cells [-]
+    double stress;        ///< in the Frobenius norm [-]
+    solid::StaticReport report;
+};
+
+/// A box under the boundary conditions of a displacement A x + b, A without symmetry, E = 70e3, nu = 0.3; solved from
+/// u = 0 as far as rounding allows. Throws as solid::solve_statics.
+template <int Dim>
+[[nodiscard]] PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::Neumann neumann);
+
+/// Eigenvalues of the stiffness K of a free body.
+struct ZeroModes {
+    int count;            ///< of |eigenvalue| below 1e-11 of the highest
+    double largest_zero;  ///< the largest |eigenvalue| of these over the highest [-]
+    double next;          ///< the smallest of all others over the highest [-]
+};
+
+/// From a dense matrix: for small meshes, up to some thousand unknowns. Throws std::runtime_error where the decomposition
+/// fails.
+template <int Dim>
+[[nodiscard]] ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::Neumann neumann);
+
+}  // namespace abut::examples

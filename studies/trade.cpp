@@ -1,0 +1,156 @@
+// What a faster setting costs, and what a slower one gives: the same few scenes over the ladder of all choices.
+//
+// Each setting, as it would be typed, is run on each mesh of each problem: two cylinders that slip (2D, 3D), a cylinder on a
+// block at rest, a bar that hits a wall. The table has four errors beside the seconds: drift of H~, error of the true energy H,
+// of the restitution, of the contact pressure. A run is on the front where no other one of its problem is as fast and as good.
+// docs/trade.md reads the table; the presets of the other programs follow from it.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "abut/base/error.hpp"
+#include "apps/support/choices.hpp"
+#include "apps/support/files.hpp"
+#include "apps/support/preset.hpp"
+#include "studies/trade/report.hpp"
+
+namespace abut::examples::trade {
+namespace {
+
+const Program program{
+    .name = "trade",
+    .purpose = "Error against seconds, for all choices that trade one for the other.",
+    .footer =
+        "Seconds are those of the steps, least of --repetitions. Shared machines are noisy: trust ratios of two, not "
+        "of one and a tenth."};
+
+struct Options {
+    std::vector<std::string> only;
+    Extent extent = Extent::each;
+    std::vector<Setting> settings;  ///< of the user, beside the ladder
+    int levels = 0;                 ///< coarsest meshes of each problem; 0: all
+    int repetitions = 1;
+    double limit = 120.0;  ///< of a run [s]
+    std::filesystem::path out = "out/" + program.name;
+};
+
+/// Why no program would take a setting; empty if one would.
+std::string refusal(const Setting& setting) {
+    try {
+        RunOptions run;
+        apply_words(setting, run);
+        return "";
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+}
+
+void add_options(CLI::App& app, Options& options) {
+    std::vector<std::string> names;
+    for (const Problem& problem : problems()) names.push_back(problem.name);
+    app.add_option("--only", options.only, "problems to run; by default all of " + joined(names))
+        ->delimiter(',')
+        ->check(one_of(names))
+        ->type_name("NAME,...")
+        ->group("Ladder");
+    add_choice(app, "--settings", options.extent, "each choice by itself, or products of those that act together, too",
+               Choices<Extent>{{"each", Extent::each}, {"products", Extent::products}})
+        ->group("Ladder");
+    app.add_option("--also", options.settings,
+                   "a setting of your own, in quotation marks: \"--cfl 0.5 --events off\"; may come again; by default none")
+        ->type_name("OPTIONS")
+        ->expected(1)
+        ->take_all()
+        ->check(CLI::Validator(refusal, "", ""))
+        ->group("Ladder");
+    add_count(app, "--levels", options.levels, "coarsest meshes of each problem; 0: all", 0)->group("Ladder");
+    add_count(app, "--repetitions", options.repetitions, "of each run, in turn; the least time counts", 1)->group("Ladder");
+    add_number(app, "--limit", options.limit,
+               "of a run in time; one that takes longer is stopped, and said to be. Not of the references",
+               {.unit = "s", .above = 0.0})
+        ->group("Ladder");
+    app.add_option("--out", options.out, "folder of all results; made if it is not there")
+        ->type_name("DIR")
+        ->capture_default_str()
+        ->group("Output");
+}
+
+nlohmann::ordered_json to_json(const Options& options) {
+    return {{"only", options.only},     {"settings", options.extent == Extent::each ? "each" : "products"},
+            {"also", options.settings}, {"levels", options.levels},
+            {"limit", options.limit},   {"repetitions", options.repetitions}};
+}
+
+/// Runs it; every exception becomes a row.
+Row attempt(const Problem& problem, int level, const Setting& setting, double reference, double limit) {
+    Row row{.problem = problem.name, .level = level, .setting = setting};
+    try {
+        RunOptions run = problem.base;
+        apply_words(setting, run);
+        row.outcome = problem.solve(run, level, reference, limit);
+    } catch (const std::exception& error) {
+        row.refusal = error.what();
+    }
+    return row;
+}
+
+/// Of the ladder, then those of the user.
+std::vector<Setting> settings_of(const Problem& problem, const Options& options) {
+    std::vector<Setting> settings = ladder(options.extent, problem.at_rest);
+    for (const Setting& setting : options.settings)
+        if (std::ranges::find(settings, setting) == settings.end()) settings.push_back(setting);
+    return settings;
+}
+
+/// Restitution of the finest mesh, where there is no exact one.
+double reference_of(const Problem& problem) {
+    if (problem.reference_level == 0) return not_given;
+    RunOptions run = problem.base;
+    apply_words(words_of(Preset::exact), run);
+    const double reference = problem.restitution(run, problem.reference_level);
+    fmt::print("  {:>4}  restitution {:.6f}, --preset exact\n", problem.reference_level, reference);
+    return reference;
+}
+
+std::vector<Row> climb(const Problem& problem, const Options& options) {
+    print_head(problem);
+    const std::vector<Setting> settings = settings_of(problem, options);
+    const double reference = reference_of(problem);
+    std::vector<int> levels = problem.levels;
+    if (options.levels > 0) levels.resize(std::min(levels.size(), static_cast<std::size_t>(options.levels)));
+    std::vector<Row> rows;
+    for (const int level : levels) {
+        const std::size_t first = rows.size();
+        for (const Setting& setting : settings) rows.push_back(attempt(problem, level, setting, reference, options.limit));
+        for (int i = 1; i < options.repetitions; ++i)
+            for (std::size_t row = first; row < rows.size(); ++row) {
+                if (!rows[row].finished()) continue;
+                const Row again = attempt(problem, level, rows[row].setting, reference, options.limit);
+                if (again.finished()) rows[row].outcome.seconds = std::min(rows[row].outcome.seconds, again.outcome.seconds);
+            }
+        for (std::size_t row = first; row < rows.size(); ++row) print(rows[row]);
+    }
+    return rows;
+}
+
+void run(const Options& options) {
+    prepare_directory(options.out);
+    remove_files(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
+    std::vector<Row> rows;
+    for (const Problem& problem : problems()) {
+        if (!options.only.empty() && std::ranges::find(options.only, problem.name) == options.only.end()) continue;
+        for (Row& row : climb(problem, options)) rows.push_back(std::move(row));
+    }
+    compare(rows);
+    write_report(program, options.out, to_json(options), rows);
+}
+
+}  // namespace
+}  // namespace abut::examples::trade
+
+int main(int argc, char** argv) {
+    using namespace abut::examples;
+    trade::Options options;
+    return run_program(
+        trade::program, argc, argv, [&](CLI::App& app) { trade::add_options(app, options); }, [&] { trade::run(options); });
+}

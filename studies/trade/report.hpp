@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/support/program.hpp"
+#include "studies/trade/ladder.hpp"
+#include "studies/trade/problems.hpp"
+
+namespace abut::examples::trade {
+
+/// A line of the table.
+struct Row {
+    std::string problem;
+    int level;
+    Setting setting;
+    Outcome outcome;
+    std::string refusal;                           ///< why it did not come to its end; empty: it did
+    double ratio = not_given;                      ///< seconds over those of the defaults on the same mesh
+    std::array<bool, measures.size()> on_front{};  ///< no run of the problem is faster and not worse by this error
+
+    [[nodiscard]] bool finished() const { return refusal.empty(); }
+};
+
+/// Fills `ratio` and `on_front` of finished runs.
+void compare(std::vector<Row>& rows);
+
+void print_head(const Problem& problem);
+void print(const Row& row);
+
+/// Leaves trade.csv, summary.json and the picture pareto.png with its script.
+void write_report(const Program& program, const std::filesystem::path& out, const nlohmann::ordered_json& options,
+                  const std::vector<Row>& rows);
+
+}  // namespace abut::examples::trade

@@ -1,0 +1,160 @@
+// Patch test of the bulk and count of its zero modes, on every kind of mesh and for every Neumann choice.
+//
+// A displacement A x + b imposed on the whole boundary of a box has to come back in all cells, with its constant stress:
+// to 1e-12. The same with the traction of that stress on all sides but two, which the Neumann choice takes part in.
+// A free body has exactly 3 (2D) or 6 (3D) motions without energy: eigenvalues of K that are zero, the next one far above.
+// `local_equilibrium` must pass everything; `extrapolate` and `adjacent` are there for comparison, and asked for nothing.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "abut/base/stopwatch.hpp"
+#include "apps/support/choices.hpp"
+#include "apps/support/comparison.hpp"
+#include "studies/scenes/boxes.hpp"
+#include "studies/scenes/patch_test.hpp"
+#include "studies/validation/study.hpp"
+
+namespace abut::examples {
+namespace {
+
+using solid::Neumann;
+
+const Program program{.name = "bulk_patch",
+                      .purpose = "Affine displacements and rigid motions: patch test and zero modes on all kinds of mesh.",
+                      .footer = "The box is 1.4 x 1.1 (x 1.1) m; errors are the largest of all cells, relative."};
+
+constexpr double allowed_error = 1e-12;
+constexpr double allowed_zero = 1e-8;  // the largest zero over the next eigenvalue
+
+const Choices<Neumann> neumann_choices = {{"local_equilibrium", Neumann::local_equilibrium},
+                                          {"extrapolate", Neumann::extrapolate},
+                                          {"adjacent", Neumann::adjacent}};
+
+struct PatchOptions {
+    int cells = 5;
+    int mode_cells = 3;
+    std::filesystem::path out = "out/" + program.name;
+};
+
+void add_options(CLI::App& app, PatchOptions& options) {
+    add_count(app, "--cells", options.cells, "along an edge of the box of the patch test", 2)->group("Mesh");
+    add_count(app, "--mode-cells", options.mode_cells, "along an edge of the box whose eigenvalues are taken (dense matrix)",
+              2)
+        ->group("Mesh");
+    add_out_option(app, options.out);
+}
+
+template <int Dim>
+mesh::Mesh<Dim> box(BoxCells cells, int along_edge) {
+    Vector<Dim> upper = Vector<Dim>::Constant(0.8);
+    upper[0] = 1.1;
+    return box_of<Dim>(cells, Vector<Dim>::Constant(-0.3), upper, 1.1 / along_edge);
+}
+
+double target(Neumann neumann, double allowed) {
+    return neumann == Neumann::local_equilibrium ? allowed : std::numeric_limits<double>::infinity();
+}
+
+/// A relative error, which should be 0.
+Quantity error_of(const std::string& name, double value, double allowed) {
+    return {.name = name, .unit = "", .value = value, .reference = 0.0, .scale = 1.0, .allowed = allowed};
+}
+
+template <int Dim>
+void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name, Neumann neumann,
+               double allowed) {
+    const PatchErrors errors = patch_test(mesh, boundary, neumann);
+    level.quantities.push_back(error_of("displacement, " + name, errors.displacement, allowed));
+    level.quantities.push_back(error_of("stress, " + name, errors.stress, allowed));
+}
+
+template <int Dim>
+void add_modes(Level& level, const mesh::Mesh<Dim>& mesh, const std::string& name, Neumann neumann) {
+    const double exact = Dim == 2 ? 3 : 6;
+    const ZeroModes modes = zero_modes(mesh, neumann);
+    const auto count = static_cast<double>(modes.count);
+    level.quantities.push_back(
+        {.name = "zero modes, " + name, .unit = "", .value = count, .reference = exact, .allowed = target(neumann, 0.0)});
+    level.quantities.push_back(
+        error_of("largest zero over next, " + name, modes.largest_zero / modes.next, target(neumann, allowed_zero)));
+}
+
+template <int Dim>
+Level level(const PatchOptions& options, BoxCells cells) {
+    Level result;
+    const Stopwatch watch(result.seconds);
+    const auto patch = box<Dim>(cells, options.cells), free_body = box<Dim>(cells, options.mode_cells);
+    result.name = fmt::format("{}D, {} {}; modes of {}", Dim, patch.n_cells(), name_of(cells), free_body.n_cells());
+    add_patch(result, patch, PatchBoundary::displacement, "imposed", Neumann::local_equilibrium, allowed_error);
+    for (const auto& [name, neumann] : neumann_choices)
+        add_patch(result, patch, PatchBoundary::mixed, name, neumann, target(neumann, allowed_error));
+    for (const auto& [name, neumann] : neumann_choices) add_modes(result, free_body, name, neumann);
+    return result;
+}
+
+/// A row a mesh: errors of the stress, imposed and with tractions by Neumann choice, and zeros over next eigenvalues.
+Table curve(const Study& study) {
+    Table table{.columns = {"mesh", "imposed"}, .rows = {}};
+    for (const char* what : {"stress", "zero"})
+        for (const auto& [name, neumann] : neumann_choices) table.columns.push_back(fmt::format("{}_{}", what, name));
+    for (const Level& level : study.levels) {
+        std::vector<double> row{static_cast<double>(table.rows.size())};
+        for (const char* start : {"stress, ", "largest zero"})
+            for (const Quantity& quantity : level.quantities)
+                if (quantity.name.starts_with(start)) row.push_back(quantity.value);
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+/// Errors of the stress on each mesh, on a logarithmic axis with the limit.
+Picture picture(const Study& study) {
+    std::string tics;
+    for (std::size_t i = 0; i < study.levels.size(); ++i) {
+        const std::string& name = study.levels[i].name;
+        const std::string dim = name.substr(0, 2), cells = name.substr(4, name.find(';') - 4);
+        tics += fmt::format("{}\"{} {}\" {}", i == 0 ? "" : ", ", dim, cells, i);
+    }
+    return {.name = "errors",
+            .purpose = "Patch test: errors of the stress",
+            .width = 1250,
+            .height = 750,
+            .script = fmt::format(
+                "set title \"patch test: largest relative error of the stress\" font \",15\"\n"
+                "set key outside right top samplen 1.5\nset logscale y\nset format y \"10^{{%L}}\"\nset yrange [1e-16:10]\n"
+                "set ytics 1e-16,100,10\nset xrange [-0.5:{0}]\nset xtics ({1}) rotate by -30 noenhanced\n"
+                "set ylabel \"relative error\"\nset rmargin 34\n"
+                "plot {2:g} with lines lw 1.5 dt 2 lc rgb \"#444444\" title \"allowed\", \\\n"
+                "     \"patch.csv\" using \"mesh\":\"imposed\" with points pt 5 ps 1.5 lc rgb \"#1b1b1a\" "
+                "title \"displacement imposed\", \\\n"
+                "     \"\" using \"mesh\":\"stress_local_equilibrium\" with points pt 7 ps 1.4 lc rgb \"#2a78d6\" "
+                "title \"tractions, local equilibrium\", \\\n"
+                "     \"\" using \"mesh\":\"stress_extrapolate\" with points pt 9 ps 1.6 lc rgb \"#2f9e57\" "
+                "title \"tractions, extrapolate\", \\\n"
+                "     \"\" using \"mesh\":\"stress_adjacent\" with points pt 11 ps 1.6 lc rgb \"#eb6834\" "
+                "title \"tractions, adjacent\"\n",
+                static_cast<double>(study.levels.size()) - 0.5, tics, allowed_error)};
+}
+
+void run_study(const PatchOptions& options) {
+    prepare_study(options.out, {"patch"}, {"errors"});
+    Study study{.title = "patch test and zero modes of the bulk",
+                .reference = "affine displacements and rigid motions, exact; relative errors, exact: 0"};
+    for (const BoxCells cells : all_box_cells<2>()) study.levels.push_back(level<2>(options, cells));
+    for (const BoxCells cells : all_box_cells<3>()) study.levels.push_back(level<3>(options, cells));
+    study.curves = {{"patch", curve(study)}};
+    study.pictures = {picture(study)};
+    study.options = {{"cells", options.cells}, {"mode_cells", options.mode_cells}};
+    report(program, options.out, study);
+}
+
+}  // namespace
+}  // namespace abut::examples
+
+int main(int argc, char** argv) {
+    using namespace abut::examples;
+    PatchOptions options;
+    return run_program(
+        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
+}

@@ -1,0 +1,81 @@
+#include <catch2/catch.hpp>
+
+#include "solid/scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using contact::Cuts;
+
+namespace {
+
+/// Bodies whose boundary cells are next to each other, so that their faces are coupled, sliding fast over one another.
+template <int Dim>
+mesh::Mesh<Dim> coupled_bodies() {
+    if constexpr (Dim == 2)
+        return together(mesh::fan_disc({-0.96, -0.4}, 1.0, 17, 0.1), mesh::fan_disc({0.96, 0.4}, 1.0, 14, 0.45));
+    else
+        return two_boxes(4);
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> fast_velocities() {
+    if constexpr (Dim == 2)
+        return {{0.1, 0.3}, {-0.1, -0.3}};
+    else
+        return {{0.3, 0.1, 0.05}, {-0.3, 0.0, -0.05}};
+}
+
+template <int Dim>
+double size_of(std::span<const Vector<Dim>> v) {
+    double size = 0.0;
+    for (const Vector<Dim>& x : v) raise(size, x.norm());
+    return size;
+}
+
+template <int Dim>
+double distance(std::span<const Vector<Dim>> a, std::span<const Vector<Dim>> b) {
+    double size = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) raise(size, (a[i] - b[i]).norm());
+    return size;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "the local path integral is the one over the union of all events of the scene, on meshes with coupled faces",
+    "[dynamics][contact]", ((int Dim), Dim), 2, 3) {
+    Scene<Dim> scene(coupled_bodies<Dim>(), bodies<Dim>(2), fast_velocities<Dim>());
+    const auto& contact = *scene.solid.contact();
+    auto& ccg = scene.solid.ccg();
+    contact::PathIntegral<Dim> local({}), global({});
+    double worst = 0.0, worst_against_solid = 0.0;
+    std::int64_t events = 0, steps_with_contact = 0, steps_with_coupled_faces = 0;
+    for (int step = 0; step < 250; ++step) {
+        const std::vector<double> q_0(scene.memm.q().begin(), scene.memm.q().end());
+        scene.memm.step();
+        if (contact.result().active_pairs().empty()) continue;
+        // Nothing is prescribed: face i of the surface is boundary face i.
+        const auto faces = contact.faces();
+        const auto region = ccg.region_of_faces(faces);
+        std::vector<Vector<Dim>> u_0(faces.size()), u_1(u_0), y_0(u_0), y_1(u_0);
+        ccg.evaluate_faces(region, vectors<Dim>(q_0), {}, u_0, y_0);
+        ccg.evaluate_faces(region, as_vectors<Dim>(scene.memm.q()), {}, u_1, y_1);
+        std::vector<std::int32_t> local_face(static_cast<std::size_t>(contact.surface().size()));
+        for (std::int32_t f = 0; f < contact.surface().size(); ++f) local_face[f] = contact.local(f);
+        local.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
+                        Cuts::coupled);
+        global.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
+                         Cuts::global);
+        const double size = size_of<Dim>(global.mean_force());
+        raise(worst, distance<Dim>(local.mean_force(), global.mean_force()) / size);
+        raise(worst_against_solid, distance<Dim>(local.mean_force(), contact.result().mean_force()) / size);
+        events += global.events();
+        ++steps_with_contact;
+        steps_with_coupled_faces += contact.coupling().columns.size() > faces.size();
+    }
+    CHECK(steps_with_contact > 15);
+    CHECK(events > 2 * steps_with_contact);
+    CHECK(steps_with_coupled_faces == steps_with_contact);
+    CHECK(worst < 1e-14);
+    CHECK(worst_against_solid == 0.0);
+}
