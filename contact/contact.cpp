@@ -2,205 +2,396 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/contact/host_checks.hpp"
+#include "abut/contact/law/reconstruction.hpp"
 #include "abut/contact/messages.hpp"
+#include "abut/contact/pair_list.hpp"
+#include "abut/contact/path/measures.hpp"
+#include "abut/contact/path/pieces.hpp"
 
 namespace abut::contact {
 namespace {
 
-template <int Dim>
-const ContactOptions& checked(const ContactOptions& options) {
-    const auto refuse = [](const std::string& what) { throw BadInput("contact options: " + what); };
-    if (options.quadrature < 0 || options.quadrature > 3)
-        refuse("quadrature is " + std::to_string(options.quadrature) +
-               "; it must be 1, 2 or 3 points (0: as many as exactness needs).");
-    if (!(options.search.facing_cosine < 0.0))
-        refuse("facing_cosine is " + number(options.search.facing_cosine) +
-               "; contact needs one between -1 and 0. -0.5 is the default.");
-    if (!(options.compression_warning > 0.0))
-        refuse("compression_warning is " + number(options.compression_warning) + "; it must be > 0. 0.3 is the default.");
-    if (!(options.compression_limit > 0.0))
-        refuse("compression_limit is " + number(options.compression_limit) + "; it must be > 0. 2 is the default.");
-    return options;
-}
+constexpr std::uint32_t state_version = 1;
 
 template <int Dim>
-void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
-    const auto refuse = [](const std::string& what) { throw BadInput("contact: the coupling of the listed faces " + what); };
-    const std::size_t n = coupling.columns.size();
-    if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 ||
-        static_cast<std::size_t>(coupling.offsets.back()) != n ||
-        !std::is_sorted(coupling.offsets.begin(), coupling.offsets.end()))
-        refuse("has " + std::to_string(coupling.offsets.size()) + " offsets for " + std::to_string(n_faces) + " faces and " +
-               std::to_string(n) + " columns; they must be one more than faces and rise from 0 to the number of columns.");
-    if (coupling.blocks.size() != n)
-        refuse("has " + std::to_string(coupling.blocks.size()) + " blocks for " + std::to_string(n) +
-               " columns; give one each.");
-    for (const std::int32_t column : coupling.columns)
-        if (column < 0 || static_cast<std::size_t>(column) >= n_faces)
-            refuse("names face " + std::to_string(column) + " of " + std::to_string(n_faces) +
-                   "; columns are places in Contact::faces.");
+std::string state_kind() {
+    return "contact " + std::to_string(Dim) + "D";
 }
 
-template <int Dim>
-void check_path(const SurfaceView<Dim>& surface, std::span<const std::int32_t> faces, const FacePath<Dim>& path) {
-    const std::size_t n_faces = faces.size();
-    for (const std::size_t size :
-         {path.displacement_0.size(), path.displacement_1.size(), path.force_0.size(), path.force_1.size()})
-        if (size != n_faces)
-            throw BadInput("contact: the path of the listed faces has an array of " + std::to_string(size) +
-                           " entries for " + std::to_string(n_faces) + " faces; give one for each of Contact::faces.");
-    for (std::size_t i = 0; i < n_faces; ++i)
-        if (!path.displacement_0[i].allFinite() || !path.displacement_1[i].allFinite() || !path.force_0[i].allFinite() ||
-            !path.force_1[i].allFinite())
-            throw Diverged("contact: displacement or force of " + face_name(surface, faces[i]) +
-                           " is not finite: the run has diverged. Take a smaller time step.");
-}
-
-template <int Dim>
-bool before(const ContactPair<Dim>& a, const ContactPair<Dim>& b) {
-    return std::pair(a.face_1, a.face_2) < std::pair(b.face_1, b.face_2);
+/// Every counter of a report in a fixed order, for saving and restoring.
+template <class Report, class Visit>
+void for_each_counter(Report& report, const Visit& visit) {
+    visit(report.candidates), visit(report.candidates_max), visit(report.active_pairs), visit(report.active_pairs_max);
+    visit(report.events), visit(report.rebuilds), visit(report.missed_contacts), visit(report.inadmissible_overlaps);
+    visit(report.compressed_steps), visit(report.compression_max), visit(report.sliding_ratio_max);
+    visit(report.slipped_pairs), visit(report.slipped_compression_max);
 }
 
 }  // namespace
 
 template <int Dim>
-Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
-    : surface_(surface),
-      options_(checked<Dim>(options)),
-      candidates_(surface, options.search),
-      local_face_(static_cast<std::size_t>(surface.size()), -1),
-      integral_(options) {}
+class Contact<Dim>::Implementation {
+public:
+    Implementation(SurfaceView<Dim> surface, const ContactOptions& options)
+        : surface_(surface),
+          options_(checked(options)),
+          candidates_(surface, options.search),
+          pieces_(options),
+          law_(options) {}
 
+    const ContactStep<Dim>& step(const HostStep<Dim>& host) {
+        check_host_step(surface_, host);
+        if (!is_valid_for(motion_since_search(host.displacement_1))) {
+            search(host.displacement_0, host.displacement_1, host.coupling_of);
+            searched_at_.assign(host.displacement_0.begin(), host.displacement_0.end());
+        }
+        const std::size_t n = faces_.size();
+        for (auto* array : {&u_0_, &u_1_, &y_0_, &y_1_}) array->resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            u_0_[i] = host.displacement_0[static_cast<std::size_t>(faces_[i])];
+            u_1_[i] = host.displacement_1[static_cast<std::size_t>(faces_[i])];
+        }
+        if (n > 0) host.gradients_of(faces_, y_0_, y_1_);
+        return host.take == TakenForce::mean ? integrate({u_0_, u_1_, y_0_, y_1_}) : follow(u_0_, u_1_, y_1_);
+    }
+
+    [[nodiscard]] bool is_valid_for(double motion) const { return list_holds_ && candidates_.is_valid_for(motion); }
+
+    void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of) {
+        list_holds_ = false;
+        searched_at_.clear();
+        candidates_.search(u_0, u_1);
+        found_.clear();
+        for (const auto& [face_1, face_2] : candidates_.candidates())
+            found_.push_back({SurfaceFace{face_1}, SurfaceFace{face_2}});
+        keep_contacts(u_0);
+        sort_unique(found_);
+
+        list_.clear();
+        for (const auto& [face_1, face_2] : found_)
+            list_.append(surface_, number_of(face_1), number_of(face_2), options_.weighting);
+        store_.follow(found_, [&](std::size_t i) {
+            return PairMemory{is_admitted_at_first(list_[static_cast<std::int32_t>(i)], u_0)};
+        });
+        list_.list_faces(faces_);
+        step_.faces = faces_;
+        coupling_ = coupling_of(faces_);
+        check_coupling(coupling_, faces_.size());
+        list_holds_ = has_searched_ = true;
+        ++report_.rebuilds;
+        report_.candidates = list_.size();
+        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
+    }
+
+    [[nodiscard]] std::span<const SurfaceFace> faces() const { return faces_; }
+
+    const ContactStep<Dim>& integrate(const FacePath<Dim>& path) {
+        require_list();
+        check_path<Dim>(surface_, faces_, path);
+        update_admission(path.displacement_0);
+        apply_law(path);
+        report_step();
+        return step_;
+    }
+
+    const ContactStep<Dim>& follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
+                                   std::span<const Vector<Dim>> gradient_1) {
+        require_list();
+        check_path<Dim>(surface_, faces_, {displacement_0, displacement_1, gradient_1, gradient_1});
+        update_admission(displacement_0);
+        apply_law({displacement_1, displacement_1, gradient_1, gradient_1});
+        report_step();
+        return step_;
+    }
+
+    const ContactStep<Dim>& evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> gradient) {
+        require_list();
+        const FacePath<Dim> at_rest{displacement, displacement, gradient, gradient};
+        check_path<Dim>(surface_, faces_, at_rest);
+        apply_law(at_rest);
+        return step_;
+    }
+
+    [[nodiscard]] const ContactStep<Dim>& last() const { return step_; }
+
+    [[nodiscard]] std::vector<AdmittedOverlap<Dim>> admitted_overlaps(std::span<const Vector<Dim>> displacement) const {
+        require_list();
+        std::vector<AdmittedOverlap<Dim>> overlaps;
+        for (std::int32_t p = 0; p < list_.size(); ++p) {
+            const ContactPair<Dim>& pair = list_[p];
+            const auto at = list_.position(surface_, pair, displacement[pair.listed_1], displacement[pair.listed_2]);
+            if (!is_admitted(p)) continue;
+            if (const double area = list_.overlap(pair, at.tangential_offset, options_.area).area; area > 0.0)
+                overlaps.push_back({SurfaceFace{pair.face_1}, SurfaceFace{pair.face_2}, pair.frame.normal(), at.gap, area});
+        }
+        return overlaps;
+    }
+
+    [[nodiscard]] const PairStore& pair_store() const { return store_; }
+    [[nodiscard]] PairStore release_pairs(const std::function<bool(FacePair)>& leaves) {
+        PairStore released = store_.release(leaves);
+        list_stored_pairs();
+        return released;
+    }
+    void take_pairs(const PairStore& pairs) {
+        store_.take(pairs);
+        list_stored_pairs();
+        has_searched_ = true;
+    }
+
+    [[nodiscard]] std::vector<std::byte> state() const {
+        StateWriter state(state_kind<Dim>(), state_version);
+        state.put(fingerprint(surface_));
+        state.put(static_cast<std::uint8_t>(has_searched_));
+        state.put(candidates_.next_skin());
+        for_each_counter(report_, [&](const auto& counter) { state.put(counter); });
+        store_.save(state);
+        return std::move(state).finish();
+    }
+
+    void restore(std::span<const std::byte> bytes) {
+        StateReader state(bytes, state_kind<Dim>(), state_version);
+        if (state.get<std::uint64_t>() != fingerprint(surface_))
+            throw BadInput(
+                "state of " + state_kind<Dim>() +
+                ": it is of another surface. Restore it into a Contact of the same faces, depths and stiffnesses.");
+        const bool has_searched = state.get<std::uint8_t>() != 0;
+        const double next_skin = state.get<double>();
+        ContactReport report;
+        for_each_counter(report, [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
+        PairStore store = PairStore::restored(state, surface_.size());
+        state.finish();
+        candidates_.restore_skin(next_skin);
+        store_ = std::move(store);
+        report_ = report;
+        has_searched_ = has_searched;
+        list_stored_pairs();
+        searched_at_.clear();
+        faces_.clear();
+        step_ = {};
+    }
+
+    [[nodiscard]] const SurfaceView<Dim>& surface() const { return surface_; }
+    [[nodiscard]] const ContactReport& report() const { return report_; }
+    [[nodiscard]] const CandidateReport& search_report() const { return candidates_.report(); }
+    [[nodiscard]] double skin() const { return candidates_.skin(); }
+    [[nodiscard]] const FaceCoupling<Dim>& coupling() const { return coupling_; }
+
+private:
+    static const ContactOptions& checked(const ContactOptions& options) {
+        check_options(options);
+        return options;
+    }
+
+    [[nodiscard]] bool is_admitted(std::int32_t pair) const {
+        return store_.memory()[static_cast<std::size_t>(pair)].admitted;
+    }
+
+    /// Of any face from where the last search of `step` began [m]; infinite before.
+    [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> u) const {
+        if (searched_at_.empty()) return std::numeric_limits<double>::infinity();
+        return largest(static_cast<std::ptrdiff_t>(u.size()),
+                       [&](std::ptrdiff_t i) { return (u[i] - searched_at_[i]).norm(); });
+    }
+
+    /// A pair in contact stays in the list however deep it is.
+    void keep_contacts(std::span<const Vector<Dim>> u_0) {
+        for (std::int32_t p = 0; p < list_.size(); ++p)
+            if (is_admitted(p) && is_pressed_in(list_[p], u_0[list_[p].face_1], u_0[list_[p].face_2]))
+                found_.push_back(store_.pairs()[static_cast<std::size_t>(p)]);
+    }
+
+    /// The list of all that the store knows; faces are not numbered.
+    void list_stored_pairs() {
+        list_holds_ = false;
+        list_.clear();
+        for (const auto& [face_1, face_2] : store_.pairs())
+            list_.append(surface_, number_of(face_1), number_of(face_2), options_.weighting);
+    }
+
+    /// Whether A > 0 and g < 0.
+    [[nodiscard]] bool is_pressed_in(const ContactPair<Dim>& pair, const Vector<Dim>& u_1, const Vector<Dim>& u_2) const {
+        const auto at = list_.position(surface_, pair, u_1, u_2);
+        return at.gap < 0.0 && list_.overlap(pair, at.tangential_offset, options_.area).area > 0.0;
+    }
+
+    /// A pair that was not in the list before and already overlaps is no contact, unless the run only begins.
+    [[nodiscard]] bool is_admitted_at_first(const ContactPair<Dim>& pair, std::span<const Vector<Dim>> u_0) {
+        const Vector<Dim>&u_1 = u_0[pair.face_1], &u_2 = u_0[pair.face_2];
+        const bool is_shallow = list_.position(surface_, pair, u_1, u_2).gap > -pair.admission_depth;
+        if (!has_searched_ || !is_pressed_in(pair, u_1, u_2)) return is_shallow;
+        if (is_shallow) ++report_.missed_contacts;
+        return false;
+    }
+
+    /// Where A min(g, 0) = 0 the flag may change without a change of the potential: there, and only there, it is set anew.
+    void update_admission(std::span<const Vector<Dim>> displacement) {
+        report_.inadmissible_overlaps = 0;
+        const std::span<PairMemory> memory = store_.memory();
+        for (std::int32_t p = 0; p < list_.size(); ++p) {
+            const ContactPair<Dim>& pair = list_[p];
+            bool& admitted = memory[static_cast<std::size_t>(p)].admitted;
+            const auto at = list_.position(surface_, pair, displacement[pair.listed_1], displacement[pair.listed_2]);
+            const bool wanted = at.gap > -pair.admission_depth;
+            if (wanted == admitted && wanted) continue;
+            if (at.gap >= 0.0 || list_.stay_apart(pair, at.tangential_offset, at.tangential_offset) ||
+                list_.overlap(pair, at.tangential_offset, options_.area).area == 0.0)
+                admitted = wanted;
+            else if (!admitted)
+                ++report_.inadmissible_overlaps;
+        }
+    }
+
+    void require_list() const {
+        if (!list_holds_) throw Misuse("contact: there is no candidate list. Call `search` first.");
+    }
+
+    void apply_law(const FacePath<Dim>& path) {
+        const ActivePairs<Dim>& active =
+            pieces_.find(surface_, list_, store_.memory(), path.displacement_0, path.displacement_1);
+        measures_.fill(surface_, list_, active, step_);
+        law_.apply(surface_, list_, active, coupling_, path, step_);
+    }
+
+    void report_step() {
+        const StepReport& step = step_.report;
+        report_.active_pairs = static_cast<std::int64_t>(step_.pairs.size());
+        report_.active_pairs_max = std::max(report_.active_pairs_max, report_.active_pairs);
+        report_.events += step.events;
+        report_.compression_max = std::max(report_.compression_max, step.compression);
+        report_.sliding_ratio_max = std::max(report_.sliding_ratio_max, step.sliding_ratio);
+        report_.slipped_pairs += step.slipped_pairs;
+        report_.slipped_compression_max = std::max(report_.slipped_compression_max, step.slipped_compression);
+        if (step.compression > options_.compression_warning) ++report_.compressed_steps;
+        if (step.compression > options_.compression_limit) refuse_depth();
+    }
+
+    [[noreturn]] void refuse_depth() const {
+        const PairStep<Dim>& pair = step_.pairs[static_cast<std::size_t>(step_.report.most_compressed)];
+        const std::int32_t face_1 = number_of(pair.face_1), face_2 = number_of(pair.face_2);
+        throw TooDeep(
+            "contact: " + face_name(surface_, face_1) + " and " + face_name(surface_, face_2) + " are pressed " +
+                number(pair.compression) + " times the depth of their cells into each other, " +
+                number(options_.compression_limit) +
+                " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.",
+            {.face_1 = face_1, .face_2 = face_2, .value = pair.compression, .allowed = options_.compression_limit});
+    }
+
+    SurfaceView<Dim> surface_;
+    ContactOptions options_;
+    CandidateSearch<Dim> candidates_;
+    bool has_searched_ = false;  // once at least: the run has begun
+    bool list_holds_ = false;    // the last search came to its end
+    PairList<Dim> list_;
+    PairStore store_;  // in the order of the list
+    std::vector<SurfaceFace> faces_;
+    FaceCoupling<Dim> coupling_;
+    PieceFinder<Dim> pieces_;
+    PathMeasures<Dim> measures_;
+    Reconstruction<Dim> law_;
+    ContactStep<Dim> step_;
+    ContactReport report_;
+    std::vector<FacePair> found_;           // work array of `search`
+    std::vector<Vector<Dim>> searched_at_;  // all faces at the start of the step of the last search; of `step` alone
+    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // work arrays of `step`
+};
+
+template <int Dim>
+Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
+    : implementation_(std::make_unique<Implementation>(surface, options)) {}
+template <int Dim>
+Contact<Dim>::~Contact() = default;
+template <int Dim>
+Contact<Dim>::Contact(Contact&&) noexcept = default;
+template <int Dim>
+Contact<Dim>& Contact<Dim>::operator=(Contact&&) noexcept = default;
+
+template <int Dim>
+const ContactStep<Dim>& Contact<Dim>::step(const HostStep<Dim>& host) {
+    return implementation_->step(host);
+}
+template <int Dim>
+bool Contact<Dim>::is_valid_for(double motion) const {
+    return implementation_->is_valid_for(motion);
+}
 template <int Dim>
 void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
                           const CouplingOf& coupling_of) {
-    list_holds_ = false;
-    candidates_.search(u_0, u_1);
-    const std::vector<ContactPair<Dim>> known(pairs_.pairs().begin(), pairs_.pairs().end());
-    std::vector<geometry::IndexPair> found(candidates_.candidates().begin(), candidates_.candidates().end());
-    // A pair in contact stays in the list however deep it is.
-    for (const ContactPair<Dim>& pair : known) {
-        if (!pair.admitted) continue;
-        const auto at = pairs_.position(surface_, pair, u_0[pair.face_1], u_0[pair.face_2]);
-        if (at.gap < 0.0 && pairs_.shared_area(pair, at.shift, options_.area).area > 0.0)
-            found.push_back({pair.face_1, pair.face_2});
-    }
-    sort_unique(found);
-
-    pairs_.clear();
-    for (const auto& [face_1, face_2] : found) pairs_.append(surface_, face_1, face_2, options_.weights);
-    keep_admission(known, u_0);
-    list_faces();
-    coupling_ = coupling_of(faces_);
-    check_coupling(coupling_, faces_.size());
-    list_holds_ = searched_ = true;
-    ++report_.rebuilds;
-    report_.candidates = pairs_.size();
-    report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
+    implementation_->search(u_0, u_1, coupling_of);
 }
-
-/// The flag outlives a rebuild. A pair that was not in the list before and already overlaps is no contact, unless the run
-/// only begins.
 template <int Dim>
-void Contact<Dim>::keep_admission(std::span<const ContactPair<Dim>> known, std::span<const Vector<Dim>> u_0) {
-    for (ContactPair<Dim>& pair : pairs_.pairs()) {
-        const auto place = std::lower_bound(known.begin(), known.end(), pair, before<Dim>);
-        if (place != known.end() && !before(pair, *place)) {
-            pair.admitted = place->admitted;
-            continue;
-        }
-        const auto at = pairs_.position(surface_, pair, u_0[pair.face_1], u_0[pair.face_2]);
-        pair.admitted = at.gap > -pair.depth;
-        if (!searched_ || at.gap >= 0.0 || pairs_.shared_area(pair, at.shift, options_.area).area == 0.0) continue;
-        if (pair.admitted) ++report_.lost_contacts;
-        pair.admitted = false;
-    }
+std::span<const SurfaceFace> Contact<Dim>::faces() const {
+    return implementation_->faces();
 }
-
-/// Where A min(g, 0) = 0 the flag may change without a change of the potential: there, and only there, it is set anew.
 template <int Dim>
-void Contact<Dim>::update_admission(std::span<const Vector<Dim>> displacement) {
-    report_.not_admitted = 0;
-    for (ContactPair<Dim>& pair : pairs_.pairs()) {
-        const auto at =
-            pairs_.position(surface_, pair, displacement[local_face_[pair.face_1]], displacement[local_face_[pair.face_2]]);
-        const bool wanted = at.gap > -pair.depth;
-        if (wanted == pair.admitted && wanted) continue;
-        if (at.gap >= 0.0 || pairs_.stay_apart(pair, at.shift, at.shift) ||
-            pairs_.shared_area(pair, at.shift, options_.area).area == 0.0)
-            pair.admitted = wanted;
-        else if (!pair.admitted)
-            ++report_.not_admitted;
-    }
+const ContactStep<Dim>& Contact<Dim>::integrate(const FacePath<Dim>& path) {
+    return implementation_->integrate(path);
 }
-
 template <int Dim>
-void Contact<Dim>::list_faces() {
-    for (const std::int32_t face : faces_) local_face_[face] = -1;
-    faces_.clear();
-    for (const ContactPair<Dim>& pair : pairs_.pairs()) {
-        faces_.push_back(pair.face_1);
-        faces_.push_back(pair.face_2);
-    }
-    sort_unique(faces_);
-    for (std::size_t i = 0; i < faces_.size(); ++i) local_face_[faces_[i]] = static_cast<std::int32_t>(i);
+const ContactStep<Dim>& Contact<Dim>::follow(std::span<const Vector<Dim>> displacement_0,
+                                             std::span<const Vector<Dim>> displacement_1,
+                                             std::span<const Vector<Dim>> gradient_1) {
+    return implementation_->follow(displacement_0, displacement_1, gradient_1);
 }
-
 template <int Dim>
-void Contact<Dim>::require_list() const {
-    if (!list_holds_) throw Misuse("contact: there is no candidate list. Call `search` first.");
+const ContactStep<Dim>& Contact<Dim>::evaluate(std::span<const Vector<Dim>> displacement,
+                                               std::span<const Vector<Dim>> gradient) {
+    return implementation_->evaluate(displacement, gradient);
 }
-
 template <int Dim>
-void Contact<Dim>::integrate(const FacePath<Dim>& path) {
-    require_list();
-    check_path<Dim>(surface_, faces_, path);
-    update_admission(path.displacement_0);
-    integral_.integrate(surface_, pairs_, local_face_, coupling_, path);
-    report_step();
+const ContactStep<Dim>& Contact<Dim>::last() const {
+    return implementation_->last();
 }
-
 template <int Dim>
-void Contact<Dim>::follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
-                          std::span<const Vector<Dim>> force_1) {
-    require_list();
-    check_path<Dim>(surface_, faces_, {displacement_0, displacement_1, force_1, force_1});
-    update_admission(displacement_0);
-    integral_.integrate(surface_, pairs_, local_face_, coupling_, {displacement_1, displacement_1, force_1, force_1});
-    report_step();
+std::vector<AdmittedOverlap<Dim>> Contact<Dim>::admitted_overlaps(std::span<const Vector<Dim>> displacement) const {
+    return implementation_->admitted_overlaps(displacement);
 }
-
 template <int Dim>
-void Contact<Dim>::report_step() {
-    report_.active_pairs = static_cast<std::int64_t>(integral_.active_pairs().size());
-    report_.active_pairs_max = std::max(report_.active_pairs_max, report_.active_pairs);
-    report_.events += integral_.events();
-    report_.compression_max = std::max(report_.compression_max, integral_.compression());
-    report_.sliding_ratio_max = std::max(report_.sliding_ratio_max, integral_.sliding_ratio());
-    for (const SlippedPair& slipped : integral_.slipped()) {
-        ++report_.slipped_pairs;
-        report_.slipped_compression_max = std::max(report_.slipped_compression_max, slipped.compression);
-    }
-    if (integral_.compression() > options_.compression_warning) ++report_.compressed_steps;
-    if (integral_.compression() > options_.compression_limit) {
-        const ContactPair<Dim>& pair = pairs_.pairs()[integral_.most_compressed()];
-        throw TooDeep("contact: " + face_name(surface_, pair.face_1) + " and " + face_name(surface_, pair.face_2) +
-                      " are pressed " + number(integral_.compression()) +
-                      " times the depth of their cells into each other, " + number(options_.compression_limit) +
-                      " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.");
-    }
+const PairStore& Contact<Dim>::pair_store() const {
+    return implementation_->pair_store();
 }
-
 template <int Dim>
-void Contact<Dim>::evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> force) {
-    const FacePath<Dim> at_rest{displacement, displacement, force, force};
-    require_list();
-    check_path<Dim>(surface_, faces_, at_rest);
-    integral_.integrate(surface_, pairs_, local_face_, coupling_, at_rest);
+PairStore Contact<Dim>::release_pairs(const std::function<bool(FacePair)>& leaves) {
+    return implementation_->release_pairs(leaves);
+}
+template <int Dim>
+void Contact<Dim>::take_pairs(const PairStore& pairs) {
+    implementation_->take_pairs(pairs);
+}
+template <int Dim>
+std::vector<std::byte> Contact<Dim>::state() const {
+    return implementation_->state();
+}
+template <int Dim>
+void Contact<Dim>::restore(std::span<const std::byte> state) {
+    implementation_->restore(state);
+}
+template <int Dim>
+const SurfaceView<Dim>& Contact<Dim>::surface() const {
+    return implementation_->surface();
+}
+template <int Dim>
+const ContactReport& Contact<Dim>::report() const {
+    return implementation_->report();
+}
+template <int Dim>
+const CandidateReport& Contact<Dim>::search_report() const {
+    return implementation_->search_report();
+}
+template <int Dim>
+double Contact<Dim>::skin() const {
+    return implementation_->skin();
+}
+template <int Dim>
+const FaceCoupling<Dim>& Contact<Dim>::coupling() const {
+    return implementation_->coupling();
 }
 
 template class Contact<2>;

@@ -1,11 +1,16 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "abut/contact/path/path_integral.hpp"
+#include "abut/contact/options.hpp"
+#include "abut/contact/pair_store.hpp"
 #include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/step.hpp"
+#include "abut/contact/surface.hpp"
 
 namespace abut::contact {
 
@@ -15,83 +20,115 @@ struct ContactReport {
     std::int64_t candidates_max = 0;
     std::int64_t active_pairs = 0;  ///< pairs active in the last step; here and below a part of a step counts as one
     std::int64_t active_pairs_max = 0;
-    std::int64_t events = 0;               ///< openings, closings and changes of overlap inside steps, all steps
-    std::int64_t rebuilds = 0;             ///< candidate lists made
-    std::int64_t lost_contacts = 0;        ///< pairs first seen with A > 0 and -D < g < 0: must stay 0
-    std::int64_t not_admitted = 0;         ///< pairs of the current list with A > 0 and g < 0 that are no contacts
-    std::int64_t compressed_steps = 0;     ///< steps with |g|/D above the warning
-    double compression_max = 0.0;          ///< largest |g|/D
-    double sliding_ratio_max = 0.0;        ///< largest |g| |dA/ds| over the smaller face of a pair
-    std::int64_t slipped_pairs = 0;        ///< slid off each other while pressed in, all steps (PathIntegral::slipped)
-    double slipped_compression_max = 0.0;  ///< their largest |g|/D
+    std::int64_t events = 0;                 ///< openings, closings and changes of overlap inside steps, all steps
+    std::int64_t rebuilds = 0;               ///< candidate lists made
+    std::int64_t missed_contacts = 0;        ///< pairs first seen with A > 0 and -D < g < 0: must stay 0
+    std::int64_t inadmissible_overlaps = 0;  ///< pairs of the current list with A > 0 and g < 0 that are no contacts
+    std::int64_t compressed_steps = 0;       ///< steps with |g|/D above the warning
+    double compression_max = 0.0;            ///< largest |g|/D
+    double sliding_ratio_max = 0.0;          ///< largest |g| |dA/ds| over the smaller face of a pair
+    std::int64_t slipped_pairs = 0;          ///< slid off each other while pressed in, all steps (StepReport)
+    double slipped_compression_max = 0.0;    ///< their largest |g|/D
+};
+
+/// Which force of a step a scheme takes.
+enum class TakenForce {
+    mean,  ///< the exact mean along the straight way: MEMM
+    end,   ///< that at the end of the step: central differences, Bilbao. What opens and closes inside the step is not seen
+};
+
+/// One step as `Contact::step` wants it from a host.
+template <int Dim>
+struct HostStep {
+    std::span<const Vector<Dim>> displacement_0;  ///< û of all faces of the surface at the start of the step (n_faces) [m]
+    std::span<const Vector<Dim>> displacement_1;  ///< the same at its end
+    /// Asked after each search: how the host's gradients answer to corrections of the listed faces.
+    std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)> coupling_of;
+    /// Asked at each step: y_f = dV/dũ_f at ũ = û, less |f| t_f, of the listed faces at both ends (n_listed) [N].
+    std::function<void(std::span<const SurfaceFace> faces, std::span<Vector<Dim>> gradient_0,
+                       std::span<Vector<Dim>> gradient_1)>
+        gradients_of;
+    TakenForce take = TakenForce::mean;
 };
 
 /// The contact of a set of surfaces, for any solver that moves its bodies along straight lines during a step.
 ///
-/// Each step the host (1) asks `covers`, and if not, calls `search` with the displacements of all faces; (2) gives the path
-/// of the listed `faces()` to `integrate`; (3) adds `mean_correction` to their displacement in its own force evaluation at
-/// the middle of the step, adds `mean_force` to dV/dû of these faces, and takes both to its unknowns by the transpose of
-/// its reconstruction. docs/method.md, Contact and Time; docs/embedding.md walks through it.
+/// A host calls `step` once a step. It adds `mean_correction` to the displacement of the listed faces in its own force
+/// evaluation at the middle of the step, adds `mean_gradient` to dV/dû of these faces, and takes both to its unknowns by the
+/// transpose of its reconstruction. docs/embedding.md walks through it; docs/method.md, Contact and Time, has the equations.
+///
+/// Below it are the calls that `step` is made of, for hosts that know more than one step tells: a bound on the motion that
+/// costs less than looking at all faces, gradients at the start of a step that are those at the end of the last one.
+///
+/// Not safe to use from two threads at once; several objects are independent of each other. After an exception the object
+/// stays usable: the step did not happen, and no list holds if it came from a search.
 template <int Dim>
 class Contact {
 public:
-    /// Keeps the view: the host's arrays must outlive it. Checks the surface and the options (BadInput).
+    /// Keeps the view: the host's arrays must outlive it. Throws BadInput for a surface (see `check`) or an option that is no
+    /// good.
     Contact(SurfaceView<Dim> surface, const ContactOptions& options);
+    ~Contact();
+    Contact(Contact&&) noexcept;
+    Contact& operator=(Contact&&) noexcept;
 
-    /// How the host's face forces answer to corrections of the given faces; called after each search.
-    using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const std::int32_t> faces)>;
+    /// What contact does in a step; searches first where the list of candidates no longer holds. Throws what `search` and
+    /// `integrate` throw, BadInput for arrays of the wrong size.
+    const ContactStep<Dim>& step(const HostStep<Dim>& host);
 
     /// Whether the candidate list is still a superset of all that can touch, when no face has moved by more than `motion`
     /// [m] since `search`.
-    [[nodiscard]] bool covers(double motion) const { return list_holds_ && candidates_.covers(motion); }
+    [[nodiscard]] bool is_valid_for(double motion) const;
 
-    /// Makes the list anew for a step from u_0 to u_1, both of all faces (n) [m]. Throws what CandidateSearch::search
+    /// How the host's gradients answer to corrections of the given faces; called after each search.
+    using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)>;
+
+    /// Makes a new list for a step from u_0 to u_1, both of all faces (n_faces) [m]. Throws what CandidateSearch::search
     /// throws, and BadInput for a coupling out of range; no list holds then until a search ends well.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.
-    [[nodiscard]] std::span<const std::int32_t> faces() const { return faces_; }
+    [[nodiscard]] std::span<const SurfaceFace> faces() const;
 
-    /// Decides admission at the start of the step, then integrates along it. Throws TooDeep or Diverged naming the faces when
-    /// a pair is pressed in deeper than `compression_limit` or the path is not finite, Misuse without a list.
-    void integrate(const FacePath<Dim>& path);
+    /// Decides admission at the start of the step, then integrates along it. Throws TooDeep naming the faces when a pair is
+    /// pressed in deeper than `compression_limit`, Diverged when the path is not finite, Misuse without a list.
+    const ContactStep<Dim>& integrate(const FacePath<Dim>& path);
 
     /// For schemes that take the force at the end of a step alone: decides admission at its start as `integrate` does, then
     /// takes corrections and pair forces at its end. There are no events; throws as `integrate`.
-    void follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
-                std::span<const Vector<Dim>> force_1);
+    const ContactStep<Dim>& follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
+                                   std::span<const Vector<Dim>> gradient_1);
 
     /// Corrections and pair forces of one state (a path without motion), with the admission as it stands; counts nothing.
-    void evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> force);
+    const ContactStep<Dim>& evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> gradient);
 
-    [[nodiscard]] const PathIntegral<Dim>& result() const { return integral_; }
-    [[nodiscard]] const PairList<Dim>& pairs() const { return pairs_; }
-    [[nodiscard]] const SurfaceView<Dim>& surface() const { return surface_; }
-    [[nodiscard]] const ContactReport& report() const { return report_; }
-    [[nodiscard]] double skin() const { return candidates_.skin(); }
-    [[nodiscard]] const CandidateReport& search_report() const { return candidates_.report(); }
-    /// Place of a face of the surface in `faces()`, -1 if it is not there.
-    [[nodiscard]] std::int32_t local(std::int32_t face) const { return local_face_[face]; }
-    [[nodiscard]] const FaceCoupling<Dim>& coupling() const { return coupling_; }
+    /// What the last of these calls returned; empty before.
+    [[nodiscard]] const ContactStep<Dim>& last() const;
+
+    /// The admitted pairs of the list that share area when the listed faces have these displacements, open or closed.
+    [[nodiscard]] std::vector<AdmittedOverlap<Dim>> admitted_overlaps(std::span<const Vector<Dim>> displacement) const;
+
+    /// What the listed pairs remember. A host that hands pairs to another owner works on it between two steps; the next step
+    /// must then begin with a search, which `step` sees to.
+    [[nodiscard]] const PairStore& pair_store() const;
+    [[nodiscard]] PairStore release_pairs(const std::function<bool(FacePair)>& leaves);
+    void take_pairs(const PairStore& pairs);
+
+    /// All that the next steps depend on, and the counters, as bytes: versioned, with a checksum. After `restore` of an object
+    /// made for the same surface with the same options the next steps have the same bits; they begin with a search. Throws
+    /// BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or surface.
+    [[nodiscard]] std::vector<std::byte> state() const;
+    void restore(std::span<const std::byte> state);
+
+    [[nodiscard]] const SurfaceView<Dim>& surface() const;
+    [[nodiscard]] const ContactReport& report() const;
+    [[nodiscard]] const CandidateReport& search_report() const;
+    [[nodiscard]] double skin() const;                        ///< of the current list [m]
+    [[nodiscard]] const FaceCoupling<Dim>& coupling() const;  ///< of the listed faces, as the host gave it
 
 private:
-    void keep_admission(std::span<const ContactPair<Dim>> known, std::span<const Vector<Dim>> u_0);
-    void update_admission(std::span<const Vector<Dim>> displacement);
-    void list_faces();
-    void require_list() const;
-    void report_step();
-
-    SurfaceView<Dim> surface_;
-    ContactOptions options_;
-    CandidateSearch<Dim> candidates_;
-    bool searched_ = false;    // once at least: the run has begun
-    bool list_holds_ = false;  // the last search came to its end
-    PairList<Dim> pairs_;
-    std::vector<std::int32_t> faces_;
-    std::vector<std::int32_t> local_face_;
-    FaceCoupling<Dim> coupling_;
-    PathIntegral<Dim> integral_;
-    ContactReport report_;
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace abut::contact

@@ -5,7 +5,7 @@
 namespace abut::contact {
 
 /// How the correction of a pair is shared by its two faces, theta_1 + theta_2 = 1. docs/method.md, Contact.
-enum class Weights {
+enum class InterfaceWeighting {
     half,       ///< theta = 1/2, the formula of the talk
     stiffness,  ///< theta_1 = k_2 / (k_1 + k_2): the tractions of the massless interface balance
 };
@@ -44,7 +44,7 @@ struct ContactOptions {
     CandidateOptions search;
     geometry::AreaMethod area = geometry::AreaMethod::fast;
     OverlapMode overlap = OverlapMode::moving;
-    Weights weights = Weights::stiffness;
+    InterfaceWeighting weighting = InterfaceWeighting::stiffness;
     bool events = true;                ///< cut the step where a pair opens, closes or changes its overlap formula
     int quadrature = 0;                ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed

@@ -9,7 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/simd.hpp"
-#include "abut/contact/pairs.hpp"
+#include "abut/contact/pair.hpp"
 #include "abut/geometry/overlap/batch.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
@@ -26,7 +26,7 @@ struct Scene {
     std::span<const Vector<Dim>> displacement;
 
     [[nodiscard]] bool are_facing(IndexPair pair) const {
-        return surface.normal[pair.first].dot(surface.normal[pair.second]) < 0.0;
+        return contact::are_facing(surface, pair.first, pair.second, 0.0);
     }
     [[nodiscard]] Vector<Dim> motion(IndexPair pair) const { return displacement[pair.second] - displacement[pair.first]; }
     [[nodiscard]] Vector<Dim> apart(IndexPair pair) const {
@@ -87,24 +87,14 @@ struct ProjectedPair {
           size_1(scene.n_corners(pair.first)),
           size_2(scene.n_corners(pair.second)) {
         const Vector<Dim>& origin = scene.corner(pair.first, 0);
-        project(scene, pair.first, origin, Vector<Dim>::Zero(), corners_1);
-        project(scene, pair.second, origin, scene.motion(pair), corners_2);
-        if constexpr (Dim == 3) std::reverse(corners_2.begin(), corners_2.begin() + size_2);  // it faces the other way
+        project_face<Dim>(scene.surface, pair.first, origin, Vector<Dim>::Zero(), frame, corners_1.begin());
+        project_face<Dim>(scene.surface, pair.second, origin, scene.motion(pair), frame, corners_2.begin());
     }
     [[nodiscard]] geometry::ProjectedFace<Dim> face_1() const {
         return {corners_1.data(), static_cast<std::size_t>(size_1)};
     }
     [[nodiscard]] geometry::ProjectedFace<Dim> face_2() const {
         return {corners_2.data(), static_cast<std::size_t>(size_2)};
-    }
-
-private:
-    void project(const Scene<Dim>& scene, std::int32_t face, const Vector<Dim>& origin, const Vector<Dim>& motion,
-                 std::array<PlaneVector<Dim>, geometry::max_polygon_vertices>& corners) const {
-        const int n = scene.n_corners(face);
-        for (int i = 0; i < n; ++i) corners[i] = frame.project((scene.corner(face, i) - origin) + motion);
-        if constexpr (Dim == 2)
-            if (corners[1].x() < corners[0].x()) std::swap(corners[0], corners[1]);
     }
 };
 
@@ -154,7 +144,7 @@ public:
         const Vector<3> motion = scene.displacement[faces[other]] - scene.displacement[faces[!other]];
         for (int i = 0; i < 3; ++i) put((*a[i] - origin) + motion, a_[i], k);
         for (int i = 1; i < 3; ++i) put(*b[i] - origin, b_[i - 1], k);
-        put(normal_before(scene, pair), normal_, k);
+        put(pair_direction(scene.surface, pair.first, pair.second), normal_, k);
         put(scene.apart(pair), apart_, k);
     }
 
@@ -176,12 +166,6 @@ private:
     // Face 2 runs the other way about the normal of the pair: its corners come as 0, 2, 1.
     static std::array<const Vector<3>*, 3> corners_of(const Scene<3>& scene, std::int32_t face, int second, int third) {
         return {&scene.corner(face, 0), &scene.corner(face, second), &scene.corner(face, third)};
-    }
-    // As `pair_normal`, of any length.
-    static Vector<3> normal_before(const Scene<3>& scene, IndexPair pair) {
-        const Vector<3>&n_1 = scene.surface.normal[pair.first], &n_2 = scene.surface.normal[pair.second];
-        if (scene.surface.is_rigid(pair.second)) return -n_2;
-        return scene.surface.is_rigid(pair.first) ? n_1 : Vector<3>(n_1 - n_2);
     }
     // Columns left over must hold numbers.
     void repeat_first(int k) {

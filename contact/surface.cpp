@@ -9,6 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/base/state_bytes.hpp"
 #include "abut/contact/messages.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
 #include "abut/geometry/polygon.hpp"
@@ -207,6 +208,19 @@ void check(const SurfaceView<Dim>& surface) {
     if (first_bad < surface.size()) check_face<Dim>(surface, first_bad);
 }
 
+template <int Dim>
+std::uint64_t fingerprint(const SurfaceView<Dim>& surface) {
+    Checksum checksum;
+    checksum.add_values(surface.face_offsets);
+    checksum.add_values(surface.face_vertices);
+    for (const std::int32_t v : surface.face_vertices)
+        checksum.add_values(std::span<const double>(surface.vertices[v].data(), Dim));
+    checksum.add_values(surface.depth);
+    checksum.add_values(surface.stiffness);
+    checksum.add_values(surface.body);
+    return checksum.value();
+}
+
 template struct SurfaceView<2>;
 template struct SurfaceView<3>;
 template struct Surface<2>;
@@ -215,5 +229,7 @@ template void check_sizes<2>(const SurfaceView<2>&);
 template void check_sizes<3>(const SurfaceView<3>&);
 template void check<2>(const SurfaceView<2>&);
 template void check<3>(const SurfaceView<3>&);
+template std::uint64_t fingerprint<2>(const SurfaceView<2>&);
+template std::uint64_t fingerprint<3>(const SurfaceView<3>&);
 
 }  // namespace abut::contact

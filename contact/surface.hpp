@@ -8,6 +8,11 @@
 
 namespace abut::contact {
 
+/// Index of a face of a surface, as its host numbers them.
+enum class SurfaceFace : std::int32_t {};
+/// Index of a face in the candidate list of a Contact: place in `Contact::faces()`.
+enum class ListedFace : std::int32_t {};
+
 /// The boundary of the bodies at rest, as views of a host's own arrays: all that contact knows of a solid.
 /// Faces are flat and convex; each translates with its displacement. n is the number of faces.
 template <int Dim>
@@ -67,5 +72,9 @@ void check_sizes(const SurfaceView<Dim>& surface);
 /// 0), a stiffness that is not > 0.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
+
+/// A number that two surfaces share only if they are the same, to the last bit: to tell whether a saved state fits.
+template <int Dim>
+[[nodiscard]] std::uint64_t fingerprint(const SurfaceView<Dim>& surface);
 
 }  // namespace abut::contact

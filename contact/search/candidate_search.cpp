@@ -14,8 +14,10 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/messages.hpp"
-#include "abut/contact/pairs.hpp"
+#include "abut/contact/pair.hpp"
+#include "abut/contact/search/face_boxes.hpp"
 #include "abut/contact/search/neighbours.hpp"
+#include "abut/contact/search/pair_filter.hpp"
 #include "abut/contact/search/skin_choice.hpp"
 #include "abut/geometry/broad_phase/sort_pairs.hpp"
 #include "abut/geometry/broad_phase/spatial_order.hpp"
@@ -44,69 +46,6 @@ const CandidateOptions& checked(const CandidateOptions& options) {
     if (!(options.largest_motion > 0.0))
         refuse("largest_motion is " + number(options.largest_motion) + "; it must be > 0. 1 is the default.");
     return options;
-}
-
-/// Largest sine of the angle between a face and the plane of a pair it takes part in. Between deformable faces the pair
-/// normal halves the angle that facing allows; against a rigid face it is that face's own normal.
-double largest_tilt_sine(double facing_cosine, bool against_rigid) {
-    const double angle = std::acos(-facing_cosine), tilt = against_rigid ? angle : 0.5 * angle;
-    return tilt < 0.5 * std::numbers::pi ? std::sin(tilt) : 1.0;
-}
-
-template <int Dim>
-bool any_rigid(const SurfaceView<Dim>& surface) {
-    for (std::int32_t face = 0; face < surface.size(); ++face)
-        if (surface.is_rigid(face)) return true;
-    return false;
-}
-
-/// Mean over the deformable faces; 0 without any.
-template <int Dim>
-double mean_face_size(const SurfaceView<Dim>& surface) {
-    double size = 0.0;
-    std::int32_t n = 0;
-    for (std::int32_t face = 0; face < surface.size(); ++face) {
-        if (surface.is_rigid(face)) continue;
-        size += Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
-        ++n;
-    }
-    return n > 0 ? size / n : 0.0;
-}
-
-/// What of a face a search reads again and again.
-template <int Dim>
-struct RestFace {
-    Box<Dim> corners;
-    double reach;   ///< how far past its corners an active pair can be, without distance and skin [m]
-    double radius;  ///< largest distance of a corner from the centroid [m]
-    std::int32_t face;
-};
-
-template <int Dim>
-class RestFaceMaker {
-public:
-    RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)
-        : surface_(surface),
-          by_distance_alone_(options.facing_cosine == 1.0),
-          tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))) {}
-
-    RestFace<Dim> operator()(std::int32_t face) const {
-        RestFace<Dim> rest{.corners = {}, .reach = 0.0, .radius = circumradius(surface_, face), .face = face};
-        for (const std::int32_t v : surface_.vertices_of(face)) rest.corners.extend(surface_.vertices[v]);
-        if (!by_distance_alone_ && !surface_.is_rigid(face)) rest.reach = 2.0 * surface_.depth[face] + rest.radius * tilt_;
-        return rest;
-    }
-
-private:
-    const SurfaceView<Dim>& surface_;
-    bool by_distance_alone_;
-    double tilt_;
-};
-
-template <int Dim>
-Box<Dim> swept_box(const RestFace<Dim>& rest, const Vector<Dim>& u_0, const Vector<Dim>& u_1, double margin) {
-    return Box<Dim>{rest.corners.lower + u_0.cwiseMin(u_1), rest.corners.upper + u_0.cwiseMax(u_1)}.grown(rest.reach +
-                                                                                                          margin);
 }
 
 /// What became of the pairs whose boxes overlap.
@@ -144,7 +83,7 @@ public:
         parallel_each(n_faces(), [&](std::ptrdiff_t i) { faces_[i] = at_rest(faces_[i].face); });
     }
 
-    [[nodiscard]] bool covers(double motion) const { return list_holds_ && motion <= 0.5 * list_skin_; }
+    [[nodiscard]] bool is_valid_for(double motion) const { return list_holds_ && motion <= 0.5 * list_skin_; }
 
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
         list_holds_ = false;
@@ -164,6 +103,8 @@ public:
 
     [[nodiscard]] std::span<const IndexPair> candidates() const { return candidates_; }
     [[nodiscard]] double skin() const { return report_.searches > 0 ? list_skin_ : skin_.skin(); }
+    [[nodiscard]] double next_skin() const { return skin_.skin(); }
+    void restore_skin(double skin) { skin_.restore(skin); }
     [[nodiscard]] const CandidateReport& report() const { return report_; }
 
 private:
@@ -220,12 +161,15 @@ private:
         for (std::int32_t face = 0; face < surface_.size(); ++face) {
             if (!std::isfinite(motion(face)))
                 throw Diverged("contact: the displacement of " + face_name(surface_, face) +
-                               " is not finite: the run has diverged. Take a smaller time step.");
+                                   " is not finite: the run has diverged. Take a smaller time step.",
+                               {.face_1 = face});
             if (std::isfinite(report_.motion) && motion(face) == report_.motion)
                 throw Diverged("contact: " + face_name(surface_, face) + " moves by " + number(report_.motion) +
-                               " m within a step, " + number(allowed) + " m is allowed, " + number(options_.largest_motion) +
-                               " times the extent of all surfaces: the run has diverged. Take a smaller time "
-                               "step, or raise CandidateOptions::largest_motion.");
+                                   " m within a step, " + number(allowed) + " m is allowed, " +
+                                   number(options_.largest_motion) +
+                                   " times the extent of all surfaces: the run has diverged. Take a smaller time "
+                                   "step, or raise CandidateOptions::largest_motion.",
+                               {.face_1 = face, .value = report_.motion, .allowed = allowed});
         }
     }
 
@@ -306,7 +250,7 @@ private:
                 ++counts.not_facing;
                 return false;
             }
-            if (!can_touch(rest_1, rest_2, u_0, u_1, list_skin_)) {
+            if (!can_touch(surface_, options_, rest_1, rest_2, u_0, u_1, list_skin_)) {
                 ++counts.out_of_reach;
                 return false;
             }
@@ -319,31 +263,6 @@ private:
     }
 
     [[nodiscard]] bool by_distance_alone() const { return options_.facing_cosine == 1.0; }
-
-    /// Whether g can come below `distance` where the faces share area: on the way from u_0 to u_1, or within a skin of u_0.
-    /// Faces that do not look at each other at all have no gap: their boxes decide.
-    bool can_touch(const RestFace<Dim>& rest_1, const RestFace<Dim>& rest_2, std::span<const Vector<Dim>> u_0,
-                   std::span<const Vector<Dim>> u_1, double skin) const {
-        const std::int32_t face_1 = rest_1.face, face_2 = rest_2.face;
-        if (options_.facing_cosine > 0.0 && !are_facing(surface_, face_1, face_2, 0.0)) return true;
-        // m is the pair's normal times |m|: with squares nothing has to be normalised
-        const Vector<Dim> m = direction(face_1, face_2);
-        const double mm = m.squaredNorm();
-        const Vector<Dim> rest = surface_.centroid[face_2] - surface_.centroid[face_1];
-        const Vector<Dim> at_0 = rest + (u_0[face_2] - u_0[face_1]);
-        const Vector<Dim> at_1 = rest + (u_1[face_2] - u_1[face_1]);
-        const double gap_0 = at_0.dot(m), gap_1 = at_1.dot(m);  // times |m|
-        const auto exceeds = [mm](double gap, double limit) { return gap > 0.0 && gap * gap > limit * limit * mm; };
-        if (exceeds(gap_0, options_.distance + skin) && exceeds(gap_1, options_.distance)) return false;
-        const double reach = (1.0 + 1e-12) * (rest_1.radius + rest_2.radius + std::max(skin, (at_1 - at_0).norm()));
-        return at_0.squaredNorm() - gap_0 * gap_0 / mm <= reach * reach;
-    }
-
-    /// Along the pair's normal, of any length.
-    [[nodiscard]] Vector<Dim> direction(std::int32_t face_1, std::int32_t face_2) const {
-        if (surface_.is_rigid(face_1) || surface_.is_rigid(face_2)) return pair_normal(surface_, face_1, face_2);
-        return surface_.normal[face_1] - surface_.normal[face_2];
-    }
 
     void add_up_counts() {
         Counts sum;
@@ -361,14 +280,14 @@ private:
 
     /// How many of the candidates half the skin would have found.
     [[nodiscard]] std::int64_t count_at_half_skin(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
-        place_of_face_.resize(faces_.size());
+        index_of_face_.resize(faces_.size());
         for (std::size_t i = 0; i < faces_.size(); ++i)
-            place_of_face_[static_cast<std::size_t>(faces_[i].face)] = static_cast<std::int32_t>(i);
+            index_of_face_[static_cast<std::size_t>(faces_[i].face)] = static_cast<std::int32_t>(i);
         const auto remains = [&](const IndexPair& pair) {
-            const std::int32_t i = place_of_face_[static_cast<std::size_t>(pair.first)];
-            const std::int32_t j = place_of_face_[static_cast<std::size_t>(pair.second)];
+            const std::int32_t i = index_of_face_[static_cast<std::size_t>(pair.first)];
+            const std::int32_t j = index_of_face_[static_cast<std::size_t>(pair.second)];
             return boxes_[i].grown(-0.5 * list_skin_).overlaps(boxes_[j]) &&
-                   (by_distance_alone() || can_touch(faces_[i], faces_[j], u_0, u_1, 0.5 * list_skin_));
+                   (by_distance_alone() || can_touch(surface_, options_, faces_[i], faces_[j], u_0, u_1, 0.5 * list_skin_));
         };
         return std::ranges::count_if(candidates_, remains);
     }
@@ -383,7 +302,7 @@ private:
     std::vector<RestFace<Dim>> faces_;  // body by body, in spatial order
     std::vector<BodyFaces> bodies_;
     std::vector<Box<Dim>> boxes_;              // of faces_
-    std::vector<std::int32_t> place_of_face_;  // in faces_
+    std::vector<std::int32_t> index_of_face_;  // in faces_
     std::vector<IndexPair> candidates_;
     oneapi::tbb::enumerable_thread_specific<Counts> counts_;
     CandidateReport report_;
@@ -400,8 +319,8 @@ template <int Dim>
 CandidateSearch<Dim>& CandidateSearch<Dim>::operator=(CandidateSearch&&) noexcept = default;
 
 template <int Dim>
-bool CandidateSearch<Dim>::covers(double motion) const {
-    return implementation_->covers(motion);
+bool CandidateSearch<Dim>::is_valid_for(double motion) const {
+    return implementation_->is_valid_for(motion);
 }
 template <int Dim>
 void CandidateSearch<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
@@ -420,27 +339,19 @@ double CandidateSearch<Dim>::skin() const {
     return implementation_->skin();
 }
 template <int Dim>
+double CandidateSearch<Dim>::next_skin() const {
+    return implementation_->next_skin();
+}
+template <int Dim>
+void CandidateSearch<Dim>::restore_skin(double skin) {
+    implementation_->restore_skin(skin);
+}
+template <int Dim>
 const CandidateReport& CandidateSearch<Dim>::report() const {
     return implementation_->report();
 }
 
-template <int Dim>
-std::vector<Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
-                                  std::span<const Vector<Dim>> u_1, const CandidateOptions& options, double skin) {
-    const RestFaceMaker<Dim> at_rest(surface, options);
-    std::vector<Box<Dim>> boxes;
-    boxes.reserve(static_cast<std::size_t>(surface.size()));
-    for (std::int32_t face = 0; face < surface.size(); ++face)
-        boxes.push_back(swept_box(at_rest(face), u_0[face], u_1[face], 0.5 * (options.distance + skin)));
-    return boxes;
-}
-
-#define ABUT_INSTANTIATE(Dim)                                                                              \
-    template class CandidateSearch<Dim>;                                                                   \
-    template std::vector<Box<Dim>> swept_boxes<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>, \
-                                                    std::span<const Vector<Dim>>, const CandidateOptions&, double);
-ABUT_INSTANTIATE(2)
-ABUT_INSTANTIATE(3)
-#undef ABUT_INSTANTIATE
+template class CandidateSearch<2>;
+template class CandidateSearch<3>;
 
 }  // namespace abut::contact

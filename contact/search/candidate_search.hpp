@@ -34,7 +34,7 @@ template <int Dim>
 
 /// The pairs of faces that can touch: a list over any number of surfaces, that lives for many steps. docs/detection.md.
 ///
-/// Each step the host asks `covers` with an upper bound on the motion since the last search, and searches anew if need be.
+/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches anew if need be.
 /// The faces of a body are kept in a spatial order from one search to the next, so that the packed tree is built in one
 /// sweep over them.
 template <int Dim>
@@ -50,7 +50,7 @@ public:
     /// Whether the list is still a superset of all pairs in question, when no corner has moved by more than `motion` [m]
     /// since the search, and no face has turned: normals decide which faces look at each other and where a gap lies, and no
     /// skin allows for a change of them. False before the first search, and after one that failed.
-    [[nodiscard]] bool covers(double motion) const;
+    [[nodiscard]] bool is_valid_for(double motion) const;
 
     /// For a host whose faces turn or deform: it has changed coordinates and all that follows from them, but no face and no
     /// corner came or went. The list holds no longer. Throws as the constructor.
@@ -68,6 +68,9 @@ public:
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads.
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const;
     [[nodiscard]] double skin() const;  ///< of the current list [m]; before the first search, of the first one
+    /// The skin of the next list [m], and going on from one that another search had come to: all that lists learn.
+    [[nodiscard]] double next_skin() const;
+    void restore_skin(double skin);
     [[nodiscard]] const CandidateReport& report() const;
 
 private:

@@ -18,6 +18,10 @@ public:
     SkinChoice(int dim, double fixed, double face_size);
 
     [[nodiscard]] double skin() const { return skin_; }
+    /// Goes on from a skin that another choice had come to [m]; a fixed one stays.
+    void restore(double skin) {
+        if (!is_fixed_) skin_ = skin;
+    }
     /// What the last list was like: pairs with this skin and with half of it, faces, and the largest motion of a face in a
     /// step [m].
     void learn(std::int64_t pairs, std::int64_t pairs_at_half, std::int64_t faces, double motion);

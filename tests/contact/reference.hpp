@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "abut/contact/path/path_integral.hpp"
+#include "abut/contact/options.hpp"
 #include "abut/contact/surface.hpp"
 
 namespace abut::test {
@@ -100,12 +100,13 @@ template <int Dim>
 class Reference {
 public:
     Reference(const contact::SurfaceView<Dim>& surface, const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
-              contact::Weights weights)
+              contact::InterfaceWeighting weighting)
         : surface_(surface) {
         for (const auto& [f_1, f_2] : pairs) {
             ReferencePair<Dim> pair{f_1, f_2, (surface.normal[f_1] - surface.normal[f_2]).normalized(), 0.5, 0.5};
             const double k_1 = surface.stiffness[f_1], k_2 = surface.stiffness[f_2];
-            if (weights == contact::Weights::stiffness) pair.theta_1 = k_2 / (k_1 + k_2), pair.theta_2 = k_1 / (k_1 + k_2);
+            if (weighting == contact::InterfaceWeighting::stiffness)
+                pair.theta_1 = k_2 / (k_1 + k_2), pair.theta_2 = k_1 / (k_1 + k_2);
             if (std::isinf(k_1)) pair.normal = surface.normal[f_1], pair.theta_1 = 0.0, pair.theta_2 = 1.0;
             if (std::isinf(k_2)) pair.normal = -surface.normal[f_2], pair.theta_1 = 1.0, pair.theta_2 = 0.0;
             pairs_.push_back(pair);

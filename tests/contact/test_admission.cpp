@@ -33,8 +33,8 @@ contact::ContactOptions wide_skin() {
 
 template <int Dim>
 bool pushes(const Mover<Dim>& mover) {
-    for (const Vector<Dim>& force : mover.contact.result().mean_force())
-        if (!force.isZero(0.0)) return true;
+    for (const Vector<Dim>& gradient : mover.contact.last().mean_gradient)
+        if (!gradient.isZero(0.0)) return true;
     return false;
 }
 
@@ -46,8 +46,8 @@ TEMPLATE_TEST_CASE_SIG("a pair within the depth of its cells at the start is a c
     mover.search(at<Dim>(-0.1, 0.0));
     CHECK(mover.move_to(at<Dim>(-0.1, 0.1)));
     CHECK(pushes(mover));
-    CHECK(mover.contact.report().not_admitted == 0);
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().inadmissible_overlaps == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("a pair deeper than its cells at the start is no contact", "[contact][admission]", ((int Dim), Dim),
@@ -56,11 +56,11 @@ TEMPLATE_TEST_CASE_SIG("a pair deeper than its cells at the start is no contact"
     mover.search(at<Dim>(-0.7, 0.0));
     CHECK_FALSE(mover.move_to(at<Dim>(-0.65, 0.1)));
     CHECK_FALSE(pushes(mover));
-    CHECK(mover.contact.report().not_admitted == 1);
+    CHECK(mover.contact.report().inadmissible_overlaps == 1);
     // Not even when it comes up to less than D: only free of overlap may it change.
     CHECK_FALSE(mover.move_to(at<Dim>(-0.1, 0.1)));
     CHECK_FALSE(mover.move_to(at<Dim>(-0.2, 0.1)));
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("the far side of a body is no contact of its near side", "[contact][admission]", ((int Dim), Dim), 2,
@@ -76,7 +76,7 @@ TEMPLATE_TEST_CASE_SIG("the far side of a body is no contact of its near side", 
     REQUIRE(mover.contact.report().candidates == 1);
     CHECK_FALSE(mover.move_to(at_rest(slab)));
     CHECK_FALSE(pushes(mover));
-    CHECK(mover.contact.report().not_admitted == 1);
+    CHECK(mover.contact.report().inadmissible_overlaps == 1);
 }
 
 TEMPLATE_TEST_CASE_SIG("a body does not touch itself unless self-contact is asked for", "[contact][admission]",
@@ -102,7 +102,7 @@ TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge and comes back is the sam
     CHECK_FALSE(mover.move_to(at<Dim>(-0.1, 1.3)));  // A = 0, g < 0
     CHECK(mover.move_to(at<Dim>(-0.1, 0.8)));
     CHECK(pushes(mover));
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge, sinks below its depth and comes back is no contact",
@@ -117,7 +117,7 @@ TEMPLATE_TEST_CASE_SIG("a pair that slides off an edge, sinks below its depth an
     // Once apart, it may close again.
     CHECK_FALSE(mover.move_to(at<Dim>(0.1, 0.2)));
     CHECK(mover.move_to(at<Dim>(-0.1, 0.2)));
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pressed, through rebuilds of the list",
@@ -132,7 +132,7 @@ TEMPLATE_TEST_CASE_SIG("an admitted pair stays a contact however deep it is pres
     CHECK(mover.move_to(at<Dim>(-1.4, 0.2)));
     CHECK(pushes(mover));
     CHECK(mover.contact.report().rebuilds == 3);
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
     CHECK(mover.contact.report().compression_max == Approx(1.5 / (2.0 * depth)).epsilon(1e-14));
 }
 
@@ -253,7 +253,7 @@ TEMPLATE_TEST_CASE_SIG("a refused pair stays refused through rebuilds of the lis
     mover.move_to(at<Dim>(-0.2, 0.0));
     mover.search(at<Dim>(-0.2, 0.0));
     CHECK_FALSE(mover.move_to(at<Dim>(-0.1, 0.0)));
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted as lost and not admitted",
@@ -266,7 +266,7 @@ TEMPLATE_TEST_CASE_SIG("a pair that is first seen already in contact is counted 
     const double gap = GENERATE(-0.1, -0.7);  // above and below D
     mover.search(at<Dim>(gap, 0.0));
     REQUIRE(mover.contact.report().candidates == 1);
-    CHECK(mover.contact.report().lost_contacts == (gap > -2.0 * depth ? 1 : 0));
+    CHECK(mover.contact.report().missed_contacts == (gap > -2.0 * depth ? 1 : 0));
     CHECK_FALSE(mover.move_to(at<Dim>(-0.1, 0.1)));
     CHECK_FALSE(pushes(mover));
 }
@@ -279,5 +279,5 @@ TEMPLATE_TEST_CASE_SIG("a pair that is first seen beside its partner, below the 
     mover.search(at<Dim>(5.0, 0.0));
     mover.search(at<Dim>(-0.1, 1.1));  // A = 0
     CHECK(mover.move_to(at<Dim>(-0.1, 0.9)));
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }

@@ -44,7 +44,7 @@ TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work array
     std::vector<std::vector<Vector<Dim>>> states;
     for (int i = 0; i < 8; ++i) states.push_back(random_displacement(random, surface, 0.4, 0.1));
     const auto rest = random_displacement(random, surface, 0.0, -1.0);
-    contact.search(rest, rest, [](std::span<const std::int32_t> faces) { return uncoupled<Dim>(faces.size()); });
+    contact.search(rest, rest, [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); });
     const std::size_t n = contact.faces().size();
     REQUIRE(n == static_cast<std::size_t>(surface.size()));
     const std::vector<Vector<Dim>> y(n, Vector<Dim>::Ones());

@@ -224,18 +224,18 @@ TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next 
     contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
     const auto u = at_rest(surface);
     CHECK_THROWS_WITH(contact.integrate({u, u, u, u}), Contains("no candidate list"));
-    const auto good = [](std::span<const std::int32_t> faces) {
+    const auto good = [](std::span<const contact::SurfaceFace> faces) {
         return contact::FaceCoupling<Dim>{std::vector<std::int32_t>(faces.size() + 1, 0), {}, {}};
     };
     contact.search(u, u, good);
-    REQUIRE(contact.covers(0.0));
+    REQUIRE(contact.is_valid_for(0.0));
     CHECK_THROWS_WITH(contact.search(u, u, [](auto) -> contact::FaceCoupling<Dim> { throw std::runtime_error("host"); }),
                       "host");
-    CHECK_FALSE(contact.covers(0.0));
+    CHECK_FALSE(contact.is_valid_for(0.0));
     CHECK_THROWS_AS(contact.integrate({u, u, u, u}), Misuse);
     CHECK_THROWS_AS(contact.evaluate(u, u), Misuse);
     contact.search(u, u, good);
-    CHECK(contact.covers(0.0));
+    CHECK(contact.is_valid_for(0.0));
     CHECK_NOTHROW(contact.integrate({u, u, u, u}));
     auto bad = u;
     bad[1][0] = not_a_number;
@@ -258,7 +258,7 @@ TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both 
     const auto surface = two_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {});
     auto u = at_rest(surface);
-    const auto none = [](std::span<const std::int32_t> faces) { return uncoupled<Dim>(faces.size()); };
+    const auto none = [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); };
     contact.search(u, u, none);
     REQUIRE(contact.faces().size() == 2);
     const std::vector<Vector<Dim>> two(2, Vector<Dim>::Zero()), one(1, Vector<Dim>::Zero());
@@ -267,7 +267,7 @@ TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both 
     CHECK_THROWS_WITH(contact.evaluate(two, one), Contains("1 entries for 2 faces"));
     CHECK_THROWS_WITH(contact.search(one, u, none), Contains("1 displacements are given for 2 faces"));
     const auto with = [&](auto&& spoil) {
-        contact.search(u, u, [&](std::span<const std::int32_t> faces) {
+        contact.search(u, u, [&](std::span<const contact::SurfaceFace> faces) {
             auto coupling = uncoupled<Dim>(faces.size());
             spoil(coupling);
             return coupling;

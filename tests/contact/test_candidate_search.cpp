@@ -71,7 +71,7 @@ TEMPLATE_TEST_CASE_SIG("flat faces pressed into each other, whose own boxes are 
     contact::CandidateOptions options;
     options.broad_phase = method;
     const auto found = candidates_of<Dim>(surface, u, u, options, 0.0);
-    const Reference<Dim> reference(surface.view(), facing_pairs(surface), contact::Weights::half);
+    const Reference<Dim> reference(surface.view(), facing_pairs(surface), contact::InterfaceWeighting::half);
     int active = 0;
     for (const auto& pair : reference.pairs()) {
         if (reference.gap(pair, u) >= 0.0 || reference.patch(pair, u).area <= 0.0) continue;
@@ -99,7 +99,7 @@ TEMPLATE_TEST_CASE_SIG(
         }
         const auto u_0 = random_displacement(random, surface, 1.0), u_1 = random_displacement(random, surface, 1.0);
         const auto found = candidates_of<Dim>(surface, u_0, u_1, {}, 0.0);
-        const Reference<Dim> reference(surface.view(), facing_pairs(surface), contact::Weights::half);
+        const Reference<Dim> reference(surface.view(), facing_pairs(surface), contact::InterfaceWeighting::half);
         std::vector<Vector<Dim>> u(u_0.size());
         for (int sample = 0; sample <= samples; ++sample) {
             const double tau = static_cast<double>(sample) / samples;
@@ -127,7 +127,7 @@ TEMPLATE_TEST_CASE_SIG("the list stays a superset while no face moves by more th
         const auto u_0 = random_displacement(random, surface, 1.0);
         const auto found = candidates_of<Dim>(surface, u_0, u_0, {}, skin);
         const auto bare = candidates_of<Dim>(surface, u_0, u_0, {}, 0.0);
-        const Reference<Dim> reference(surface.view(), facing_pairs(surface), contact::Weights::half);
+        const Reference<Dim> reference(surface.view(), facing_pairs(surface), contact::InterfaceWeighting::half);
         for (int sample = 0; sample < 20; ++sample) {
             auto u = u_0;
             for (Vector<Dim>& moved : u) moved += 0.5 * skin * random_vector<Dim>(random, 1.0).normalized();
@@ -178,12 +178,12 @@ TEMPLATE_TEST_CASE_SIG("a list covers motions up to half its skin, and nothing b
     // By default the first one is half the mean size of the deformable faces, 1 and 3.
     const double expected = options.search.skin > 0.0 ? options.search.skin : 1.0;
     CHECK(mover.contact.skin() == Approx(expected).epsilon(1e-14));
-    CHECK_FALSE(mover.contact.covers(0.0));
+    CHECK_FALSE(mover.contact.is_valid_for(0.0));
     mover.search(at_rest(surface));
-    CHECK(mover.contact.covers(0.0));
-    CHECK(mover.contact.covers(0.4999 * expected));
-    CHECK_FALSE(mover.contact.covers(0.5001 * expected));
-    CHECK_FALSE(mover.contact.covers(std::numeric_limits<double>::quiet_NaN()));
+    CHECK(mover.contact.is_valid_for(0.0));
+    CHECK(mover.contact.is_valid_for(0.4999 * expected));
+    CHECK_FALSE(mover.contact.is_valid_for(0.5001 * expected));
+    CHECK_FALSE(mover.contact.is_valid_for(std::numeric_limits<double>::quiet_NaN()));
 }
 
 TEMPLATE_TEST_CASE_SIG("a long slide leaves no trail in the list", "[contact][candidates]", ((int Dim), Dim), 2, 3) {
@@ -208,7 +208,7 @@ TEMPLATE_TEST_CASE_SIG("a long slide leaves no trail in the list", "[contact][ca
         mover.search(u);
         CHECK(mover.contact.report().candidates <= 5);
     }
-    CHECK(mover.contact.report().lost_contacts == 0);
+    CHECK(mover.contact.report().missed_contacts == 0);
 }
 
 namespace {
@@ -357,7 +357,7 @@ TEST_CASE("a host whose faces turn changes its arrays, says so, and searches ane
     surface.normal[1] = -up<3>();
     surface.centroid[1] = 0.2 * up<3>();
     search.surface_changed();
-    CHECK_FALSE(search.covers(0.0));
+    CHECK_FALSE(search.is_valid_for(0.0));
     search.search(at_rest(surface), at_rest(surface));
     CHECK(search.candidates().size() == 1);
 }
@@ -381,7 +381,7 @@ TEST_CASE("the chosen skin costs little more than the best fixed one", "[contact
             for (std::int32_t face = 0; face < surface.size(); ++face)
                 if (surface.body[face] == 1) next[static_cast<std::size_t>(face)].x() += way;
             motion += speed;
-            if (!search.covers(motion)) {
+            if (!search.is_valid_for(motion)) {
                 search.search(u, next);
                 motion = speed;
                 cost += 4.0 * surface.size() + 10.0 * static_cast<double>(search.candidates().size());
@@ -407,11 +407,11 @@ TEMPLATE_TEST_CASE_SIG("a face that moves beyond all measure within a step is re
     const auto u = at_rest(surface);
     contact::CandidateSearch<Dim> search(surface.view(), {});
     search.search(u, u);
-    REQUIRE(search.covers(0.0));
+    REQUIRE(search.is_valid_for(0.0));
     auto far = u;
     far[3] = 1e9 * up<Dim>();
     CHECK_THROWS_WITH(search.search(u, far), Contains("face 3") && Contains("1e+09") && Contains("largest_motion"));
-    CHECK_FALSE(search.covers(0.0));
+    CHECK_FALSE(search.is_valid_for(0.0));
     CHECK(search.candidates().empty());
     far[3] = Vector<Dim>::Constant(std::numeric_limits<double>::infinity());
     CHECK_THROWS_WITH(search.search(u, far), Contains("face 3") && Contains("not finite"));
@@ -435,7 +435,7 @@ TEST_CASE("more candidates than allowed are an error, and leave no list", "[cont
     CHECK_NOTHROW(enough.search(u, u));
     contact::CandidateSearch<3> tight(surface.view(), {.skin = 0.01, .limits = {.pairs = n - 1}});
     CHECK_THROWS_AS(tight.search(u, u), geometry::SearchLimitError);
-    CHECK_FALSE(tight.covers(0.0));
+    CHECK_FALSE(tight.is_valid_for(0.0));
     CHECK(tight.candidates().empty());
     contact::CandidateSearch<3> small(surface.view(), {.skin = 0.01, .limits = {.bytes = 1000}});
     CHECK_THROWS_AS(small.search(u, u), geometry::SearchLimitError);
@@ -453,7 +453,7 @@ TEST_CASE("a limit that is met between the second two bodies leaves no part of a
     const auto n = static_cast<std::int64_t>(of_two.candidates().size());
     contact::CandidateSearch<3> search(three.view(), {.skin = 0.01, .limits = {.pairs = n + 1}});
     CHECK_THROWS_WITH(search.search(u, u), Contains(" 1 are allowed") && Contains("Beside them " + std::to_string(n)));
-    CHECK_FALSE(search.covers(0.0));
+    CHECK_FALSE(search.is_valid_for(0.0));
     CHECK(search.candidates().empty());
 }
 

@@ -43,7 +43,9 @@ TEMPLATE_TEST_CASE_SIG("an obstacle pushes a face out to its own plane: the corr
     Mover<Dim> mover(surface, {});
     mover.search(at_rest(surface));
     REQUIRE(mover.move_to(at_rest(surface)));
-    CHECK((mover.contact.result().mean_correction()[0] - pressed * up<Dim>()).norm() < 1e-15);
-    CHECK(mover.contact.result().mean_correction()[1].isZero(0.0));
-    CHECK((mover.contact.result().mean_force()[0] + mover.contact.result().mean_force()[1]).norm() < 1e-15);
+    CHECK((mover.contact.last().mean_correction[contact::ListedFace{0}] - pressed * up<Dim>()).norm() < 1e-15);
+    CHECK(mover.contact.last().mean_correction[contact::ListedFace{1}].isZero(0.0));
+    CHECK((mover.contact.last().mean_gradient[contact::ListedFace{0}] +
+           mover.contact.last().mean_gradient[contact::ListedFace{1}])
+              .norm() < 1e-15);
 }

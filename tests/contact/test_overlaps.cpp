@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "abut/contact/overlaps.hpp"
-#include "abut/contact/pairs.hpp"
+#include "abut/contact/pair_list.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;
@@ -122,10 +122,10 @@ TEMPLATE_TEST_CASE_SIG("every pair gives what it gives as a pair of the list of 
         double difference = 0.0;
         for (const auto& [i, j] : pairs) {
             contact::PairList<Dim> list;
-            list.append(view, i, j, contact::Weights::half);
+            list.append(view, i, j, contact::InterfaceWeighting::half);
             const auto& pair = list.pairs()[0];
             const auto position = list.position(view, pair, u[i], u[j]);
-            const auto shared = list.shared_area(pair, position.shift, AreaMethod::fast);
+            const auto shared = list.overlap(pair, position.tangential_offset, AreaMethod::fast);
             if (shared.area == 0.0) continue;
             REQUIRE(n < overlaps.found.size());
             const auto& overlap = overlaps.found[n++];

@@ -1,10 +1,12 @@
 #include <catch2/catch.hpp>
 
+#include "abut/contact/pair.hpp"
+#include "abut/contact/pair_list.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;
 using namespace abut::test;
-using contact::Weights;
+using contact::InterfaceWeighting;
 
 namespace {
 
@@ -19,9 +21,9 @@ contact::Surface<Dim> two_tiles(double stiffness_1, double stiffness_2) {
 
 template <int Dim>
 contact::ContactPair<Dim> pair_of(const contact::Surface<Dim>& surface, std::int32_t face_1, std::int32_t face_2,
-                                  Weights weights) {
+                                  InterfaceWeighting weighting) {
     contact::PairList<Dim> list;
-    list.append(surface.view(), face_1, face_2, weights);
+    list.append(surface.view(), face_1, face_2, weighting);
     return list.pairs()[0];
 }
 
@@ -30,16 +32,16 @@ contact::ContactPair<Dim> pair_of(const contact::Surface<Dim>& surface, std::int
 TEMPLATE_TEST_CASE_SIG("the softer side of a pair takes the larger share: theta_1 = k_2 / (k_1 + k_2)", "[contact][weights]",
                        ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>(1.0, 3.0);
-    const auto pair = pair_of(surface, 0, 1, Weights::stiffness);
+    const auto pair = pair_of(surface, 0, 1, InterfaceWeighting::stiffness);
     CHECK(pair.theta_1 == Approx(0.75).epsilon(1e-15));
     CHECK(pair.theta_1 + pair.theta_2 == 1.0);
-    CHECK(pair_of(surface, 0, 1, Weights::half).theta_1 == 0.5);
+    CHECK(pair_of(surface, 0, 1, InterfaceWeighting::half).theta_1 == 0.5);
 }
 
 TEMPLATE_TEST_CASE_SIG("equal stiffness shares a pair equally, whatever the weights", "[contact][weights]", ((int Dim), Dim),
                        2, 3) {
-    const Weights weights = GENERATE(Weights::half, Weights::stiffness);
-    const auto pair = pair_of(two_tiles<Dim>(7.0, 7.0), 0, 1, weights);
+    const InterfaceWeighting weighting = GENERATE(InterfaceWeighting::half, InterfaceWeighting::stiffness);
+    const auto pair = pair_of(two_tiles<Dim>(7.0, 7.0), 0, 1, weighting);
     CHECK(pair.theta_1 == 0.5);
     CHECK(pair.theta_2 == 0.5);
 }
@@ -47,14 +49,14 @@ TEMPLATE_TEST_CASE_SIG("equal stiffness shares a pair equally, whatever the weig
 TEMPLATE_TEST_CASE_SIG(
     "against a rigid face the deformable one takes the whole correction, on either side and with either weights",
     "[contact][weights]", ((int Dim), Dim), 2, 3) {
-    const Weights weights = GENERATE(Weights::half, Weights::stiffness);
-    const auto rigid_second = pair_of(two_tiles<Dim>(1.0, rigid), 0, 1, weights);
+    const InterfaceWeighting weighting = GENERATE(InterfaceWeighting::half, InterfaceWeighting::stiffness);
+    const auto rigid_second = pair_of(two_tiles<Dim>(1.0, rigid), 0, 1, weighting);
     CHECK(rigid_second.theta_1 == 1.0);
     CHECK(rigid_second.theta_2 == 0.0);
-    const auto rigid_first = pair_of(two_tiles<Dim>(rigid, 1.0), 0, 1, weights);
+    const auto rigid_first = pair_of(two_tiles<Dim>(rigid, 1.0), 0, 1, weighting);
     CHECK(rigid_first.theta_1 == 0.0);
     CHECK(rigid_first.theta_2 == 1.0);
-    const auto nearly = pair_of(two_tiles<Dim>(1.0, 1e15), 0, 1, Weights::stiffness);
+    const auto nearly = pair_of(two_tiles<Dim>(1.0, 1e15), 0, 1, InterfaceWeighting::stiffness);
     CHECK(nearly.theta_1 == Approx(1.0).epsilon(1e-14));
 }
 
@@ -65,8 +67,8 @@ TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and chan
         const auto surface = random_surface<Dim>(random, 1);
         const auto u = random_displacement(random, surface, 0.5);
         contact::PairList<Dim> list;
-        list.append(surface.view(), 0, 1, Weights::stiffness);
-        list.append(surface.view(), 1, 0, Weights::stiffness);
+        list.append(surface.view(), 0, 1, InterfaceWeighting::stiffness);
+        list.append(surface.view(), 1, 0, InterfaceWeighting::stiffness);
         const auto& forward = list.pairs()[0];
         const auto& backward = list.pairs()[1];
         const auto at = list.position(surface.view(), forward, u[0], u[1]);
@@ -74,10 +76,10 @@ TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and chan
         CHECK((forward.frame.normal() + backward.frame.normal()).norm() < 1e-15);
         CHECK(forward.frame.normal().norm() == Approx(1.0).epsilon(1e-15));
         CHECK(forward.theta_1 == Approx(backward.theta_2).epsilon(1e-15));
-        CHECK(forward.depth == backward.depth);
+        CHECK(forward.admission_depth == backward.admission_depth);
         CHECK(at.gap == Approx(swapped.gap).margin(1e-15));
-        const auto shared = list.shared_area(forward, at.shift, geometry::AreaMethod::fast);
-        const auto shared_back = list.shared_area(backward, swapped.shift, geometry::AreaMethod::fast);
+        const auto shared = list.overlap(forward, at.tangential_offset, geometry::AreaMethod::fast);
+        const auto shared_back = list.overlap(backward, swapped.tangential_offset, geometry::AreaMethod::fast);
         CHECK(shared.area == Approx(shared_back.area).margin(1e-14));
         // Moving face 2 one way is moving face 1 the other way.
         CHECK((forward.frame.lift(shared.shift_derivative) + backward.frame.lift(shared_back.shift_derivative)).norm() <
@@ -95,7 +97,7 @@ TEMPLATE_TEST_CASE_SIG("the pair normal halves the angle between the faces; an o
         surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.1, 1.0, 0);
         surface.append(tile<Dim>(up<Dim>(), tilted, 0.5), 0.1, stiffness, 1);
         const Vector<Dim> expected = stiffness == rigid ? Vector<Dim>(-tilted) : halfway;
-        CHECK((pair_of(surface, 0, 1, Weights::half).frame.normal() - expected).norm() < 1e-15);
+        CHECK((pair_of(surface, 0, 1, InterfaceWeighting::half).frame.normal() - expected).norm() < 1e-15);
     }
 }
 
@@ -116,13 +118,14 @@ TEMPLATE_TEST_CASE_SIG("a gap is what lies between the centroids along the norma
                        "[contact][pairs]", ((int Dim), Dim), 2, 3) {
     const auto surface = two_tiles<Dim>(1.0, 1.0);
     contact::PairList<Dim> list;
-    list.append(surface.view(), 0, 1, Weights::half);
+    list.append(surface.view(), 0, 1, InterfaceWeighting::half);
     const Vector<Dim> zero = Vector<Dim>::Zero();
     const Vector<Dim> sideways = 0.25 * axis<Dim>(0);
     CHECK(list.position(surface.view(), list.pairs()[0], zero, zero).gap == Approx(0.01).epsilon(1e-14));
     CHECK(list.position(surface.view(), list.pairs()[0], zero, sideways - 0.03 * up<Dim>()).gap ==
           Approx(-0.02).epsilon(1e-14));
     const auto at = list.position(surface.view(), list.pairs()[0], zero, sideways);
-    CHECK(at.shift.norm() == Approx(0.25).epsilon(1e-15));
-    CHECK(list.shared_area(list.pairs()[0], at.shift, geometry::AreaMethod::fast).area == Approx(0.75).epsilon(1e-15));
+    CHECK(at.tangential_offset.norm() == Approx(0.25).epsilon(1e-15));
+    CHECK(list.overlap(list.pairs()[0], at.tangential_offset, geometry::AreaMethod::fast).area ==
+          Approx(0.75).epsilon(1e-15));
 }

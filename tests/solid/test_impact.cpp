@@ -54,7 +54,7 @@ std::set<std::pair<std::int32_t, std::int32_t>> touching_pairs(Scene<Dim>& scene
         for (std::int32_t j = i + 1; j < surface.size(); ++j)
             if (surface.body[i] != surface.body[j] && surface.normal[i].dot(surface.normal[j]) < -0.5)
                 facing.emplace_back(i, j);
-    const Reference<Dim> reference(surface, facing, contact::Weights::stiffness);
+    const Reference<Dim> reference(surface, facing, contact::InterfaceWeighting::stiffness);
     std::set<std::pair<std::int32_t, std::int32_t>> touching;
     for (const auto& pair : reference.pairs()) {
         const double g = reference.gap(pair, u);
@@ -80,7 +80,7 @@ TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
     CHECK(scene.ledger.momentum_drift() < 1e-12 * mass_of_first(scene) * velocity[0].norm());
     CHECK(excess < 0.05);  // H~ alone would not prove that the solution is good
-    CHECK(report.lost_contacts == 0);
+    CHECK(report.missed_contacts == 0);
     CHECK(report.active_pairs_max >= (Dim == 2 ? 2 : 5));
     // They have met, and left each other again.
     CHECK(report.events > 0);
@@ -151,7 +151,7 @@ TEMPLATE_TEST_CASE_SIG(
     }
     CHECK(found > 50);
     CHECK(scene.solid.contact_report().rebuilds > 2);
-    CHECK(scene.solid.contact_report().lost_contacts == 0);
+    CHECK(scene.solid.contact_report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for bit, and no pair or event is looked for",
@@ -207,7 +207,7 @@ TEST_CASE("where contacts were looked at before a run begins does not matter to 
         if (run.steps() == 1) CHECK(used.contact_report().rebuilds == 2);
     }
     CHECK(fresh.contact_report().active_pairs_max > 0);
-    CHECK(used.contact_report().lost_contacts == 0);
+    CHECK(used.contact_report().missed_contacts == 0);
     CHECK(std::ranges::equal(run.q(), other.q()));
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+// Private to the layer.
+#include <cstddef>
+#include <span>
+
+#include "abut/contact/contact.hpp"
+
+namespace abut::contact {
+
+/// What a host gives to a Contact, looked at. All throw BadInput; `check_path` throws Diverged where a value is not finite.
+void check_options(const ContactOptions& options);
+template <int Dim>
+void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces);
+template <int Dim>
+void check_path(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FacePath<Dim>& path);
+template <int Dim>
+void check_host_step(const SurfaceView<Dim>& surface, const HostStep<Dim>& host);
+
+}  // namespace abut::contact

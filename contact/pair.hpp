@@ -1,0 +1,59 @@
+#pragma once
+// Private to the layer.
+#include <algorithm>
+#include <cstdint>
+
+#include "abut/contact/surface.hpp"
+#include "abut/geometry/plane_frame.hpp"
+
+namespace abut::contact {
+
+/// Whether two faces look at each other: n_1 . n_2 < facing_cosine.
+template <int Dim>
+[[nodiscard]] bool are_facing(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2,
+                              double facing_cosine) {
+    return surface.normal[face_1].dot(surface.normal[face_2]) < facing_cosine;
+}
+
+/// n_12 of any length: n_1 - n_2, or the normal of the face that is rigid, because an obstacle's face may be far larger than
+/// its partner and a gap read at its centroid along a tilted normal would mean nothing.
+template <int Dim>
+[[nodiscard]] Vector<Dim> pair_direction(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
+    const Vector<Dim>&n_1 = surface.normal[face_1], &n_2 = surface.normal[face_2];
+    if (surface.is_rigid(face_2)) return -n_2;
+    return surface.is_rigid(face_1) ? n_1 : Vector<Dim>(n_1 - n_2);
+}
+
+/// n_12, unit, from face 1's body into face 2's.
+template <int Dim>
+[[nodiscard]] Vector<Dim> pair_normal(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
+    const Vector<Dim> direction = pair_direction(surface, face_1, face_2);
+    if (surface.is_rigid(face_1) || surface.is_rigid(face_2)) return direction;
+    return direction.normalized();
+}
+
+/// Projects the corners of a face, displaced by `motion`, seen from `origin`; writes them counter-clockwise in the plane of
+/// the pair (3D) or increasing (2D) from `to` on, and gives their end.
+template <int Dim, class Output>
+Output project_face(const SurfaceView<Dim>& surface, std::int32_t face, const Vector<Dim>& origin, const Vector<Dim>& motion,
+                    const geometry::PlaneFrame<Dim>& frame, Output to) {
+    Output end = to;
+    for (const std::int32_t v : surface.vertices_of(face)) *end++ = frame.project((surface.vertices[v] - origin) + motion);
+    if constexpr (Dim == 2) {
+        if (to[1][0] < to[0][0]) std::swap(to[0], to[1]);
+    } else {
+        if (surface.normal[face].dot(frame.normal()) < 0.0) std::reverse(to, end);
+    }
+    return end;
+}
+
+/// Largest distance of a corner from the centroid [m].
+template <int Dim>
+[[nodiscard]] double circumradius(const SurfaceView<Dim>& surface, std::int32_t face) {
+    double radius = 0.0;
+    for (const std::int32_t v : surface.vertices_of(face))
+        radius = std::max(radius, (surface.vertices[v] - surface.centroid[face]).norm());
+    return radius;
+}
+
+}  // namespace abut::contact

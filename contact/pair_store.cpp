@@ -1,0 +1,84 @@
+#include "abut/contact/pair_store.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+
+namespace abut::contact {
+
+const PairMemory* PairStore::find(FacePair pair) const {
+    const auto at = std::ranges::lower_bound(pairs_, pair);
+    return at != pairs_.end() && *at == pair ? &memory_[static_cast<std::size_t>(at - pairs_.begin())] : nullptr;
+}
+
+void PairStore::follow(std::span<const FacePair> pairs, const std::function<PairMemory(std::size_t)>& of_new) {
+    std::vector<PairMemory> memory;
+    memory.reserve(pairs.size());
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        while (known < pairs_.size() && pairs_[known] < pairs[i]) ++known;
+        const bool is_known = known < pairs_.size() && pairs_[known] == pairs[i];
+        memory.push_back(is_known ? memory_[known] : of_new(i));
+    }
+    pairs_.assign(pairs.begin(), pairs.end());
+    memory_ = std::move(memory);
+}
+
+PairStore PairStore::release(const std::function<bool(FacePair)>& leaves) {
+    PairStore released, kept;
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        PairStore& to = leaves(pairs_[i]) ? released : kept;
+        to.pairs_.push_back(pairs_[i]);
+        to.memory_.push_back(memory_[i]);
+    }
+    *this = std::move(kept);
+    return released;
+}
+
+void PairStore::take(const PairStore& other) {
+    PairStore all;
+    std::size_t i = 0, j = 0;
+    while (i < pairs_.size() || j < other.pairs_.size()) {
+        const bool is_own = j == other.pairs_.size() || (i < pairs_.size() && pairs_[i] <= other.pairs_[j]);
+        if (is_own && j < other.pairs_.size() && pairs_[i] == other.pairs_[j])
+            throw Misuse("pair store: faces " + std::to_string(number_of(pairs_[i].face_1)) + " and " +
+                             std::to_string(number_of(pairs_[i].face_2)) +
+                             " are a pair of both stores. A pair has one owner: release it there first.",
+                         {.face_1 = number_of(pairs_[i].face_1), .face_2 = number_of(pairs_[i].face_2)});
+        all.pairs_.push_back(is_own ? pairs_[i] : other.pairs_[j]);
+        all.memory_.push_back(is_own ? memory_[i++] : other.memory_[j++]);
+    }
+    *this = std::move(all);
+}
+
+void PairStore::save(StateWriter& state) const {
+    state.put(static_cast<std::uint64_t>(pairs_.size()));
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        state.put(number_of(pairs_[i].face_1));
+        state.put(number_of(pairs_[i].face_2));
+        state.put(static_cast<std::uint8_t>(memory_[i].admitted));
+    }
+}
+
+PairStore PairStore::restored(StateReader& state, std::int32_t n_faces) {
+    PairStore store;
+    const auto n = state.get<std::uint64_t>();
+    for (std::uint64_t i = 0; i < n; ++i) {  // `get` refuses to read past the end, whatever n claims
+        const FacePair pair{SurfaceFace{state.get<std::int32_t>()}, SurfaceFace{state.get<std::int32_t>()}};
+        const auto admitted = state.get<std::uint8_t>();
+        const bool is_in_range =
+            number_of(pair.face_1) >= 0 && pair.face_1 < pair.face_2 && number_of(pair.face_2) < n_faces;
+        if (!is_in_range || admitted > 1 || (!store.pairs_.empty() && !(store.pairs_.back() < pair)))
+            throw BadInput("pair store: pair " + std::to_string(i) + " of a saved state, faces " +
+                               std::to_string(number_of(pair.face_1)) + " and " + std::to_string(number_of(pair.face_2)) +
+                               " of " + std::to_string(n_faces) + ", is out of range or out of order.",
+                           {.face_1 = number_of(pair.face_1), .face_2 = number_of(pair.face_2)});
+        store.pairs_.push_back(pair);
+        store.memory_.push_back({.admitted = admitted == 1});
+    }
+    return store;
+}
+
+}  // namespace abut::contact

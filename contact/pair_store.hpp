@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "abut/base/ids.hpp"
+#include "abut/base/state_bytes.hpp"
+#include "abut/contact/surface.hpp"
+
+namespace abut::contact {
+
+/// What a pair of faces remembers from step to step. Laws with a history (friction: stick) get their fields here.
+struct PairMemory {
+    /// Whether A > 0 and g < 0 means contact; decided only where A min(g, 0) = 0. docs/method.md, Contact.
+    bool admitted = false;
+
+    friend bool operator==(const PairMemory&, const PairMemory&) = default;
+};
+
+/// Two faces of a surface, face_1 < face_2.
+struct FacePair {
+    SurfaceFace face_1;
+    SurfaceFace face_2;
+
+    friend auto operator<=>(const FacePair&, const FacePair&) = default;
+};
+
+/// What the pairs of a surface remember, by (face_1, face_2). It outlives candidate lists: a pair that stays in the list from
+/// one search to the next keeps its memory, one that leaves the list loses it (else it would come back active from the
+/// side). It can be saved, restored, and handed in parts to another owner.
+class PairStore {
+public:
+    [[nodiscard]] std::span<const FacePair> pairs() const { return pairs_; }  ///< increasing, each once
+    [[nodiscard]] std::span<PairMemory> memory() { return memory_; }          ///< in the order of `pairs`
+    [[nodiscard]] std::span<const PairMemory> memory() const { return memory_; }
+    [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(pairs_.size()); }
+    /// The memory of a pair; null if it has none.
+    [[nodiscard]] const PairMemory* find(FacePair pair) const;
+
+    /// From here on the store is of these pairs, increasing and each once: known ones keep their memory, the others get
+    /// `of_new(i)` for the pair number i.
+    void follow(std::span<const FacePair> pairs, const std::function<PairMemory(std::size_t i)>& of_new);
+
+    /// Moves the pairs that `leaves` out of the store into one of their own, for another owner.
+    [[nodiscard]] PairStore release(const std::function<bool(FacePair)>& leaves);
+    /// Takes over the pairs of another store. Throws Misuse naming a pair that both have.
+    void take(const PairStore& other);
+
+    /// Appends the store to a state, and reads it from there; `n_faces` is the size of the surface. Throws BadInput for pairs
+    /// out of order or range.
+    void save(StateWriter& state) const;
+    [[nodiscard]] static PairStore restored(StateReader& state, std::int32_t n_faces);
+
+    friend bool operator==(const PairStore&, const PairStore&) = default;
+
+private:
+    std::vector<FacePair> pairs_;
+    std::vector<PairMemory> memory_;
+};
+
+}  // namespace abut::contact

@@ -1,0 +1,33 @@
+#pragma once
+// Private to the layer.
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace abut::contact {
+
+inline constexpr std::size_t run_length = 64;
+
+/// Calls body(begin, end, work) for runs of [0, n), concurrently, run i with the work area work[i]. What it does for one
+/// index must not depend on the runs.
+template <class Work, class Body>
+void for_each_run(std::size_t n, std::vector<Work>& work, const Body& body) {
+    const std::size_t n_runs = std::max<std::size_t>(1, (n + run_length - 1) / run_length);
+    if (work.size() < n_runs) work.resize(n_runs);
+    const auto run = [&](std::size_t i) { body(std::min(n, i * run_length), std::min(n, (i + 1) * run_length), work[i]); };
+    if (n_runs <= 2)
+        for (std::size_t i = 0; i < n_runs; ++i) run(i);
+    else
+        oneapi::tbb::parallel_for(std::size_t{0}, n_runs, run);
+}
+
+/// Adds both ends to the cuts of an interval and sorts them.
+inline void sort_and_close(std::vector<double>& cuts, double begin, double end) {
+    cuts.push_back(begin);
+    cuts.push_back(end);
+    std::sort(cuts.begin(), cuts.end());
+}
+
+}  // namespace abut::contact

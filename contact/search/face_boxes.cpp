@@ -1,0 +1,78 @@
+#include "abut/contact/search/face_boxes.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "abut/contact/pair.hpp"
+#include "abut/contact/search/candidate_search.hpp"
+
+namespace abut::contact {
+namespace {
+
+using geometry::Box;
+
+/// Largest sine of the angle between a face and the plane of a pair it takes part in. Between deformable faces the pair
+/// normal halves the angle that facing allows; against a rigid face it is that face's own normal.
+double largest_tilt_sine(double facing_cosine, bool against_rigid) {
+    const double angle = std::acos(-facing_cosine), tilt = against_rigid ? angle : 0.5 * angle;
+    return tilt < 0.5 * std::numbers::pi ? std::sin(tilt) : 1.0;
+}
+
+template <int Dim>
+bool any_rigid(const SurfaceView<Dim>& surface) {
+    for (std::int32_t face = 0; face < surface.size(); ++face)
+        if (surface.is_rigid(face)) return true;
+    return false;
+}
+
+}  // namespace
+
+template <int Dim>
+RestFaceMaker<Dim>::RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)
+    : surface_(surface),
+      by_distance_alone_(options.facing_cosine == 1.0),
+      tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))) {}
+
+template <int Dim>
+RestFace<Dim> RestFaceMaker<Dim>::operator()(std::int32_t face) const {
+    RestFace<Dim> rest{.corners = {}, .interaction_radius = 0.0, .radius = circumradius(surface_, face), .face = face};
+    for (const std::int32_t v : surface_.vertices_of(face)) rest.corners.extend(surface_.vertices[v]);
+    if (!by_distance_alone_ && !surface_.is_rigid(face))
+        rest.interaction_radius = 2.0 * surface_.depth[face] + rest.radius * tilt_;
+    return rest;
+}
+
+template <int Dim>
+double mean_face_size(const SurfaceView<Dim>& surface) {
+    double size = 0.0;
+    std::int32_t n = 0;
+    for (std::int32_t face = 0; face < surface.size(); ++face) {
+        if (surface.is_rigid(face)) continue;
+        size += Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
+        ++n;
+    }
+    return n > 0 ? size / n : 0.0;
+}
+
+template <int Dim>
+std::vector<Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
+                                  std::span<const Vector<Dim>> u_1, const CandidateOptions& options, double skin) {
+    const RestFaceMaker<Dim> at_rest(surface, options);
+    std::vector<Box<Dim>> boxes;
+    boxes.reserve(static_cast<std::size_t>(surface.size()));
+    for (std::int32_t face = 0; face < surface.size(); ++face)
+        boxes.push_back(swept_box(at_rest(face), u_0[face], u_1[face], 0.5 * (options.distance + skin)));
+    return boxes;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                              \
+    template class RestFaceMaker<Dim>;                                                                     \
+    template double mean_face_size<Dim>(const SurfaceView<Dim>&);                                          \
+    template std::vector<Box<Dim>> swept_boxes<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>, \
+                                                    std::span<const Vector<Dim>>, const CandidateOptions&, double);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::contact

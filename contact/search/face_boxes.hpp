@@ -1,0 +1,45 @@
+#pragma once
+// Private to the layer.
+#include <cstdint>
+
+#include "abut/contact/options.hpp"
+#include "abut/contact/surface.hpp"
+#include "abut/geometry/box.hpp"
+
+namespace abut::contact {
+
+/// What of a face a search reads again and again.
+template <int Dim>
+struct RestFace {
+    geometry::Box<Dim> corners;
+    double interaction_radius;  ///< how far past its corners an active pair can be, without distance and skin [m]
+    double radius;              ///< largest distance of a corner from the centroid [m]
+    std::int32_t face;
+};
+
+/// Makes the rest faces of a surface; both must outlive it.
+template <int Dim>
+class RestFaceMaker {
+public:
+    RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options);
+    [[nodiscard]] RestFace<Dim> operator()(std::int32_t face) const;
+
+private:
+    const SurfaceView<Dim>& surface_;
+    bool by_distance_alone_;
+    double tilt_;  // largest sine of the angle between a face and the plane of a pair it takes part in
+};
+
+/// The box of a face on its way from u_0 to u_1, grown by what an active pair can reach and by `margin`.
+template <int Dim>
+[[nodiscard]] geometry::Box<Dim> swept_box(const RestFace<Dim>& rest, const Vector<Dim>& u_0, const Vector<Dim>& u_1,
+                                           double margin) {
+    return geometry::Box<Dim>{rest.corners.lower + u_0.cwiseMin(u_1), rest.corners.upper + u_0.cwiseMax(u_1)}.grown(
+        rest.interaction_radius + margin);
+}
+
+/// Mean over the deformable faces [m]; 0 without any.
+template <int Dim>
+[[nodiscard]] double mean_face_size(const SurfaceView<Dim>& surface);
+
+}  // namespace abut::contact

@@ -1,0 +1,86 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "abut/base/ids.hpp"
+#include "abut/contact/surface.hpp"
+
+namespace abut::contact {
+
+/// How the energy gradients of a host's faces answer to a correction: y_f = y_free,f + sum_f' Q_ff' delta_f', among the listed
+/// faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary faces
+/// of its cell, those of cells that share a stabilised interior face with it.
+template <int Dim>
+struct FaceCoupling {
+    std::vector<std::int32_t> offsets{0};  ///< (n + 1)
+    std::vector<std::int32_t> columns;     ///< places in the list of faces, increasing in each row
+    std::vector<Matrix<Dim>> blocks;       ///< Q_ff' [N/m]
+};
+
+/// What a host says of the listed faces at the two ends of a step; displacements and gradients are linear in between.
+template <int Dim>
+struct FacePath {
+    std::span<const Vector<Dim>> displacement_0;  ///< û_f at the start (n) [m]
+    std::span<const Vector<Dim>> displacement_1;  ///< û_f at the end (n) [m]
+    std::span<const Vector<Dim>> gradient_0;      ///< y_free,f = dV/dũ_f at ũ = û, less |f| t_f, at the start (n) [N]
+    std::span<const Vector<Dim>> gradient_1;      ///< the same at the end (n) [N]
+};
+
+/// What one pair of faces did in a step: a pair with A > 0 and g < 0 at some time of it.
+template <int Dim>
+struct PairStep {
+    SurfaceFace face_1;
+    SurfaceFace face_2;
+    Vector<Dim> normal;   ///< n_12, unit, from the body of face 1 into that of face 2
+    double gap_0;         ///< g at the start of the step [m], > 0 apart
+    double gap_1;         ///< g at its end [m]
+    double area;          ///< A_12, mean over the step, 0 where the pair is not active [m^(Dim-1)]
+    double normal_force;  ///< -beta A, mean over the step [N], > 0 in compression
+    Vector<Dim> force;    ///< on face 2, mean over the step [N]; face 1 feels the opposite
+    std::int32_t events;  ///< openings, closings and changes of the overlap inside the step
+    double active_share;  ///< part of the step in which the pair is active [-], 0 to 1
+    double compression;   ///< largest |g|/D at the ends of the step [-]
+};
+
+/// Figures of a step as a whole.
+struct StepReport {
+    std::int64_t events = 0;            ///< of all pairs
+    double compression = 0.0;           ///< largest |g|/D of an active pair at the ends of the step
+    std::int32_t most_compressed = -1;  ///< which pair it is, in `ContactStep::pairs`; -1: none
+    /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over that
+    /// which the whole face would carry.
+    double sliding_ratio = 0.0;
+    /// Pairs whose faces slid off each other in this step while pressed in, and neither of which (except for faces of
+    /// obstacles) has another partner at its end. Seen where the overlap moves and events are looked for; not where the area
+    /// comes to its end just when the step does.
+    std::int64_t slipped_pairs = 0;
+    double slipped_compression = 0.0;  ///< their largest |g|/D when the overlap came to its end
+};
+
+/// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is zero.
+template <int Dim>
+struct ContactStep {
+    std::vector<SurfaceFace> faces;                     ///< the listed faces, increasing (n)
+    IdVector<ListedFace, Vector<Dim>> mean_correction;  ///< mean over the step of delta_f = ũ_f - û_f (n) [m]
+    /// Mean over the step of what the pairs add to dV/dû_f (n) [N]; on a rigid face: minus the force on the obstacle.
+    IdVector<ListedFace, Vector<Dim>> mean_gradient;
+    IdVector<ListedFace, double> mean_normal_force;  ///< of all pairs of a face (n) [N], > 0 in compression
+    std::vector<PairStep<Dim>> pairs;                ///< the active ones, by (face_1, face_2)
+    /// What the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q delta [J].
+    double energy = 0.0;
+    StepReport report;
+
+    [[nodiscard]] bool is_active() const { return !pairs.empty(); }
+};
+
+/// Two faces of an admitted pair that share area in some state.
+template <int Dim>
+struct AdmittedOverlap {
+    SurfaceFace face_1;
+    SurfaceFace face_2;
+    Vector<Dim> normal;  ///< n_12
+    double gap;          ///< g [m]
+    double area;         ///< A_12 [m^(Dim-1)], > 0
+};
+
+}  // namespace abut::contact
