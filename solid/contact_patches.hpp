@@ -1,10 +1,12 @@
 #pragma once
+// Private to the sources of this layer.
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/contact_results.hpp"
 
 namespace abut::solid {
 
@@ -13,7 +15,6 @@ struct TouchingFaces {
     std::int32_t face_1;
     std::int32_t face_2;
 };
-inline constexpr std::int32_t no_face = -1;
 
 /// The cells whose displacement enters these faces, sorted into patches: the cells of one face are in one patch, and so are
 /// the two faces of a pair. In the order of their first cells.

@@ -1,45 +1,24 @@
 #pragma once
 #include <cstdint>
-#include <functional>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "abut/contact/contact.hpp"
-#include "abut/contact/obstacle.hpp"
+#include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/system.hpp"
 #include "abut/solid/ccg/ccg.hpp"
-#include "abut/solid/contact_patches.hpp"
+#include "abut/solid/contact_results.hpp"
+#include "abut/solid/options.hpp"
 
 namespace abut::solid {
 
-/// What a scene holds beside its mesh.
 template <int Dim>
-struct SolidOptions {
-    std::vector<Material> materials;  ///< one a body
-    BoundaryConditions<Dim> boundary;
-    std::vector<Vector<Dim>> acceleration;  ///< of gravity, one a body [m/s^2]; empty: none
-    std::function<Vector<Dim>(const Vector<Dim>& position)>
-        body_load;                                       ///< force density [N/m^3], constant in time; empty: none
-    std::optional<contact::ContactOptions> contact;      ///< empty: bodies pass through each other, at no cost
-    std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
-};
-
-/// A contact of two faces, given as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+class ContactDriver;
 template <int Dim>
-struct TouchingPair {
-    std::int32_t face_1;
-    std::int32_t face_2;
-    Vector<Dim> normal;  ///< from the body of face 1 into that of face 2
-    double gap;          ///< [m]
-};
-
-/// Where the time of all steps of a Solid went [s].
-struct SolidTimes {
-    double bulk = 0.0;
-    double contact = 0.0;
-    double search = 0.0;
-};
+class Loads;
+template <int Dim>
+class LocalLevels;
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
 /// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
@@ -58,10 +37,11 @@ public:
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options);
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
+    ~Solid();
 
-    [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
-    [[nodiscard]] std::span<const double> inverse_mass() const { return inverse_mass_; }
-    [[nodiscard]] std::span<const double> masses() const { return cell_mass_; }  ///< of the cells (n_cells) [kg]
+    [[nodiscard]] std::size_t size() const { return masses_.inverse.size(); }
+    [[nodiscard]] std::span<const double> inverse_mass() const { return masses_.inverse; }
+    [[nodiscard]] std::span<const double> masses() const { return masses_.of_cells; }  ///< of the cells (n_cells) [kg]
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return mesh_.cell_centroid; }  ///< of the cells [m]
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells. docs/method.md, Space.
     [[nodiscard]] double step_margin() const { return contact_ ? 0.85 : 1.0; }
@@ -105,19 +85,15 @@ public:
     /// of the candidate list.
     void end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
 
-    /// Contact pressure [Pa] and smallest gap [m] of each boundary face in state q, in the order of Mesh::boundary_faces;
-    /// a face without an admitted partner that shares area with it has pressure 0 and gap infinity.
-    struct ContactField {
-        std::vector<double> pressure;
-        std::vector<double> gap;
-    };
+    /// In state q; without contact no face has a partner.
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
-
     /// Admitted pairs of state q that share area and are open by at most `gap` [m].
     [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(std::span<const double> q, double gap);
 
+    /// Largest |g|/D of a pair in contact, in the last step or in the state that was evaluated since; 0 without contact [-].
+    [[nodiscard]] double compression() const;
     /// Mean force of the last step on an obstacle, with local steps of the common one; after `end_force` that at its end
-    /// [N].
+    /// [N]. Throws Misuse where there is no such obstacle.
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
@@ -125,96 +101,40 @@ public:
     [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
     [[nodiscard]] contact::ContactReport contact_report() const;
     [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
-    [[nodiscard]] const contact::Contact<Dim>* contact() const { return contact_ ? &*contact_ : nullptr; }
-    [[nodiscard]] std::int64_t contact_faces_left_out() const { return left_out_; }
+    [[nodiscard]] const contact::Contact<Dim>* contact() const;    ///< null without contact
+    [[nodiscard]] std::int64_t contact_faces_left_out() const;
     /// Places of corners that are too sharp for contact to see them coming; empty without contact. contact/blind_corners.hpp.
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
 
 private:
-    void build_surface();
-    void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
+    struct Masses {
+        std::vector<double> of_cells;
+        std::vector<double> inverse;  // of degrees of freedom
+    };
+
     void require_start(double time, double dt) const;
-    void end_step(double time);
-    void integrate_contact();
+    void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
-    void follow_faces(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double motion, double time,
-                      double dt);
-    void move_faces(std::span<const Vector<Dim>> q_1, double time);
-    void keep_active_pairs();
-    [[nodiscard]] bool surely_reaches(double motion, double time);
-    [[nodiscard]] bool list_reaches(std::span<const Vector<Dim>> q, double time);
-    [[nodiscard]] double motion_since_search(std::span<const Vector<Dim>> q);
-    void require_list(std::span<const Vector<Dim>> q);
-    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
-    /// Calls `visit(pair, gap)` for each admitted pair that shares area, as of the last `evaluate_contact`.
-    template <class Visit>
-    void visit_contacts(const Visit& visit) const;
-    [[nodiscard]] std::int32_t boundary_place(std::int32_t surface_face) const {
-        return surface_.view().is_rigid(surface_face) ? no_face : surface_boundary_[surface_face];
-    }
-    void fill_rigid(std::vector<Vector<Dim>>& displacement, double time) const;
-    void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
-                        std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& force);
-    void evaluate_contact(std::span<const Vector<Dim>> q);
-    [[nodiscard]] FaceCorrections<Dim> corrections() const;
-    void add_bulk_impulse(std::int32_t level, const dynamics::FreeFlight& flight, double dt, std::span<Vector<Dim>> impulse);
+    void add_work(double share);
+    void end_step(double time);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
     void follow_flight(const dynamics::FreeFlight& flight, double time, double dt);
-    void add_boundary_work(double share);
-    void add_obstacle_work(double share);
-    [[nodiscard]] std::size_t obstacle_of(std::int32_t surface_face) const {
-        return static_cast<std::size_t>(surface_.body[surface_face] - mesh_.n_bodies());
-    }
-    [[nodiscard]] Vector<Dim> obstacle_displacement(std::size_t obstacle, double time) const;
-    void to_force(std::span<Vector<Dim>> gradient) const;
-    [[nodiscard]] double obstacle_motion(double time) const;
+    [[nodiscard]] FaceCorrections<Dim> corrections() const;
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
     Ccg<Dim> ccg_;
-    std::vector<double> cell_mass_;
-    std::vector<double> inverse_mass_;
-    std::vector<Vector<Dim>> body_force_;  // by cell; empty without loads
+    Masses masses_;
+    SolidTimes times_;
+    std::int64_t evaluations_ = 0;
     double work_ = 0.0;
     double time_ = 0.0;  // of the state that the last step ended in
-    bool has_stepped_ = false;
-    bool unfinished_ = false;       // a step with loads that vary has begun and not ended
-    BoundaryLoad<Dim> load_;        // at that state
-    BoundaryLoad<Dim> load_start_;  // at the start of the current step
-
-    contact::Surface<Dim> surface_;
-    std::vector<std::int32_t> surface_boundary_;  // place in boundary_faces of each deformable surface face
-    std::int64_t left_out_ = 0;
-    std::optional<contact::Contact<Dim>> contact_;
-    struct Reference {
-        std::vector<Vector<Dim>> u;  // cell displacements
-        BoundaryLoad<Dim> load;
-    };
-    Reference searched_;  // state at the last search
-    double searched_time_ = 0.0;
-    double known_motion_ = 0.0;           // of any face, from the last search to the state where it was bounded last [m]
-    double travelled_ = 0.0;              // since then: sum over the steps of the motion of the cell that moved farthest [m]
-    bool motion_is_known_ = false;        // these two are of the state that the last step ended in
-    std::vector<Vector<Dim>> swept_end_;  // the list holds there, too: end of the step that it was made for
-    Region<Dim> region_;                  // of the faces in the candidate list
-    std::vector<std::int32_t> local_boundary_;        // their places in boundary_faces (deformable faces come first)
-    std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // path of the listed faces; between steps _0 is its end
+    std::unique_ptr<Loads<Dim>> loads_;
+    std::unique_ptr<ContactDriver<Dim>> contact_;  // null without contact
+    std::unique_ptr<LocalLevels<Dim>> levels_;     // null without local steps
     std::vector<Vector<Dim>> midpoint_;
-    std::vector<std::int32_t> active_pairs_;  // of the last step
-    std::vector<Vector<Dim>> obstacle_force_;
-    Region<Dim> patch_region_;
-    std::vector<Region<Dim>> level_regions_;  // cells evaluated at each level; empty: no local steps
-    // Of local steps.
-    Region<Dim> contact_region_;                    // cells that feel the faces in the candidate list
-    std::vector<std::int32_t> surface_cells_;       // cells that some boundary face depends on
-    std::vector<Vector<Dim>> start_;                // work arrays: all cells at the start of a part of a step,
-    std::vector<Vector<Dim>> moved_;                // those that are looked at, at another time of it,
-    std::vector<Vector<Dim>> gradient_;             // and those of a region
-    std::vector<Vector<Dim>> mean_obstacle_force_;  // of the common step so far,
-    double local_step_ = 0.0;                       // which is that long
-    std::int64_t evaluations_ = 0;
-    SolidTimes times_;
+    Region<Dim> patch_region_;  // of the cells that `end_force_on` was asked for last
 };
 
 }  // namespace abut::solid

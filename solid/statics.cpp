@@ -135,7 +135,7 @@ public:
         base_ = x;
         base_gradient_ = gradient;
         report_.residual = report_.residual_elsewhere = residual_;
-        if (const auto* contact = solid_.contact()) report_.compression = contact->result().compression();
+        report_.compression = solid_.compression();
         report_.iterations.push_back(
             {report_.evaluations, residual_, descent_ == Descent::potential ? value : solid_.potential(q_)});
         if (residual_ <= options_.tolerance) throw Finished{Ending::balanced};
@@ -156,7 +156,7 @@ public:
                 if (face != no_face) faces.push_back(face);
         sort_unique(faces);
         solid_.force(reached, force_);
-        if (const auto* contact = solid_.contact()) report_.compression = contact->result().compression();
+        report_.compression = solid_.compression();
         report_.residual = residual();
         report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).loaded_cells);
         touches_ = !faces.empty();

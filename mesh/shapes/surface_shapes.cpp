@@ -4,95 +4,23 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 #include <vector>
 
 #include "abut/base/messages.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/surface_builder.hpp"
 
 namespace abut::mesh {
 namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-void require_length(const std::string& name, const char* argument, double value) {
-    if (!(value > 0.0) || !std::isfinite(value))
-        throw MeshError(name + ": " + argument + " is " + number(value) +
-                        " m, a finite length above 0 is needed. Change the argument.");
-}
-
-void require_less(const std::string& name, const char* small, double less, const char* large, double more) {
-    if (!(less < more))
-        throw MeshError(name + ": " + small + " is " + number(less) + " m, less than " + large + ", " + number(more) +
-                        " m, is needed. Change the argument.");
-}
-
-void require_count(const std::string& name, const char* argument, int value, int least) {
-    if (value < least)
-        throw MeshError(name + ": " + argument + " is " + std::to_string(value) + ", at least " + std::to_string(least) +
-                        " is needed. Change the argument.");
-}
-
-void require_axis(const std::string& name, int axis) {
-    if (axis < 0 || axis > 2)
-        throw MeshError(name + ": axis is " + std::to_string(axis) + ", 0, 1 or 2 is needed. Change the argument.");
-}
-
-void require_finite(const std::string& name, const char* argument, const Vector<3>& value) {
-    if (!value.allFinite()) throw MeshError(name + ": " + argument + " is no finite vector. Change the argument.");
-}
-
-void require_size(const std::string& name, double n_faces) {
-    if (!(n_faces <= max_surface_faces))
-        throw MeshError(name + ": has " + number(n_faces) + " triangles, at most " + std::to_string(max_surface_faces) +
-                        " are allowed. Lower the counts.");
-}
-
-/// A surface while it is being made, about z and then turned.
-class Builder {
-public:
-    Builder(const std::string& name, const Vector<3>& centre, int axis) : centre_(centre), axis_(axis) {
-        mesh_.name = name;
-        mesh_.body_names = {name};
-    }
-
-    /// x, y, z becomes y, z, x or z, x, y: a rotation, so that inside stays inside.
-    std::int32_t add_vertex(const Vector<3>& x) {
-        Vector<3> turned;
-        for (int i = 0; i < 3; ++i) turned[(i + axis_ + 1) % 3] = x[i];
-        mesh_.vertices.push_back(centre_ + turned);
-        return static_cast<std::int32_t>(mesh_.vertices.size()) - 1;
-    }
-    void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
-        mesh_.faces.append(std::array{a, b, c});
-        mesh_.face_body.push_back(0);
-    }
-    /// Cut along a-c.
-    void add_quadrangle(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-        add_triangle(a, b, c);
-        add_triangle(a, c, d);
-    }
-    /// Between two rings of vertices, one after the other.
-    void add_band(const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& next) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const std::size_t j = (i + 1) % ring.size();
-            add_quadrangle(ring[i], ring[j], next[j], next[i]);
-        }
-    }
-    SurfaceMesh mesh() && { return std::move(mesh_); }
-
-private:
-    Vector<3> centre_;
-    int axis_;
-    SurfaceMesh mesh_;
-};
-
 using Ring = std::vector<std::int32_t>;
 using Plane = Vector<2>;
 
 Plane on_circle(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
 
-Ring add_ring(Builder& builder, const std::vector<Plane>& points, double z) {
+Ring add_ring(SurfaceBuilder& builder, const std::vector<Plane>& points, double z) {
     Ring ring;
     for (const Plane& x : points) ring.push_back(builder.add_vertex({x.x(), x.y(), z}));
     return ring;
@@ -212,7 +140,7 @@ std::vector<Plane> rim_of_disc(double radius, int n) {
 }
 
 /// A disc at z whose rim is there already; its triangles run counter-clockwise seen from +z, or from -z.
-void add_cap(Builder& builder, const Ring& rim, double radius, double z, int n, bool faces_up) {
+void add_cap(SurfaceBuilder& builder, const Ring& rim, double radius, double z, int n, bool faces_up) {
     std::vector<std::int32_t> grid(static_cast<std::size_t>((n + 1) * (n + 1)), -1);
     const auto place = [n](int i, int j) { return static_cast<std::size_t>((i + n) / 2 * (n + 1) + (j + n) / 2); };
     const auto edge = rim_of_grid(n);
@@ -237,91 +165,11 @@ void add_cap(Builder& builder, const Ring& rim, double radius, double z, int n, 
         }
 }
 
-/// Splits each triangle of unit vectors into four.
-class Subdivision {
-public:
-    using Triangle = std::array<std::int32_t, 3>;
-    std::vector<Vector<3>> vertices;
-    std::vector<Triangle> triangles;
-
-    void refine() {
-        middles_.clear();
-        middles_.reserve(2 * triangles.size());
-        std::vector<Triangle> finer;
-        finer.reserve(4 * triangles.size());
-        for (const auto& [a, b, c] : triangles) {
-            const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-            finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-        }
-        triangles = std::move(finer);
-    }
-
-private:
-    std::int32_t middle(std::int32_t a, std::int32_t b) {
-        const auto key = static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
-        const auto [entry, is_new] = middles_.emplace(key, static_cast<std::int32_t>(vertices.size()));
-        if (is_new)
-            vertices.push_back((vertices[static_cast<std::size_t>(a)] + vertices[static_cast<std::size_t>(b)]).normalized());
-        return entry->second;
-    }
-    std::unordered_map<std::uint64_t, std::int32_t> middles_;
-};
-
-/// Corners (0, +-1, +-golden) and so on round, triangles outward.
-Subdivision icosahedron() {
-    const double golden = std::numbers::phi;
-    Subdivision shape;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double s : {1.0, -1.0})
-            for (const double t : {golden, -golden}) {
-                Vector<3> x = Vector<3>::Zero();
-                x[(axis + 1) % 3] = s;
-                x[(axis + 2) % 3] = t;
-                shape.vertices.push_back(x.normalized());
-            }
-    // Three corners make a face where all are neighbours.
-    const auto are_neighbours = [&](std::int32_t i, std::int32_t j) {
-        return (shape.vertices[static_cast<std::size_t>(i)] - shape.vertices[static_cast<std::size_t>(j)]).norm() < 1.1;
-    };
-    for (std::int32_t i = 0; i < 12; ++i)
-        for (std::int32_t j = i + 1; j < 12; ++j)
-            for (std::int32_t k = j + 1; k < 12; ++k) {
-                if (!are_neighbours(i, j) || !are_neighbours(j, k) || !are_neighbours(k, i)) continue;
-                Matrix<3> corners;
-                corners << shape.vertices[static_cast<std::size_t>(i)], shape.vertices[static_cast<std::size_t>(j)],
-                    shape.vertices[static_cast<std::size_t>(k)];
-                shape.triangles.push_back(corners.determinant() > 0.0 ? Subdivision::Triangle{i, j, k}
-                                                                      : Subdivision::Triangle{i, k, j});
-            }
-    return shape;
-}
-
-/// Steele, Lea, Flood (2014), Fast splittable pseudorandom number generators: a counter, and a mix of its bits.
-class Random {
-public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    /// In [0, 1), a multiple of 2^-53.
-    double operator()() {
-        state_ += 0x9e3779b97f4a7c15U;
-        std::uint64_t z = state_;
-        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ z >> 27) * 0x94d049bb133111ebU;
-        return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
-    }
-    Vector<3> in_unit_cube() {
-        const double x = (*this)(), y = (*this)(), z = (*this)();
-        return {x, y, z};
-    }
-
-private:
-    std::uint64_t state_;
-};
-
 }  // namespace
 
 SurfaceMesh torus_surface(const TorusOptions& options) {
     check(options);
-    Builder builder(options.name, options.centre, options.axis);
+    SurfaceBuilder builder(options.name, options.centre, options.axis);
     std::vector<Ring> rings(static_cast<std::size_t>(options.n_around));
     for (std::size_t i = 0; i < rings.size(); ++i) {
         const double u = two_pi * static_cast<double>(i) / options.n_around;
@@ -337,7 +185,7 @@ SurfaceMesh torus_surface(const TorusOptions& options) {
 
 SurfaceMesh gear_surface(const GearOptions& options) {
     check(options);
-    Builder builder(options.name, options.centre, options.axis);
+    SurfaceBuilder builder(options.name, options.centre, options.axis);
     const std::vector<Plane> outline = gear_outline(options);
     std::vector<Plane> bore;
     for (const Plane& x : outline) bore.push_back(options.bore_radius * x.normalized());
@@ -356,7 +204,7 @@ SurfaceMesh gear_surface(const GearOptions& options) {
 
 SurfaceMesh sheet_surface(const SheetOptions& options) {
     check(options);
-    Builder builder(options.name, options.corner, 2);
+    SurfaceBuilder builder(options.name, options.corner, 2);
     const auto vertex = [&](int i, int j) { return static_cast<std::int32_t>(i * (options.n_y + 1) + j); };
     for (int i = 0; i <= options.n_x; ++i)
         for (int j = 0; j <= options.n_y; ++j) {
@@ -372,7 +220,7 @@ SurfaceMesh sheet_surface(const SheetOptions& options) {
 
 SurfaceMesh barrel_surface(const BarrelOptions& options) {
     check(options);
-    Builder builder(options.name, options.centre, options.axis);
+    SurfaceBuilder builder(options.name, options.centre, options.axis);
     const std::vector<Plane> rim = rim_of_disc(options.radius, options.n_side);
     std::vector<Ring> rings;
     for (int k = 0; k <= options.n_along; ++k)
@@ -381,37 +229,6 @@ SurfaceMesh barrel_surface(const BarrelOptions& options) {
     if (options.closed) {
         add_cap(builder, rings.back(), options.radius, 0.5 * options.length, options.n_side, true);
         add_cap(builder, rings.front(), options.radius, -0.5 * options.length, options.n_side, false);
-    }
-    return std::move(builder).mesh();
-}
-
-SurfaceMesh sphere_surface(const SphereSurfaceOptions& options) {
-    require_length(options.name, "radius", options.radius);
-    require_finite(options.name, "centre", options.centre);
-    require_count(options.name, "n_subdivisions", options.n_subdivisions, 0);
-    require_size(options.name, 20.0 * std::pow(4.0, options.n_subdivisions));
-    Subdivision shape = icosahedron();
-    for (int i = 0; i < options.n_subdivisions; ++i) shape.refine();
-    Builder builder(options.name, options.centre, 2);
-    for (const Vector<3>& x : shape.vertices) builder.add_vertex(options.radius * x);
-    for (const auto& [a, b, c] : shape.triangles) builder.add_triangle(a, b, c);
-    return std::move(builder).mesh();
-}
-
-SurfaceMesh random_triangles(const RandomTrianglesOptions& options) {
-    require_count(options.name, "n", options.n, 1);
-    require_size(options.name, options.n);
-    require_length(options.name, "box_size", options.box_size);
-    require_length(options.name, "size", options.size);
-    require_finite(options.name, "lower", options.lower);
-    Builder builder(options.name, options.lower, 2);
-    Random random(options.seed);
-    for (int i = 0; i < options.n; ++i) {
-        const Vector<3> centre = options.box_size * random.in_unit_cube();
-        std::array<std::int32_t, 3> corners{};
-        for (std::int32_t& corner : corners)
-            corner = builder.add_vertex(centre + options.size * (random.in_unit_cube() - Vector<3>::Constant(0.5)));
-        builder.add_triangle(corners[0], corners[1], corners[2]);
     }
     return std::move(builder).mesh();
 }

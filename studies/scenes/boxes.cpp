@@ -81,7 +81,7 @@ std::vector<std::string> box_sides() {
 }
 
 template <int Dim>
-std::vector<solid::DirichletCondition<Dim>> whole_boundary(const dynamics::Field<Dim>& field) {
+std::vector<solid::DirichletCondition<Dim>> whole_boundary(const solid::Field<Dim>& field) {
     std::vector<solid::DirichletCondition<Dim>> conditions;
     for (const std::string& side : box_sides<Dim>()) conditions.push_back({.group = side, .history = field});
     return conditions;
@@ -95,7 +95,7 @@ template double mean_cell_size<2>(const mesh::Mesh<2>&);
 template double mean_cell_size<3>(const mesh::Mesh<3>&);
 template std::vector<std::string> box_sides<2>();
 template std::vector<std::string> box_sides<3>();
-template std::vector<solid::DirichletCondition<2>> whole_boundary<2>(const dynamics::Field<2>&);
-template std::vector<solid::DirichletCondition<3>> whole_boundary<3>(const dynamics::Field<3>&);
+template std::vector<solid::DirichletCondition<2>> whole_boundary<2>(const solid::Field<2>&);
+template std::vector<solid::DirichletCondition<3>> whole_boundary<3>(const solid::Field<3>&);
 
 }  // namespace abut::examples

@@ -33,6 +33,6 @@ template <int Dim>
 
 /// u_D = field on all sides of a box.
 template <int Dim>
-[[nodiscard]] std::vector<solid::DirichletCondition<Dim>> whole_boundary(const dynamics::Field<Dim>& field);
+[[nodiscard]] std::vector<solid::DirichletCondition<Dim>> whole_boundary(const solid::Field<Dim>& field);
 
 }  // namespace abut::examples

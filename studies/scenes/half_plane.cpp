@@ -23,7 +23,7 @@ double input_energy() {
     return area * square(traction) / (rock().density * wave_speed(PlaneWave::shear, rock())) * 0.5 / source_frequency;
 }
 
-dynamics::Field<2> source(const Vector<2>& force) {
+solid::Field<2> source(const Vector<2>& force) {
     return [force, scale = narrowness / rayleigh_wavelength()](double t, const Vector<2>& x) {
         return Vector<2>(ricker(t - source_delay, source_frequency) * std::exp(-square(scale * x[0])) * force);
     };

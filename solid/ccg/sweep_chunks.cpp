@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "abut/base/sort_unique.hpp"
+#include "abut/solid/ccg/sweeps.hpp"
+
+// How the sweeps cut a mesh, or a part of it, into chunks.
+
+namespace abut::solid {
+namespace {
+
+/// Cells per chunk: its work arrays fit the second-level cache several times.
+inline constexpr std::int32_t chunk_size = 512;
+
+/// Cells of a region that are worth the schedule of the whole mesh.
+inline constexpr std::size_t one_chunk = 1024;
+
+}  // namespace
+
+/// Chunks of cells with the faces they are the first side of, and which of them read each other's results.
+template <int Dim>
+void CcgSweeps<Dim>::set_chunks() {
+    const CcgArrays<Dim>& a = arrays_;
+    const std::int32_t n_chunks = std::max(1, (a.n_cells() + chunk_size - 1) / chunk_size);
+    const auto place = [](const auto& sorted, std::int32_t value) {
+        return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+    };
+    for (std::int32_t k = 0; k <= n_chunks; ++k) {
+        const std::int32_t cell = std::min(k * chunk_size, a.n_cells());
+        const auto face = static_cast<std::int32_t>(
+            std::partition_point(a.sides.begin(), a.sides.end(), [&](const auto& side) { return side[0] < cell; }) -
+            a.sides.begin());
+        chunks_.push_back({cell, face, place(a.boundary_faces, face), place(a.boundary_cells, cell)});
+    }
+
+    std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
+    for (auto& stage : needs) stage.resize(static_cast<std::size_t>(n_chunks));
+    const auto need = [&](Stage stage, std::int32_t cell, std::int32_t of_cell) {
+        auto& row = needs[stage - 1][cell / chunk_size];
+        if (const std::int32_t chunk = of_cell / chunk_size; row.empty() || row.back() != chunk) row.push_back(chunk);
+    };
+    for (const auto& [first, second] : a.sides) {
+        need(gradients, second, first);  // a face's displacement is made with its first side
+        need(stresses, first, second);
+        need(stresses, second, first);
+        need(face_forces, first, second);
+    }
+    for (std::int32_t c = 0; c < a.n_cells(); ++c) {
+        for (const Stage stage : {gradients, stresses, face_forces, cell_gradients}) need(stage, c, c);
+        for (std::int32_t i = a.of_cell.offsets[c]; i < a.of_cell.offsets[c + 1]; ++i)
+            need(cell_gradients, c, a.sides[a.of_cell.rows[i]][0]);
+        if (const std::int32_t p = a.boundary_cell_place[c]; p >= 0)
+            for (std::int32_t i = a.of_boundary_cell.offsets[p]; i < a.of_boundary_cell.offsets[p + 1]; ++i)
+                need(cell_gradients, c, a.cell_of(a.of_boundary_cell.rows[i]));
+    }
+    for (auto& stage : needs)
+        for (auto& row : stage) sort_unique(row);
+    schedule_ = SweepSchedule<n_stages>(n_chunks, needs);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
+    region.chunks.clear();
+    if (region.cells.size() < one_chunk) {  // all in one: it costs no more than its cells
+        const auto n = [](const auto& list) { return static_cast<std::int32_t>(list.size()); };
+        region.chunks = {{},
+                         {n(region.faces), n(region.cells), n(region.reconstructed), n(region.reconstructed_boundary),
+                          n(region.gradient_cells), n(region.stress_cells), n(region.force_faces)}};
+        return;
+    }
+    for (const Chunk& chunk : chunks_) {
+        const auto place = [](const std::vector<std::int32_t>& list, std::int32_t first) {
+            return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
+        };
+        region.chunks.push_back({.face = place(region.faces, chunk.boundary),
+                                 .cell = place(region.cells, chunk.cell),
+                                 .reconstructed = place(region.reconstructed, chunk.face),
+                                 .reconstructed_boundary = place(region.reconstructed_boundary, chunk.boundary),
+                                 .gradient_cell = place(region.gradient_cells, chunk.cell),
+                                 .stress_cell = place(region.stress_cells, chunk.cell),
+                                 .force_face = place(region.force_faces, chunk.face)});
+    }
+}
+
+#define ABUT_INSTANTIATE(Dim)                   \
+    template void CcgSweeps<Dim>::set_chunks(); \
+    template void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>&) const;
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid

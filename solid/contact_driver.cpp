@@ -1,0 +1,287 @@
+#include "abut/solid/contact_driver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/contact/blind_corners.hpp"
+#include "abut/solid/contact_patches.hpp"
+
+namespace abut::solid {
+
+template <int Dim>
+ContactDriver<Dim>::ContactDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
+                                  const Loads<Dim>& loads, SolidTimes& times)
+    : mesh_(mesh),
+      options_(*options.contact),
+      ccg_(ccg),
+      loads_(loads),
+      times_(times),
+      obstacles_(options.obstacles),
+      watch_(ccg) {
+    build_surface();
+    contact_.emplace(surface_.view(), options_);
+}
+
+template <int Dim>
+void ContactDriver<Dim>::build_surface() {
+    const auto& prescribed = ccg_.prescribed();
+    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b) {
+        if (!prescribed[b].isZero(0.0)) {
+            ++faces_left_out_;
+            continue;
+        }
+        const std::int32_t face = mesh_.boundary_faces[b];
+        const std::int32_t cell = mesh_.face_cells[face][0];
+        std::vector<Vector<Dim>> corners;
+        for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
+        const double cell_depth = (mesh_.face_centroid[face] - mesh_.cell_centroid[cell]).dot(mesh_.face_normal[face]);
+        surface_.append(corners, cell_depth, ccg_.normal_stiffness(b), mesh_.cell_body[cell]);
+        boundary_of_surface_.push_back(b);
+    }
+    obstacles_.append_to(surface_, mesh_.n_bodies());
+}
+
+// The path of the listed faces ---------------------------------------------------------------------------------------
+
+template <int Dim>
+void ContactDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
+                                double time, double dt) {
+    if (!is_surely_valid(cell_motion, time + dt) && !is_valid_at(q_1, time + dt))
+        search(q_0, q_1, time, dt);
+    else if (!has_stepped_)
+        set_start(q_0, time);
+    set_end(q_1, time + dt);
+}
+
+/// By what no cell exceeds in the step: nothing is computed but a sum. Where it says no, `is_valid_at` decides.
+template <int Dim>
+bool ContactDriver<Dim>::is_surely_valid(double cell_motion, double time) {
+    const std::optional<double> motion = watch_.add_step(cell_motion);
+    return motion && contact_->covers(obstacles_.motion(watch_.time(), time) + *motion);
+}
+
+template <int Dim>
+bool ContactDriver<Dim>::is_valid_at(std::span<const Vector<Dim>> q, double time) {
+    const Stopwatch watch(times_.search);
+    const double motion = watch_.measure(q, loads_.end());
+    return contact_->covers(obstacles_.motion(watch_.time(), time) + motion);
+}
+
+template <int Dim>
+void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+    const Stopwatch watch(times_.search);
+    const auto u_0 = surface_displacement(q_0, loads_.start(), time);
+    const auto u_1 = surface_displacement(q_1, loads_.end(), time + dt);
+    contact_->search(u_0, u_1, [&](std::span<const std::int32_t> faces) {
+        boundary_of_listed_.clear();
+        for (const std::int32_t face : faces)
+            if (!surface_.view().is_rigid(face)) boundary_of_listed_.push_back(boundary_of_surface_[face]);
+        region_ = ccg_.region_of_faces(boundary_of_listed_);
+        contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
+        coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
+        return coupling;
+    });
+    watch_.set_searched(q_0, loads_.start(), time, q_1, loads_.end());
+    set_start(q_0, time);
+}
+
+/// Of all faces of the surface.
+template <int Dim>
+std::vector<Vector<Dim>> ContactDriver<Dim>::surface_displacement(std::span<const Vector<Dim>> q,
+                                                                  const BoundaryLoad<Dim>& load, double time) {
+    std::vector<Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
+    ccg_.boundary_displacement(q, load, boundary);
+    std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
+    for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) displacement[i] = boundary[boundary_of_surface_[i]];
+    obstacles_.displace(time, std::span(displacement).subspan(boundary_of_surface_.size()));
+    return displacement;
+}
+
+template <int Dim>
+void ContactDriver<Dim>::set_start(std::span<const Vector<Dim>> q_0, double time) {
+    evaluate_faces(q_0, loads_.start(), time, u_0_, y_0_);
+}
+
+template <int Dim>
+void ContactDriver<Dim>::set_end(std::span<const Vector<Dim>> q_1, double time) {
+    const Stopwatch watch(times_.contact);
+    active_pairs_.clear();
+    evaluate_faces(q_1, loads_.end(), time, u_1_, y_1_);
+}
+
+template <int Dim>
+void ContactDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
+                                        std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient) {
+    const auto faces = contact_->faces();
+    displacement.resize(faces.size());
+    gradient.resize(faces.size());
+    ccg_.evaluate_faces(region_, q, load, displacement, gradient);
+    for (std::size_t i = boundary_of_listed_.size(); i < faces.size(); ++i) {
+        displacement[i] = obstacles_.displacement(obstacle_of(faces[i]), time);
+        gradient[i].setZero();
+    }
+}
+
+template <int Dim>
+void ContactDriver<Dim>::end_step() {
+    std::swap(u_0_, u_1_);
+    std::swap(y_0_, y_1_);
+    has_stepped_ = true;
+    watch_.end_step();
+}
+
+// Contact on that path -----------------------------------------------------------------------------------------------
+
+template <int Dim>
+void ContactDriver<Dim>::integrate() {
+    const Stopwatch watch(times_.contact);
+    contact_->integrate({u_0_, u_1_, y_0_, y_1_});
+    keep_active_pairs();
+}
+
+template <int Dim>
+void ContactDriver<Dim>::take_start() {
+    contact_->evaluate(u_0_, y_0_);
+    keep_active_pairs();
+}
+
+template <int Dim>
+void ContactDriver<Dim>::take_end() {
+    const Stopwatch watch(times_.contact);
+    contact_->follow(u_0_, u_1_, y_1_);
+    keep_active_pairs();
+}
+
+template <int Dim>
+void ContactDriver<Dim>::keep_active_pairs() {
+    const auto active = contact_->result().active_pairs();
+    active_pairs_.assign(active.begin(), active.end());
+}
+
+template <int Dim>
+void ContactDriver<Dim>::evaluate_last_end() {
+    if (!contact_->faces().empty()) contact_->evaluate(u_0_, y_0_);
+}
+
+template <int Dim>
+void ContactDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
+    require_valid_at(q, time);
+    if (contact_->faces().empty()) return;
+    evaluate_faces(q, loads_.end(), time, u_1_, y_1_);
+    contact_->evaluate(u_1_, y_1_);
+}
+
+/// Contacts have no history before the first step: then the list may be rebuilt. Later a state for which it is not valid is
+/// refused, since a list made there would forget which pairs are in contact.
+template <int Dim>
+void ContactDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q, double time) {
+    if (watch_.is_end_of_search(q)) return;
+    const double motion = obstacles_.motion(watch_.time(), time) + watch_.motion_until(q, loads_.end());
+    if (contact_->covers(motion)) return;
+    if (has_stepped_ && std::isfinite(motion))
+        throw Misuse("solid: faces may be " + number(motion) +
+                         " m away from where contacts were last searched, half the skin of " + number(contact_->skin()) +
+                         " m is allowed in a state that no step has reached. Step there, make a Solid for every run, or "
+                         "raise CandidateOptions::skin.",
+                     {.value = motion, .allowed = 0.5 * contact_->skin()});
+    if (!has_stepped_) contact_.emplace(surface_.view(), options_);
+    search(q, q, time, 0.0);
+}
+
+// Results ------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+FaceCorrections<Dim> ContactDriver<Dim>::corrections() const {
+    if (contact_->result().active_pairs().empty()) return {};
+    const std::size_t n = boundary_of_listed_.size();
+    return {boundary_of_listed_, contact_->result().mean_correction().first(n), contact_->result().mean_force().first(n)};
+}
+
+template <int Dim>
+void ContactDriver<Dim>::take_obstacle_forces(double share, double& work) {
+    obstacles_.clear_forces();
+    if (active_pairs_.empty()) return;
+    const auto faces = contact_->faces();
+    for (std::size_t i = boundary_of_listed_.size(); i < faces.size(); ++i) {
+        const Vector<Dim> gradient = contact_->result().mean_force()[i];
+        obstacles_.add_force(obstacle_of(faces[i]), -gradient);
+        work += share * gradient.dot(u_1_[i] - u_0_[i]);
+    }
+}
+
+template <int Dim>
+double ContactDriver<Dim>::compression() const {
+    return contact_->result().compression();
+}
+
+template <int Dim>
+template <class Visit>
+void ContactDriver<Dim>::visit_contacts(const Visit& visit) const {
+    for (const auto& pair : contact_->pairs().pairs()) {
+        const auto at = contact_->pairs().position(contact_->surface(), pair, u_1_[contact_->local(pair.face_1)],
+                                                   u_1_[contact_->local(pair.face_2)]);
+        if (pair.admitted && contact_->pairs().shared_area(pair, at.shift, options_.area).area > 0.0) visit(pair, at.gap);
+    }
+}
+
+template <int Dim>
+ContactField ContactDriver<Dim>::field() const {
+    const auto n = static_cast<std::size_t>(ccg_.n_boundary());
+    ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
+    if (!contact_->result().active_pairs().empty())
+        for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i)
+            field.pressure[boundary_of_listed_[i]] =
+                contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[boundary_of_listed_[i]]];
+    const auto lower_gap = [&](std::int32_t face, double gap) {
+        if (face == no_face) return;
+        field.gap[face] = std::min(field.gap[face], gap);
+    };
+    visit_contacts([&](const contact::ContactPair<Dim>& pair, double gap) {
+        lower_gap(boundary_face(pair.face_1), gap);
+        lower_gap(boundary_face(pair.face_2), gap);
+    });
+    return field;
+}
+
+template <int Dim>
+std::vector<TouchingPair<Dim>> ContactDriver<Dim>::touching_pairs(double gap) const {
+    std::vector<TouchingPair<Dim>> touching;
+    visit_contacts([&](const contact::ContactPair<Dim>& pair, double open) {
+        if (open <= gap)
+            touching.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2), pair.frame.normal(), open});
+    });
+    return touching;
+}
+
+template <int Dim>
+std::vector<dynamics::ContactPatch> ContactDriver<Dim>::patches() const {
+    std::vector<TouchingFaces> touching;
+    for (const std::int32_t p : active_pairs_) {
+        const auto& pair = contact_->pairs().pairs()[p];
+        touching.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2)});
+    }
+    return contact_patches(ccg_, touching);
+}
+
+template <int Dim>
+contact::ContactReport ContactDriver<Dim>::report() const {
+    return contact_->report();
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> ContactDriver<Dim>::blind_corners() const {
+    std::vector<Vector<Dim>> corners;
+    for (const std::int32_t vertex : contact::blind_corners(surface_.view(), options_.search.facing_cosine))
+        corners.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
+    return corners;
+}
+
+template class ContactDriver<2>;
+template class ContactDriver<3>;
+
+}  // namespace abut::solid

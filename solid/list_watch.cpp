@@ -1,0 +1,46 @@
+#include "abut/solid/list_watch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace abut::solid {
+
+template <int Dim>
+void ListWatch<Dim>::set_searched(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, double time,
+                                  std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+    u_.assign(q_0.begin(), q_0.end());
+    load_ = load_0;
+    time_ = time;
+    static_cast<void>(measure(q_1, load_1));
+    swept_end_.assign(q_1.begin(), q_1.end());
+}
+
+template <int Dim>
+bool ListWatch<Dim>::is_end_of_search(std::span<const Vector<Dim>> q) const {
+    return std::ranges::equal(q, swept_end_);
+}
+
+template <int Dim>
+double ListWatch<Dim>::motion_until(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
+    if (u_.empty()) return std::numeric_limits<double>::infinity();
+    return ccg_.motion_bound(u_, load_, q, load);
+}
+
+template <int Dim>
+double ListWatch<Dim>::measure(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
+    travelled_ = 0.0;
+    return measured_ = motion_until(q, load);
+}
+
+template <int Dim>
+std::optional<double> ListWatch<Dim>::add_step(double cell_motion) {
+    travelled_ += cell_motion;
+    if (!std::exchange(is_at_last_end_, false) || ccg_.load_varies()) return std::nullopt;
+    return measured_ + ccg_.motion_amplification() * travelled_;
+}
+
+template class ListWatch<2>;
+template class ListWatch<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,63 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/options.hpp"
+
+namespace abut::solid {
+
+/// What acts on the bodies from outside, contact with obstacles left out: body forces, prescribed displacements and tractions,
+/// at both ends of a step. Displacements are linear within a step, tractions are constant and change where it begins.
+template <int Dim>
+class Loads {
+public:
+    /// `masses` are those of the cells. The operators must outlive the loads. Throws BadInput for a body force that is not
+    /// finite, and where a boundary condition gives such a value.
+    Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::span<const double> masses,
+          const Ccg<Dim>& ccg);
+
+    /// Whether a boundary condition has a history.
+    [[nodiscard]] bool vary() const { return ccg_.load_varies(); }
+    /// At the start of the step that is being made, or of the last one.
+    [[nodiscard]] const BoundaryLoad<Dim>& start() const { return start_; }
+    /// At its end.
+    [[nodiscard]] const BoundaryLoad<Dim>& end() const { return end_; }
+    /// With the mean of the displacements of both.
+    [[nodiscard]] BoundaryLoad<Dim> mean() const;
+
+    /// For loads that vary: a step begins, and both ends are set. Where tractions jump at its start, the jump of `potential`,
+    /// evaluated with the loads `end()`, is added to `work` [J]. Whether they did.
+    bool begin_step(double time, double dt, const std::function<double()>& potential, double& work);
+    void end_step() { is_half_done_ = false; }
+    /// Whether a step with loads that vary has begun and not ended.
+    [[nodiscard]] bool is_half_done() const { return is_half_done_; }
+    /// Adds the work of prescribed displacements and tractions over the step, were the gradients of the boundary faces as they
+    /// are now: `share` of it [J].
+    void add_work(double share, double& work) const;
+
+    /// Of body forces in the displacements u [J].
+    [[nodiscard]] double body_work(std::span<const Vector<Dim>> u) const;
+    /// Body force less dV/du_c of one cell [N].
+    [[nodiscard]] Vector<Dim> force_on(std::int32_t cell, const Vector<Dim>& gradient) const {
+        return body_force_.empty() ? Vector<Dim>(-gradient) : Vector<Dim>(body_force_[cell] - gradient);
+    }
+    /// The same for all cells, in place.
+    void to_force(std::span<Vector<Dim>> gradient) const;
+    /// Adds dt times body force less gradient, given for some cells, to the impulses of all [N s].
+    void add_impulse(std::span<const std::int32_t> cells, std::span<const Vector<Dim>> gradient, double dt,
+                     std::span<Vector<Dim>> impulse) const;
+
+private:
+    const Ccg<Dim>& ccg_;
+    std::vector<Vector<Dim>> body_force_;  // by cell; empty: none
+    BoundaryLoad<Dim> start_;
+    BoundaryLoad<Dim> end_;
+    bool is_half_done_ = false;
+};
+
+}  // namespace abut::solid

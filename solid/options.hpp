@@ -1,0 +1,32 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "abut/contact/obstacle.hpp"
+#include "abut/contact/options.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/material.hpp"
+
+namespace abut::solid {
+
+/// What a scene holds beside its mesh.
+template <int Dim>
+struct SolidOptions {
+    std::vector<Material> materials;  ///< one per body
+    BoundaryConditions<Dim> boundary;
+    std::vector<Vector<Dim>> acceleration;  ///< of gravity, one per body [m/s^2]; empty: none
+    std::function<Vector<Dim>(const Vector<Dim>& position)>
+        body_load;                                       ///< force density [N/m^3], constant in time; empty: none
+    std::optional<contact::ContactOptions> contact;      ///< empty: bodies pass through each other, at no cost
+    std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
+};
+
+/// Where the time of all steps of a Solid went [s].
+struct SolidTimes {
+    double bulk = 0.0;
+    double contact = 0.0;
+    double search = 0.0;
+};
+
+}  // namespace abut::solid
