@@ -176,7 +176,7 @@ public:
         double motion = 0.0;
         for (std::size_t face = 0; face < u.size(); ++face)
             motion = std::max(motion, (next[face] - searched_[face]).squaredNorm());
-        if (search_.covers(std::sqrt(motion))) return;
+        if (search_.is_valid_for(std::sqrt(motion))) return;
         search_.search(u, next);
         searched_ = u;
     }

@@ -14,7 +14,7 @@
 #include <random>
 
 #include "abut/contact/overlaps.hpp"
-#include "abut/contact/pairs.hpp"
+#include "abut/contact/pair.hpp"
 #include "support/clippers.hpp"
 #include "support/measure.hpp"
 

@@ -62,14 +62,14 @@ void ContactDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<cons
 template <int Dim>
 bool ContactDriver<Dim>::is_surely_valid(double cell_motion, double time) {
     const std::optional<double> motion = watch_.add_step(cell_motion);
-    return motion && contact_->covers(obstacles_.motion(watch_.time(), time) + *motion);
+    return motion && contact_->is_valid_for(obstacles_.motion(watch_.time(), time) + *motion);
 }
 
 template <int Dim>
 bool ContactDriver<Dim>::is_valid_at(std::span<const Vector<Dim>> q, double time) {
     const Stopwatch watch(times_.search);
     const double motion = watch_.measure(q, loads_.end());
-    return contact_->covers(obstacles_.motion(watch_.time(), time) + motion);
+    return contact_->is_valid_for(obstacles_.motion(watch_.time(), time) + motion);
 }
 
 template <int Dim>
@@ -77,10 +77,10 @@ void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<cons
     const Stopwatch watch(times_.search);
     const auto u_0 = surface_displacement(q_0, loads_.start(), time);
     const auto u_1 = surface_displacement(q_1, loads_.end(), time + dt);
-    contact_->search(u_0, u_1, [&](std::span<const std::int32_t> faces) {
+    contact_->search(u_0, u_1, [&](std::span<const contact::SurfaceFace> faces) {
         boundary_of_listed_.clear();
-        for (const std::int32_t face : faces)
-            if (!surface_.view().is_rigid(face)) boundary_of_listed_.push_back(boundary_of_surface_[face]);
+        for (const contact::SurfaceFace face : faces)
+            if (const std::int32_t b = boundary_face(face); b != no_face) boundary_of_listed_.push_back(b);
         region_ = ccg_.region_of_faces(boundary_of_listed_);
         contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
         coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
@@ -110,7 +110,7 @@ void ContactDriver<Dim>::set_start(std::span<const Vector<Dim>> q_0, double time
 template <int Dim>
 void ContactDriver<Dim>::set_end(std::span<const Vector<Dim>> q_1, double time) {
     const Stopwatch watch(times_.contact);
-    active_pairs_.clear();
+    touching_.clear();
     evaluate_faces(q_1, loads_.end(), time, u_1_, y_1_);
 }
 
@@ -140,27 +140,25 @@ void ContactDriver<Dim>::end_step() {
 template <int Dim>
 void ContactDriver<Dim>::integrate() {
     const Stopwatch watch(times_.contact);
-    contact_->integrate({u_0_, u_1_, y_0_, y_1_});
-    keep_active_pairs();
+    keep_touching_faces(contact_->integrate({u_0_, u_1_, y_0_, y_1_}));
 }
 
 template <int Dim>
 void ContactDriver<Dim>::take_start() {
-    contact_->evaluate(u_0_, y_0_);
-    keep_active_pairs();
+    keep_touching_faces(contact_->evaluate(u_0_, y_0_));
 }
 
 template <int Dim>
 void ContactDriver<Dim>::take_end() {
     const Stopwatch watch(times_.contact);
-    contact_->follow(u_0_, u_1_, y_1_);
-    keep_active_pairs();
+    keep_touching_faces(contact_->follow(u_0_, u_1_, y_1_));
 }
 
 template <int Dim>
-void ContactDriver<Dim>::keep_active_pairs() {
-    const auto active = contact_->result().active_pairs();
-    active_pairs_.assign(active.begin(), active.end());
+void ContactDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
+    touching_.clear();
+    for (const contact::PairStep<Dim>& pair : step.pairs)
+        touching_.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2)});
 }
 
 template <int Dim>
@@ -182,7 +180,7 @@ template <int Dim>
 void ContactDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q, double time) {
     if (watch_.is_end_of_search(q)) return;
     const double motion = obstacles_.motion(watch_.time(), time) + watch_.motion_until(q, loads_.end());
-    if (contact_->covers(motion)) return;
+    if (contact_->is_valid_for(motion)) return;
     if (has_stepped_ && std::isfinite(motion))
         throw Misuse("solid: faces may be " + number(motion) +
                          " m away from where contacts were last searched, half the skin of " + number(contact_->skin()) +
@@ -197,18 +195,20 @@ void ContactDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q, double
 
 template <int Dim>
 FaceCorrections<Dim> ContactDriver<Dim>::corrections() const {
-    if (contact_->result().active_pairs().empty()) return {};
+    const contact::ContactStep<Dim>& step = contact_->last();
+    if (!step.is_active()) return {};
     const std::size_t n = boundary_of_listed_.size();
-    return {boundary_of_listed_, contact_->result().mean_correction().first(n), contact_->result().mean_force().first(n)};
+    return {boundary_of_listed_, step.mean_correction.values().first(n), step.mean_gradient.values().first(n)};
 }
 
 template <int Dim>
 void ContactDriver<Dim>::take_obstacle_forces(double share, double& work) {
     obstacles_.clear_forces();
-    if (active_pairs_.empty()) return;
+    if (touching_.empty()) return;
     const auto faces = contact_->faces();
+    const auto gradients = contact_->last().mean_gradient.values();
     for (std::size_t i = boundary_of_listed_.size(); i < faces.size(); ++i) {
-        const Vector<Dim> gradient = contact_->result().mean_force()[i];
+        const Vector<Dim> gradient = gradients[i];
         obstacles_.add_force(obstacle_of(faces[i]), -gradient);
         work += share * gradient.dot(u_1_[i] - u_0_[i]);
     }
@@ -216,56 +216,37 @@ void ContactDriver<Dim>::take_obstacle_forces(double share, double& work) {
 
 template <int Dim>
 double ContactDriver<Dim>::compression() const {
-    return contact_->result().compression();
-}
-
-template <int Dim>
-template <class Visit>
-void ContactDriver<Dim>::visit_contacts(const Visit& visit) const {
-    for (const auto& pair : contact_->pairs().pairs()) {
-        const auto at = contact_->pairs().position(contact_->surface(), pair, u_1_[contact_->local(pair.face_1)],
-                                                   u_1_[contact_->local(pair.face_2)]);
-        if (pair.admitted && contact_->pairs().shared_area(pair, at.shift, options_.area).area > 0.0) visit(pair, at.gap);
-    }
+    return contact_->last().report.compression;
 }
 
 template <int Dim>
 ContactField ContactDriver<Dim>::field() const {
     const auto n = static_cast<std::size_t>(ccg_.n_boundary());
     ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
-    if (!contact_->result().active_pairs().empty())
-        for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i)
-            field.pressure[boundary_of_listed_[i]] =
-                contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[boundary_of_listed_[i]]];
-    const auto lower_gap = [&](std::int32_t face, double gap) {
-        if (face == no_face) return;
-        field.gap[face] = std::min(field.gap[face], gap);
-    };
-    visit_contacts([&](const contact::ContactPair<Dim>& pair, double gap) {
-        lower_gap(boundary_face(pair.face_1), gap);
-        lower_gap(boundary_face(pair.face_2), gap);
-    });
+    const contact::ContactStep<Dim>& step = contact_->last();
+    if (step.is_active())
+        for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i) {
+            const std::int32_t b = boundary_of_listed_[i];
+            field.pressure[b] = step.mean_normal_force.values()[i] / mesh_.face_measure[mesh_.boundary_faces[b]];
+        }
+    for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
+        for (const contact::SurfaceFace face : {overlap.face_1, overlap.face_2})
+            if (const std::int32_t b = boundary_face(face); b != no_face) field.gap[b] = std::min(field.gap[b], overlap.gap);
     return field;
 }
 
 template <int Dim>
 std::vector<TouchingPair<Dim>> ContactDriver<Dim>::touching_pairs(double gap) const {
     std::vector<TouchingPair<Dim>> touching;
-    visit_contacts([&](const contact::ContactPair<Dim>& pair, double open) {
-        if (open <= gap)
-            touching.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2), pair.frame.normal(), open});
-    });
+    for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
+        if (overlap.gap <= gap)
+            touching.push_back({boundary_face(overlap.face_1), boundary_face(overlap.face_2), overlap.normal, overlap.gap});
     return touching;
 }
 
 template <int Dim>
 std::vector<dynamics::ContactPatch> ContactDriver<Dim>::patches() const {
-    std::vector<TouchingFaces> touching;
-    for (const std::int32_t p : active_pairs_) {
-        const auto& pair = contact_->pairs().pairs()[p];
-        touching.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2)});
-    }
-    return contact_patches(ccg_, touching);
+    return contact_patches(ccg_, touching_);
 }
 
 template <int Dim>

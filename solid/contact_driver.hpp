@@ -9,6 +9,7 @@
 #include "abut/dynamics/filter.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/contact_patches.hpp"
 #include "abut/solid/contact_results.hpp"
 #include "abut/solid/list_watch.hpp"
 #include "abut/solid/loads.hpp"
@@ -67,7 +68,7 @@ public:
 
     [[nodiscard]] FaceCorrections<Dim> corrections() const;
     /// Whether some pair was active in the last step.
-    [[nodiscard]] bool is_active() const { return !active_pairs_.empty(); }
+    [[nodiscard]] bool is_active() const { return !touching_.empty(); }
     /// Sets the forces on the obstacles, and adds the work of these in the step: `share` of it [J].
     void take_obstacle_forces(double share, double& work);
     [[nodiscard]] Obstacles<Dim>& obstacles() { return obstacles_; }
@@ -90,19 +91,16 @@ private:
     void build_surface();
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
     void require_valid_at(std::span<const Vector<Dim>> q, double time);
-    void keep_active_pairs();
+    void keep_touching_faces(const contact::ContactStep<Dim>& step);
     [[nodiscard]] std::vector<Vector<Dim>> surface_displacement(std::span<const Vector<Dim>> q,
                                                                 const BoundaryLoad<Dim>& load, double time);
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
-    /// Calls `visit(pair, gap)` for each admitted pair that shares area, as of the last `evaluate`.
-    template <class Visit>
-    void visit_contacts(const Visit& visit) const;
-    [[nodiscard]] std::int32_t boundary_face(std::int32_t surface_face) const {
-        return surface_.view().is_rigid(surface_face) ? no_face : boundary_of_surface_[surface_face];
+    [[nodiscard]] std::int32_t boundary_face(contact::SurfaceFace face) const {
+        return surface_.view().is_rigid(number_of(face)) ? no_face : boundary_of_surface_[static_cast<std::size_t>(face)];
     }
-    [[nodiscard]] std::size_t obstacle_of(std::int32_t surface_face) const {
-        return static_cast<std::size_t>(surface_.body[surface_face] - mesh_.n_bodies());
+    [[nodiscard]] std::size_t obstacle_of(contact::SurfaceFace face) const {
+        return static_cast<std::size_t>(surface_.body[static_cast<std::size_t>(face)] - mesh_.n_bodies());
     }
 
     const mesh::Mesh<Dim>& mesh_;
@@ -120,8 +118,8 @@ private:
     Region<Dim> region_;                            // of the deformable listed faces
     std::vector<std::int32_t> boundary_of_listed_;  // their boundary faces; they come first in the list
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
-        y_1_;                                 // path of the listed faces; between steps _0 is where the last one ended
-    std::vector<std::int32_t> active_pairs_;  // of the last step
+        y_1_;                              // path of the listed faces; between steps _0 is where the last one ended
+    std::vector<TouchingFaces> touching_;  // boundary faces of the pairs that were active in the last step
 };
 
 }  // namespace abut::solid

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/path/path_integral.hpp"
+#include "abut/contact/step.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 
 namespace abut::solid {

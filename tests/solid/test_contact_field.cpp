@@ -129,7 +129,7 @@ TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was look
         memm.step();
     }
     CHECK(ledger.pseudo_energy_drift() < 1e-12 * ledger.largest_energy());
-    CHECK(solid.contact_report().lost_contacts == 0);
+    CHECK(solid.contact_report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list is refused, and so is another run",

@@ -39,7 +39,7 @@ TEST_CASE("a box that slides off the edge or the corner of another loses no ener
     const auto report = scene.solid.contact_report();
     CHECK(steps_in_contact > 30);
     CHECK(report.events > 100);
-    CHECK(report.lost_contacts == 0);
+    CHECK(report.missed_contacts == 0);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
     // The box falls freely in the end; no cell is ever much faster than the box that falls.
     CHECK(report.active_pairs == 0);

@@ -145,8 +145,10 @@ TEMPLATE_TEST_CASE_SIG(
         for (int i = 0; i < every; ++i) scene.memm.step();
         auto touching = touching_pairs(scene);
         found += touching.size();
-        for (const auto& pair : scene.solid.contact()->pairs().pairs())
-            if (pair.admitted) touching.erase({pair.face_1, pair.face_2});
+        const contact::PairStore& store = scene.solid.contact()->pair_store();
+        for (std::size_t i = 0; i < store.pairs().size(); ++i)
+            if (store.memory()[i].admitted)
+                touching.erase({number_of(store.pairs()[i].face_1), number_of(store.pairs()[i].face_2)});
         REQUIRE(touching.empty());
     }
     CHECK(found > 50);

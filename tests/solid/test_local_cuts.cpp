@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "contact/law.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -47,29 +48,34 @@ TEMPLATE_TEST_CASE_SIG(
     Scene<Dim> scene(coupled_bodies<Dim>(), bodies<Dim>(2), fast_velocities<Dim>());
     const auto& contact = *scene.solid.contact();
     auto& ccg = scene.solid.ccg();
-    contact::PathIntegral<Dim> local({}), global({});
+    LawOnList<Dim> local({}), global({});
     double worst = 0.0, worst_against_solid = 0.0;
     std::int64_t events = 0, steps_with_contact = 0, steps_with_coupled_faces = 0;
     for (int step = 0; step < 250; ++step) {
         const std::vector<double> q_0(scene.memm.q().begin(), scene.memm.q().end());
         scene.memm.step();
-        if (contact.result().active_pairs().empty()) continue;
+        if (contact.last().pairs.empty()) continue;
         // Nothing is prescribed: face i of the surface is boundary face i.
-        const auto faces = contact.faces();
-        const auto region = ccg.region_of_faces(faces);
+        const std::vector<contact::SurfaceFace> faces(contact.faces().begin(), contact.faces().end());
+        std::vector<std::int32_t> boundary;
+        for (const contact::SurfaceFace face : faces) boundary.push_back(number_of(face));
+        const auto region = ccg.region_of_faces(boundary);
         std::vector<Vector<Dim>> u_0(faces.size()), u_1(u_0), y_0(u_0), y_1(u_0);
         ccg.evaluate_faces(region, vectors<Dim>(q_0), {}, u_0, y_0);
         ccg.evaluate_faces(region, as_vectors<Dim>(scene.memm.q()), {}, u_1, y_1);
-        std::vector<std::int32_t> local_face(static_cast<std::size_t>(contact.surface().size()));
-        for (std::int32_t f = 0; f < contact.surface().size(); ++f) local_face[f] = contact.local(f);
-        local.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
-                        Cuts::coupled);
-        global.integrate(contact.surface(), contact.pairs(), local_face, contact.coupling(), {u_0, u_1, y_0, y_1},
-                         Cuts::global);
-        const double size = size_of<Dim>(global.mean_force());
-        raise(worst, distance<Dim>(local.mean_force(), global.mean_force()) / size);
-        raise(worst_against_solid, distance<Dim>(local.mean_force(), contact.result().mean_force()) / size);
-        events += global.events();
+        contact::PairList<Dim> list;
+        for (const auto& [face_1, face_2] : contact.pair_store().pairs())
+            list.append(contact.surface(), number_of(face_1), number_of(face_2), contact::InterfaceWeighting::stiffness);
+        list.number_faces(faces);
+        const std::vector memory(contact.pair_store().memory().begin(), contact.pair_store().memory().end());
+        const contact::FacePath<Dim> path{u_0, u_1, y_0, y_1};
+        const auto& here = local(contact.surface(), list, memory, faces, contact.coupling(), path, Cuts::coupled);
+        const auto& there = global(contact.surface(), list, memory, faces, contact.coupling(), path, Cuts::global);
+        const auto reference = there.mean_gradient.values();
+        const double size = size_of<Dim>(reference);
+        raise(worst, distance<Dim>(here.mean_gradient.values(), reference) / size);
+        raise(worst_against_solid, distance<Dim>(here.mean_gradient.values(), contact.last().mean_gradient.values()) / size);
+        events += there.report.events;
         ++steps_with_contact;
         steps_with_coupled_faces += contact.coupling().columns.size() > faces.size();
     }

@@ -51,7 +51,7 @@ TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
     CHECK(scene.ledger.energy_excess() < 5e-3 * scene.kinetic_start());
     CHECK(scene.solid.work() == 0.0);
-    CHECK(scene.solid.contact_report().lost_contacts == 0);
+    CHECK(scene.solid.contact_report().missed_contacts == 0);
 }
 
 TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and no gap elsewhere", "[dynamics][obstacle]") {
@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG(
     scene.run_until(5.0);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
     CHECK(scene.solid.work() > 0.1 * scene.ledger.largest_energy());
-    CHECK(scene.solid.contact_report().lost_contacts == 0);
+    CHECK(scene.solid.contact_report().missed_contacts == 0);
     CHECK(scene.solid.contact_report().events > 20);
 }
 
@@ -152,7 +152,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body wit
     CHECK(scene.solid.contact_report().events > 1);
     CHECK(scene.solid.work() > 1e-4);
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-12 * scene.ledger.largest_energy());
-    CHECK(scene.solid.contact_report().lost_contacts == 0);
+    CHECK(scene.solid.contact_report().missed_contacts == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[dynamics][obstacle]",

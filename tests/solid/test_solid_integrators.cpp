@@ -28,7 +28,7 @@ dynamics::Ledger<Dim> run(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<
         integrator.step();
         ledger.record(dynamics::measure(integrator, solid));
     }
-    CHECK(solid.contact_report().lost_contacts == 0);
+    CHECK(solid.contact_report().missed_contacts == 0);
     CHECK(solid.contact_report().active_pairs_max > 0);
     if (end) end->assign(integrator.q().begin(), integrator.q().end());
     return ledger;
