@@ -19,15 +19,15 @@ Matrix<Dim> projector(const DirichletCondition<Dim>& condition, const Vector<Dim
     return chosen;
 }
 
-/// Places in mesh.boundary_faces of the faces of a group.
+/// Boundary faces of a group.
 template <int Dim>
-std::vector<std::int32_t> boundary_places(const mesh::Mesh<Dim>& mesh, const std::string& group) {
-    std::vector<std::int32_t> places;
+std::vector<std::int32_t> boundary_faces_of(const mesh::Mesh<Dim>& mesh, const std::string& group) {
+    std::vector<std::int32_t> boundary;
     for (const std::int32_t face : mesh.group(group).faces) {
         const auto at = std::lower_bound(mesh.boundary_faces.begin(), mesh.boundary_faces.end(), face);
-        places.push_back(static_cast<std::int32_t>(at - mesh.boundary_faces.begin()));
+        boundary.push_back(static_cast<std::int32_t>(at - mesh.boundary_faces.begin()));
     }
-    return places;
+    return boundary;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
     sorted.prescribed.assign(mesh.boundary_faces.size(), Matrix<Dim>::Zero());
     for (const DirichletCondition<Dim>& condition : conditions.dirichlet) {
         auto& faces = sorted.dirichlet.emplace_back();
-        for (const std::int32_t b : boundary_places(mesh, condition.group)) {
+        for (const std::int32_t b : boundary_faces_of(mesh, condition.group)) {
             const Matrix<Dim> added = projector(condition, mesh.face_normal[mesh.boundary_faces[b]]);
             if (!(added * sorted.prescribed[b]).isZero(1e-12))
                 throw BadInput("boundary condition on '" + condition.group + "': face " +
@@ -49,7 +49,7 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
         }
     }
     for (const TractionCondition<Dim>& condition : conditions.traction) {
-        sorted.traction.push_back(boundary_places(mesh, condition.group));
+        sorted.traction.push_back(boundary_faces_of(mesh, condition.group));
         for (const std::int32_t b : sorted.traction.back())
             if (sorted.prescribed[b].isIdentity(1e-12))
                 throw BadInput("traction on '" + condition.group + "': the displacement of face " +

@@ -11,13 +11,13 @@
 namespace abut::solid {
 
 /// What the displacement of a boundary face without a prescribed value is. docs/method.md, Space.
-enum class Neumann {
+enum class FreeFaceRule {
     local_equilibrium,  ///< sigma_c n = t in the cell: the face minimises the energy of its cell
     extrapolate,        ///< affine extrapolation from nearby cells: large parasitic energy in contact, for comparison
     adjacent,           ///< u_f = u_c: loses accuracy and costs energy in a rotation, for comparison
 };
 
-/// A vector that may depend on time and place.
+/// A vector that may depend on time and position.
 template <int Dim>
 using Field = std::function<Vector<Dim>(double time, const Vector<Dim>& position)>;
 
@@ -46,7 +46,7 @@ struct TractionCondition {
 
 template <int Dim>
 struct BoundaryConditions {
-    Neumann neumann = Neumann::local_equilibrium;
+    FreeFaceRule free_face_rule = FreeFaceRule::local_equilibrium;
     std::vector<DirichletCondition<Dim>> dirichlet;
     std::vector<TractionCondition<Dim>> traction;
 };

@@ -45,7 +45,7 @@ public:
     /// The start of the path is known: it is where the last step ended.
     [[nodiscard]] bool has_stepped() const { return has_stepped_; }
     /// The cells that `set_start` and `set_end` read, increasing.
-    [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.loaded_cells; }
+    [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.input_cells; }
     /// The next step begins where this one ends.
     void end_step();
 

@@ -10,7 +10,7 @@
 
 namespace abut::solid {
 
-/// Two faces in contact, as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+/// Two faces in contact, as boundary faces; `no_face` is one of an obstacle.
 struct TouchingFaces {
     std::int32_t face_1;
     std::int32_t face_2;

@@ -9,7 +9,7 @@ namespace abut::solid {
 /// Stands for a face of an obstacle where boundary faces are named.
 inline constexpr std::int32_t no_face = -1;
 
-/// A contact of two faces, given as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+/// A contact of two faces, given as boundary faces; `no_face` is one of an obstacle.
 template <int Dim>
 struct TouchingPair {
     std::int32_t face_1;

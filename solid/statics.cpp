@@ -33,7 +33,7 @@ enum class Ending {
     iterations,  ///< all of them are used up
 };
 
-/// Ends the minimiser from inside: it has no other way.
+/// Ends the minimiser from inside: it has no other means.
 struct Finished {
     Ending ending;
 };
@@ -158,7 +158,7 @@ public:
         solid_.force(reached, force_);
         report_.compression = solid_.compression();
         report_.residual = residual();
-        report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).loaded_cells);
+        report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).input_cells);
         touches_ = !faces.empty();
     }
     /// Whether all that is out of balance there is around contacts.

@@ -20,12 +20,12 @@ struct Row {
     std::vector<Term> traction;
 
     static void add(std::vector<Term>& terms, std::int32_t index, const Matrix<Dim>& weight) {
-        const auto place =
+        const auto position =
             std::lower_bound(terms.begin(), terms.end(), index, [](const Term& t, std::int32_t i) { return t.index < i; });
-        if (place != terms.end() && place->index == index)
-            place->weight += weight;
+        if (position != terms.end() && position->index == index)
+            position->weight += weight;
         else
-            terms.insert(place, {index, weight});
+            terms.insert(position, {index, weight});
     }
     void add_stencil(const FaceStencil<Dim>& stencil, const Matrix<Dim>& weight) {
         for (int j = 0; j <= Dim; ++j) add(cells, stencil.cells[j], stencil.weights[j] * weight);
@@ -36,17 +36,17 @@ template <int Dim>
 class Builder {
 public:
     Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
-            const FaceConditions<Dim>& conditions, Neumann neumann)
+            const FaceConditions<Dim>& conditions, FreeFaceRule rule)
         : mesh_(mesh),
           interior_(interior),
           materials_(materials),
           conditions_(conditions),
-          neumann_(neumann),
-          place_(static_cast<std::size_t>(mesh.n_faces()), -1),
+          rule_(rule),
+          index_(static_cast<std::size_t>(mesh.n_faces()), -1),
           affine_(mesh.boundary_faces.size()),
           rows_(mesh.boundary_faces.size()) {
         for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b)
-            place_[mesh.boundary_faces[b]] = static_cast<std::int32_t>(b);
+            index_[mesh.boundary_faces[b]] = static_cast<std::int32_t>(b);
     }
 
     BoundaryReconstruction<Dim> build() {
@@ -56,19 +56,19 @@ public:
     }
 
 private:
-    /// Boundary faces of a cell, as places in mesh.boundary_faces.
+    /// Boundary faces of a cell.
     std::vector<std::int32_t> boundary_of(std::int32_t cell) const {
-        std::vector<std::int32_t> places;
+        std::vector<std::int32_t> boundary;
         for (const std::int32_t face : mesh_.cell_faces[cell])
-            if (place_[face] >= 0) places.push_back(place_[face]);
-        return places;
+            if (index_[face] >= 0) boundary.push_back(index_[face]);
+        return boundary;
     }
 
     bool is_free(std::int32_t b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
 
     /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces.
     void select_affine_stencils() {
-        if (neumann_ == Neumann::adjacent) return;
+        if (rule_ == FreeFaceRule::adjacent) return;
         std::vector<std::int32_t> wanted;
         for (std::int32_t b = 0; b < static_cast<std::int32_t>(mesh_.boundary_faces.size()); ++b) {
             if (!is_free(b)) continue;
@@ -76,7 +76,7 @@ private:
             const auto others = boundary_of(cell);
             const auto n_free =
                 std::count_if(others.begin(), others.end(), [&](std::int32_t other) { return is_free(other); });
-            if (neumann_ == Neumann::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
+            if (rule_ == FreeFaceRule::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
                 wanted.push_back(b);
         }
         std::vector<std::int32_t> faces;
@@ -89,11 +89,11 @@ private:
         const auto boundary = boundary_of(cell);
         if (boundary.empty()) return;
         for (const std::int32_t b : boundary) Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
-        if (neumann_ == Neumann::local_equilibrium) return balance(cell, boundary);
+        if (rule_ == FreeFaceRule::local_equilibrium) return balance(cell, boundary);
         for (const std::int32_t b : boundary) {
             const Matrix<Dim> free = Matrix<Dim>::Identity() - conditions_.prescribed[b];
             if (free.isZero(1e-12)) continue;
-            if (neumann_ == Neumann::extrapolate)
+            if (rule_ == FreeFaceRule::extrapolate)
                 rows_[b].add_stencil(affine_[b], free);
             else
                 Row<Dim>::add(rows_[b].cells, cell, free);
@@ -142,7 +142,7 @@ private:
                 Row<Dim>::add(row.traction, b, mesh_.face_measure[face] * answer);
                 if (!block(undetermined, i, j).isZero(1e-9)) row.add_stencil(affine_[b], block(undetermined, i, j));
                 for (const std::int32_t g : mesh_.cell_faces[cell])
-                    if (place_[g] < 0) row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
+                    if (index_[g] < 0) row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
             }
         }
     }
@@ -178,8 +178,8 @@ private:
     std::span<const FaceStencil<Dim>> interior_;
     std::span<const Material> materials_;
     const FaceConditions<Dim>& conditions_;
-    Neumann neumann_;
-    std::vector<std::int32_t> place_;       // of a face among the boundary faces, -1 inside
+    FreeFaceRule rule_;
+    std::vector<std::int32_t> index_;       // of a face among the boundary faces, -1 inside
     std::vector<FaceStencil<Dim>> affine_;  // by boundary face, where wanted
     std::vector<Row<Dim>> rows_;
     StencilReport report_;
@@ -198,15 +198,15 @@ Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const 
 template <int Dim>
 BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior,
                                                  std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-                                                 Neumann neumann) {
-    return Builder<Dim>(mesh, interior, materials, conditions, neumann).build();
+                                                 FreeFaceRule rule) {
+    return Builder<Dim>(mesh, interior, materials, conditions, rule).build();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                             \
     template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
     template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
         const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
-        Neumann);
+        FreeFaceRule);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -31,9 +31,9 @@ template <int Dim>
 [[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh,
                                                                std::span<const FaceStencil<Dim>> interior,
                                                                std::span<const Material> materials,
-                                                               const FaceConditions<Dim>& conditions, Neumann neumann);
+                                                               const FaceConditions<Dim>& conditions, FreeFaceRule rule);
 
-/// A_fg of a cell: the answer of the energy's face force on f to a displacement of g, stabilisation left out; the area
+/// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f,

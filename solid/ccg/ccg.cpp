@@ -20,7 +20,7 @@ std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const M
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
     if (materials.size() != n_bodies)
         throw BadInput(mesh.name + ": " + std::to_string(materials.size()) + " materials are given for " +
-                       std::to_string(n_bodies) + " bodies. Give one a body.");
+                       std::to_string(n_bodies) + " bodies. Give one per body.");
     for (std::size_t body = 0; body < n_bodies; ++body) check(materials[body], static_cast<int>(body));
     return materials;
 }
@@ -48,7 +48,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
                      const BoundaryConditions<Dim>& boundary_conditions)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule),
       sweeps(arrays),
       motion_bound(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
@@ -136,8 +136,8 @@ std::span<const Matrix<Dim>> Ccg<Dim>::prescribed() const {
 
 template <int Dim>
 bool Ccg<Dim>::has_prescribed_face(std::int32_t cell) const {
-    return std::ranges::any_of(impl_->arrays.slots_of(cell), [&](const Slot& slot) {
-        const std::int32_t b = impl_->arrays.boundary_place[slot.face];
+    return std::ranges::any_of(impl_->arrays.half_faces_of(cell), [&](const HalfFace& half_face) {
+        const std::int32_t b = impl_->arrays.boundary_index[half_face.face];
         return b >= 0 && !impl_->face_conditions.prescribed[b].isZero(0.0);
     });
 }
@@ -155,8 +155,8 @@ void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>&
 }
 
 template <int Dim>
-Vector<Dim> Ccg<Dim>::boundary_force(std::int32_t boundary_face) const {
-    return impl_->sweeps.face_force(impl_->arrays.boundary_faces[boundary_face]);
+Vector<Dim> Ccg<Dim>::boundary_gradient(std::int32_t boundary_face) const {
+    return impl_->sweeps.face_gradient(impl_->arrays.boundary_faces[boundary_face]);
 }
 
 template <int Dim>
@@ -183,8 +183,8 @@ Region<Dim> Ccg<Dim>::region_of_cells(std::span<const std::int32_t> cells) const
 
 template <int Dim>
 void Ccg<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                              std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force) {
-    impl_->sweeps.evaluate_faces(region, u, load, displacement, force);
+                              std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient) {
+    impl_->sweeps.evaluate_faces(region, u, load, displacement, gradient);
 }
 
 template <int Dim>
