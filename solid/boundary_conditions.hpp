@@ -7,6 +7,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_face.hpp"
 
 namespace abut::solid {
 
@@ -51,17 +52,17 @@ struct BoundaryConditions {
     std::vector<TractionCondition<Dim>> traction;
 };
 
-/// The conditions sorted to the boundary faces of a mesh, in the order of `Mesh::boundary_faces`.
+/// The conditions sorted to the boundary faces of a mesh.
 template <int Dim>
 struct FaceConditions {
-    std::vector<Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
+    IdVector<BoundaryFace, Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
     /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
     struct Prescribed {
-        std::int32_t face;
+        BoundaryFace face;
         Matrix<Dim> projector;
     };
     std::vector<std::vector<Prescribed>> dirichlet;   ///< by condition
-    std::vector<std::vector<std::int32_t>> traction;  ///< boundary faces by condition
+    std::vector<std::vector<BoundaryFace>> traction;  ///< boundary faces by condition
 };
 
 /// Throws BadInput for an unknown group, two conditions that prescribe the same direction of a face, a

@@ -29,13 +29,13 @@ ContactDriver<Dim>::ContactDriver(const mesh::Mesh<Dim>& mesh, const SolidOption
 
 template <int Dim>
 void ContactDriver<Dim>::build_surface() {
-    const auto& prescribed = ccg_.prescribed();
-    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b) {
+    const auto prescribed = ccg_.prescribed();
+    for (const BoundaryFace b : ccg_.boundary_faces()) {
         if (!prescribed[b].isZero(0.0)) {
             ++faces_left_out_;
             continue;
         }
-        const std::int32_t face = mesh_.boundary_faces[b];
+        const std::int32_t face = mesh_face(mesh_, b);
         const std::int32_t cell = mesh_.face_cells[face][0];
         std::vector<Vector<Dim>> corners;
         for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
@@ -94,8 +94,8 @@ void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<cons
 template <int Dim>
 std::vector<Vector<Dim>> ContactDriver<Dim>::surface_displacement(std::span<const Vector<Dim>> q,
                                                                   const BoundaryLoad<Dim>& load, double time) {
-    std::vector<Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
-    ccg_.boundary_displacement(q, load, boundary);
+    IdVector<BoundaryFace, Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
+    ccg_.boundary_displacement(q, load, boundary.values());
     std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
     for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) displacement[i] = boundary[boundary_of_surface_[i]];
     obstacles_.displace(time, std::span(displacement).subspan(boundary_of_surface_.size()));
@@ -235,11 +235,12 @@ ContactField ContactDriver<Dim>::field() const {
     ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
     if (!contact_->result().active_pairs().empty())
         for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i)
-            field.pressure[boundary_of_listed_[i]] =
-                contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_.boundary_faces[boundary_of_listed_[i]]];
-    const auto lower_gap = [&](std::int32_t face, double gap) {
+            field.pressure[number_of(boundary_of_listed_[i])] =
+                contact_->result().mean_normal_force()[i] / mesh_.face_measure[mesh_face(mesh_, boundary_of_listed_[i])];
+    const auto lower_gap = [&](BoundaryFace face, double gap) {
         if (face == no_face) return;
-        field.gap[face] = std::min(field.gap[face], gap);
+        double& smallest = field.gap[number_of(face)];
+        smallest = std::min(smallest, gap);
     };
     visit_contacts([&](const contact::ContactPair<Dim>& pair, double gap) {
         lower_gap(boundary_face(pair.face_1), gap);

@@ -98,7 +98,7 @@ private:
     /// Calls `visit(pair, gap)` for each admitted pair that shares area, as of the last `evaluate`.
     template <class Visit>
     void visit_contacts(const Visit& visit) const;
-    [[nodiscard]] std::int32_t boundary_face(std::int32_t surface_face) const {
+    [[nodiscard]] BoundaryFace boundary_face(std::int32_t surface_face) const {
         return surface_.view().is_rigid(surface_face) ? no_face : boundary_of_surface_[surface_face];
     }
     [[nodiscard]] std::size_t obstacle_of(std::int32_t surface_face) const {
@@ -112,13 +112,13 @@ private:
     SolidTimes& times_;
     Obstacles<Dim> obstacles_;
     contact::Surface<Dim> surface_;                  // deformable faces, then those of the obstacles
-    std::vector<std::int32_t> boundary_of_surface_;  // boundary face of each deformable surface face
+    std::vector<BoundaryFace> boundary_of_surface_;  // boundary face of each deformable surface face
     std::int64_t faces_left_out_ = 0;
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
     bool has_stepped_ = false;
     Region<Dim> region_;                            // of the deformable listed faces
-    std::vector<std::int32_t> boundary_of_listed_;  // their boundary faces; they come first in the list
+    std::vector<BoundaryFace> boundary_of_listed_;  // their boundary faces; they come first in the list
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
         y_1_;                                 // path of the listed faces; between steps _0 is where the last one ended
     std::vector<std::int32_t> active_pairs_;  // of the last step

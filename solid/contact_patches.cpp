@@ -36,7 +36,7 @@ private:
     std::vector<std::int32_t> cells_of_faces() const {
         std::vector<std::int32_t> cells;
         for (const auto& [face_1, face_2] : touching_)
-            for (const std::int32_t face : {face_1, face_2}) {
+            for (const BoundaryFace face : {face_1, face_2}) {
                 if (face == no_face) continue;
                 const auto of_face = ccg_.cells_of(face);
                 cells.insert(cells.end(), of_face.begin(), of_face.end());
@@ -48,9 +48,9 @@ private:
     std::int32_t position_of(std::int32_t cell) const {
         return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
     }
-    std::int32_t position(std::int32_t face) const { return position_of(ccg_.cells_of(face).front()); }
+    std::int32_t position(BoundaryFace face) const { return position_of(ccg_.cells_of(face).front()); }
 
-    void join_cells_of(std::int32_t face) {
+    void join_cells_of(BoundaryFace face) {
         if (face == no_face) return;
         for (const std::int32_t cell : ccg_.cells_of(face)) sets_.join(position(face), position_of(cell));
     }

@@ -62,7 +62,7 @@ void LocalLevels<Dim>::set_regions(std::int32_t n_levels, std::span<const std::i
 
 template <int Dim>
 void LocalLevels<Dim>::set_surface_cells(const mesh::Mesh<Dim>& mesh) {
-    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
+    for (const BoundaryFace b : ccg_.boundary_faces())
         surface_cells_.insert(surface_cells_.end(), ccg_.cells_of(b).begin(), ccg_.cells_of(b).end());
     for (const std::int32_t face : mesh.boundary_faces) surface_cells_.push_back(mesh.face_cells[face][0]);
     sort_unique(surface_cells_);

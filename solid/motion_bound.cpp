@@ -22,14 +22,14 @@ double spectral_norm(const Matrix<Dim>& m) {
 
 template <int Dim>
 MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), cells_(arrays.boundary_cells) {
-    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(b));
+    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(BoundaryFace{b}));
     sort_unique(cells_);
     const auto position = [&](std::int32_t cell) {
         return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
     };
     const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
     for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
-        own_.push_back(position(arrays.cell_of(b)));
+        own_.push_back(position(arrays.cell_of(BoundaryFace{b})));
         kept_.push_back(spectral_norm<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b]));
     }
     for (const std::int32_t cell : boundary.cells) positions_.push_back(position(cell));
@@ -43,7 +43,8 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
 }
 
 template <int Dim>
-double MotionBound<Dim>::of_face(std::int32_t b) const {
+double MotionBound<Dim>::of_face(BoundaryFace face) const {
+    const std::int32_t b = number_of(face);
     const Lanes<Dim> own = load_packed<Dim>(moved_, own_[b]);
     Lanes<Dim> squares;  // by direction
     for (std::int32_t i = arrays_.boundary.offsets[b]; i < arrays_.boundary.offsets[b + 1]; ++i) {
@@ -60,9 +61,9 @@ double MotionBound<Dim>::operator()(std::span<const Vector<Dim>> u_from, const B
         store(load_packed<Dim>(u_to[cells_[i]]) - load_packed<Dim>(u_from[cells_[i]]), moved_, i);
     });
     return largest(arrays_.n_boundary(), [&](std::ptrdiff_t i) {
-        const auto b = static_cast<std::int32_t>(i);
+        const auto b = static_cast<BoundaryFace>(i);
         if (load_to.displacement.empty()) return of_face(b);
-        return of_face(b) + (load_to.displacement[b] - load_from.displacement[b]).norm();
+        return of_face(b) + (load_to.displacement[i] - load_from.displacement[i]).norm();
     });
 }
 

@@ -31,7 +31,7 @@ public:
     [[nodiscard]] double amplification() const { return amplification_; }
 
 private:
-    [[nodiscard]] double of_face(std::int32_t b) const;
+    [[nodiscard]] double of_face(BoundaryFace face) const;
 
     const CcgArrays<Dim>& arrays_;
     std::vector<std::int32_t> cells_;      // all that a boundary face depends on, and those of the faces, increasing

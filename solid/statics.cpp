@@ -150,9 +150,9 @@ public:
     /// Brings the report to the state reached.
     void update_report() {
         const std::vector<double> reached = q();
-        std::vector<std::int32_t> faces;
+        std::vector<BoundaryFace> faces;
         for (const TouchingPair<Dim>& pair : solid_.touching_pairs(reached, nearly_closed * smallest_depth(solid_.mesh())))
-            for (const std::int32_t face : {pair.face_1, pair.face_2})
+            for (const BoundaryFace face : {pair.face_1, pair.face_2})
                 if (face != no_face) faces.push_back(face);
         sort_unique(faces);
         solid_.force(reached, force_);

@@ -8,16 +8,16 @@ namespace abut::solid {
 namespace {
 
 /// visit(i, row, weight) is called for every entry by for_each_entry(visit), rows increasing; i in [0, n).
-template <class Weight, class ForEachEntry>
-Occurrences<Weight> occurrences(std::size_t n, const ForEachEntry& for_each_entry) {
-    Occurrences<Weight> found;
+template <class Row, class Weight, class ForEachEntry>
+Occurrences<Row, Weight> occurrences(std::size_t n, const ForEachEntry& for_each_entry) {
+    Occurrences<Row, Weight> found;
     found.offsets.assign(n + 1, 0);
-    for_each_entry([&](std::int32_t i, std::int32_t, const Weight&) { ++found.offsets[i + 1]; });
+    for_each_entry([&](std::int32_t i, Row, const Weight&) { ++found.offsets[i + 1]; });
     std::partial_sum(found.offsets.begin(), found.offsets.end(), found.offsets.begin());
     found.rows.resize(static_cast<std::size_t>(found.offsets.back()));
     found.weights.resize(found.rows.size());
     std::vector<std::int32_t> next(found.offsets.begin(), found.offsets.end() - 1);
-    for_each_entry([&](std::int32_t i, std::int32_t row, const Weight& weight) {
+    for_each_entry([&](std::int32_t i, Row row, const Weight& weight) {
         found.rows[next[i]] = row;
         found.weights[next[i]++] = weight;
     });
@@ -46,13 +46,13 @@ void CcgArrays<Dim>::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Mate
     const auto n = static_cast<std::size_t>(mesh.n_faces());
     face_cells = mesh.face_cells;
     stencils.resize(n);
-    boundary_index.assign(n, -1);
+    boundary_index.assign(n, no_face);
     std::vector<std::int32_t> interior;
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f) {
         FaceGeometry<Dim>& face = faces.emplace_back();
         face.area_vector = to_array<Dim>(mesh.face_measure[f] * mesh.face_normal[f]);
         if (mesh.is_boundary(f)) {
-            boundary_index[f] = static_cast<std::int32_t>(boundary_faces.size());
+            boundary_index[f] = static_cast<BoundaryFace>(boundary_faces.size());
             boundary_faces.push_back(f);
             face_cells[f][1] = face_cells[f][0];
             stencils[f].cells.fill(face_cells[f][0]);
@@ -89,9 +89,9 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
             lever_arms.push_back(to_array<Dim>(mesh.face_centroid[f] - mesh.cell_centroid[c]));
         }
     }
-    of_cell = occurrences<double>(cells.size(), [&](const auto& visit) {
+    of_cell = occurrences<std::int32_t, double>(cells.size(), [&](const auto& visit) {
         for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
-            if (boundary_index[f] < 0)
+            if (boundary_index[f] == no_face)
                 for (int j = 0; j <= Dim; ++j) visit(stencils[f].cells[j], f, stencils[f].weights[j]);
     });
 }
@@ -106,10 +106,10 @@ void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const M
     boundary_cell_position.assign(cells.size(), -1);
     for (std::size_t i = 0; i < boundary_cells.size(); ++i)
         boundary_cell_position[boundary_cells[i]] = static_cast<std::int32_t>(i);
-    of_boundary_cell = occurrences<LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
+    of_boundary_cell = occurrences<BoundaryFace, LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
         for (std::int32_t b = 0; b < boundary.size(); ++b)
             for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-                visit(boundary_cell_position[boundary.cells[i]], b,
+                visit(boundary_cell_position[boundary.cells[i]], BoundaryFace{b},
                       load_packed<Dim>(Matrix<Dim>(boundary.weights[i].transpose())));
     });
 }

@@ -34,10 +34,10 @@ struct CellGeometry {
 
 /// For each index of a range: the rows in which it occurs, increasing, and its weights there. The transpose of a sparse
 /// matrix.
-template <class Weight>
+template <class Row, class Weight>
 struct Occurrences {
     std::vector<std::int32_t> offsets;
-    std::vector<std::int32_t> rows;
+    std::vector<Row> rows;
     std::vector<Weight> weights;
 };
 
@@ -51,7 +51,9 @@ struct CcgArrays {
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
     [[nodiscard]] std::int32_t n_boundary() const { return boundary.size(); }
     /// The only cell of a boundary face.
-    [[nodiscard]] std::int32_t cell_of(std::int32_t b) const { return face_cells[boundary_faces[b]][0]; }
+    [[nodiscard]] std::int32_t cell_of(BoundaryFace b) const { return face_cells[face_of(b)][0]; }
+    /// Its index among all faces.
+    [[nodiscard]] std::int32_t face_of(BoundaryFace b) const { return boundary_faces[static_cast<std::size_t>(b)]; }
     [[nodiscard]] std::span<const HalfFace> half_faces_of(std::int32_t c) const {
         return {half_faces.data() + half_face_offsets[c],
                 static_cast<std::size_t>(half_face_offsets[c + 1] - half_face_offsets[c])};
@@ -67,15 +69,16 @@ struct CcgArrays {
     std::vector<std::int32_t> half_face_offsets;  // (n_cells + 1)
     std::vector<HalfFace> half_faces;
     std::vector<std::array<double, Dim>> lever_arms;  // x_f - x_c, by half-face
-    Occurrences<double> of_cell;                      // interior stencils that use a cell
+    Occurrences<std::int32_t, double> of_cell;        // interior stencils that use a cell
     // Boundary faces.
     std::vector<std::int32_t> boundary_faces;
-    std::vector<std::int32_t> boundary_index;  // of a face, -1 inside
+    std::vector<BoundaryFace> boundary_index;  // of a face; none inside
     BoundaryReconstruction<Dim> boundary;
     std::vector<LaneTensor<Dim>> boundary_weights;     // as boundary.weights
     std::vector<std::int32_t> boundary_cells;          // cells that some boundary face depends on
     std::vector<std::int32_t> boundary_cell_position;  // of a cell, -1 elsewhere
-    Occurrences<LaneTensor<Dim>> of_boundary_cell;     // rows of `boundary` by position in boundary_cells, transposed
+    Occurrences<BoundaryFace, LaneTensor<Dim>>
+        of_boundary_cell;  // rows of `boundary` by position in boundary_cells, transposed
 
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);

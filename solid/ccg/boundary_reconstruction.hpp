@@ -10,7 +10,7 @@
 
 namespace abut::solid {
 
-/// û = R u + B u_D + L t on the boundary faces, in the order of Mesh::boundary_faces. docs/method.md, Space.
+/// û = R u + B u_D + L t on the boundary faces. docs/method.md, Space.
 template <int Dim>
 struct BoundaryReconstruction {
     std::vector<std::int32_t> offsets{0};  ///< (n_boundary + 1)
@@ -18,7 +18,7 @@ struct BoundaryReconstruction {
     std::vector<Matrix<Dim>> weights;            ///< R; they sum to the identity where nothing is prescribed
     std::vector<Matrix<Dim>> deficit;            ///< identity less the sum of a row's weights (n_boundary)
     std::vector<std::int32_t> load_offsets{0};   ///< (n_boundary + 1)
-    std::vector<std::int32_t> load_faces;        ///< boundary faces whose u_D or t enters
+    std::vector<BoundaryFace> load_faces;        ///< boundary faces whose u_D or t enters
     std::vector<Matrix<Dim>> from_displacement;  ///< B
     std::vector<Matrix<Dim>> from_traction;      ///< L [m/Pa]
     StencilReport report;                        ///< of the affine extrapolations that were needed

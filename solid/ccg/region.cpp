@@ -30,11 +30,11 @@ void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     region.input_cells = region.displacement_gradient_cells;
     for (const std::int32_t f : faces_of(region.displacement_gradient_cells)) {
         append_face_cells(region.input_cells, f);
-        if (const std::int32_t b = arrays.boundary_index[f]; b >= 0) {
+        if (const BoundaryFace b = arrays.boundary_index[f]; b != no_face) {
             const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
             region.reconstructed_boundary.push_back(b);
-            region.input_cells.insert(region.input_cells.end(), boundary.cells.begin() + boundary.offsets[b],
-                                      boundary.cells.begin() + boundary.offsets[b + 1]);
+            region.input_cells.insert(region.input_cells.end(), boundary.cells.begin() + boundary.offsets[number_of(b)],
+                                      boundary.cells.begin() + boundary.offsets[number_of(b) + 1]);
         } else {
             region.reconstructed.push_back(f);
             region.input_cells.insert(region.input_cells.end(), arrays.stencils[f].cells.begin(),
@@ -46,31 +46,31 @@ void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
 
 /// All boundary faces that share an energy term with b, itself included, increasing.
 template <int Dim>
-std::vector<std::int32_t> coupled_faces(const CcgArrays<Dim>& arrays, std::int32_t b) {
-    std::vector<std::int32_t> coupled;
+std::vector<BoundaryFace> coupled_faces(const CcgArrays<Dim>& arrays, BoundaryFace b) {
+    std::vector<BoundaryFace> coupled;
     for (const HalfFace& half_face : arrays.half_faces_of(arrays.cell_of(b)))
         for (const std::int32_t c : arrays.face_cells[half_face.face])
             for (const HalfFace& other : arrays.half_faces_of(c))
-                if (const std::int32_t g = arrays.boundary_index[other.face]; g >= 0) coupled.push_back(g);
+                if (const BoundaryFace g = arrays.boundary_index[other.face]; g != no_face) coupled.push_back(g);
     sort_unique(coupled);
     return coupled;
 }
 
 template <int Dim>
-Vector<Dim> boundary_area_vector(const CcgArrays<Dim>& arrays, std::int32_t b) {
-    return vector<Dim>(arrays.faces[arrays.boundary_faces[b]].area_vector);
+Vector<Dim> boundary_area_vector(const CcgArrays<Dim>& arrays, BoundaryFace b) {
+    return vector<Dim>(arrays.faces[arrays.face_of(b)].area_vector);
 }
 
 /// dI_c(x_f)/dw_b for boundary face b of cell c: this number times the identity; f is the face of the cell's half-face i.
 template <int Dim>
-double trace_answer(const CcgArrays<Dim>& arrays, std::int32_t half_face, std::int32_t b) {
+double trace_answer(const CcgArrays<Dim>& arrays, std::int32_t half_face, BoundaryFace b) {
     return arrays.cells[arrays.cell_of(b)].inverse_measure *
            boundary_area_vector(arrays, b).dot(vector<Dim>(arrays.lever_arms[half_face]));
 }
 
 /// The elastic energy couples faces of one cell; the jump over an interior face those of its two cells.
 template <int Dim>
-Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, std::int32_t b, std::int32_t other) {
+Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, BoundaryFace b, BoundaryFace other) {
     const std::int32_t cell = arrays.cell_of(b);
     const bool same_cell = cell == arrays.cell_of(other);
     Matrix<Dim> block = Matrix<Dim>::Zero();
@@ -94,17 +94,17 @@ Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, std::int32_t b, std::in
 }  // namespace
 
 template <int Dim>
-Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> faces) {
+Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces) {
     Region<Dim> region;
     region.faces.assign(faces.begin(), faces.end());
-    for (const std::int32_t b : faces) region.stress_cells.push_back(arrays.cell_of(b));
+    for (const BoundaryFace b : faces) region.stress_cells.push_back(arrays.cell_of(b));
     complete(arrays, region);
     return region;
 }
 
 template <int Dim>
 Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> cells) {
-    const auto append_rows = [](std::vector<std::int32_t>& rows, const auto& occurrences, std::int32_t i) {
+    const auto append_rows = [](auto& rows, const auto& occurrences, std::int32_t i) {
         rows.insert(rows.end(), occurrences.rows.begin() + occurrences.offsets[i],
                     occurrences.rows.begin() + occurrences.offsets[i + 1]);
     };
@@ -120,16 +120,16 @@ Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::i
     sort_unique(region.faces);
     for (const std::int32_t f : region.energy_gradient_faces)
         region.stress_cells.insert(region.stress_cells.end(), arrays.face_cells[f].begin(), arrays.face_cells[f].end());
-    for (const std::int32_t b : region.faces) region.stress_cells.push_back(arrays.cell_of(b));
+    for (const BoundaryFace b : region.faces) region.stress_cells.push_back(arrays.cell_of(b));
     complete(arrays, region);
     return region;
 }
 
 template <int Dim>
-contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> faces) {
+contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces) {
     contact::FaceCoupling<Dim> coupling;
-    for (const std::int32_t b : faces) {
-        for (const std::int32_t other : coupled_faces(arrays, b)) {
+    for (const BoundaryFace b : faces) {
+        for (const BoundaryFace other : coupled_faces(arrays, b)) {
             const auto at = std::lower_bound(faces.begin(), faces.end(), other);
             if (at == faces.end() || *at != other) continue;
             coupling.columns.push_back(static_cast<std::int32_t>(at - faces.begin()));
@@ -140,11 +140,11 @@ contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span
     return coupling;
 }
 
-template Region<2> region_of_faces(const CcgArrays<2>&, std::span<const std::int32_t>);
-template Region<3> region_of_faces(const CcgArrays<3>&, std::span<const std::int32_t>);
+template Region<2> region_of_faces(const CcgArrays<2>&, std::span<const BoundaryFace>);
+template Region<3> region_of_faces(const CcgArrays<3>&, std::span<const BoundaryFace>);
 template Region<2> region_of_cells(const CcgArrays<2>&, std::span<const std::int32_t>);
 template Region<3> region_of_cells(const CcgArrays<3>&, std::span<const std::int32_t>);
-template contact::FaceCoupling<2> face_coupling(const CcgArrays<2>&, std::span<const std::int32_t>);
-template contact::FaceCoupling<3> face_coupling(const CcgArrays<3>&, std::span<const std::int32_t>);
+template contact::FaceCoupling<2> face_coupling(const CcgArrays<2>&, std::span<const BoundaryFace>);
+template contact::FaceCoupling<3> face_coupling(const CcgArrays<3>&, std::span<const BoundaryFace>);
 
 }  // namespace abut::solid

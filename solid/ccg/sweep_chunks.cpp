@@ -31,7 +31,7 @@ void CcgSweeps<Dim>::set_chunks() {
         const auto face = static_cast<std::int32_t>(std::partition_point(a.face_cells.begin(), a.face_cells.end(),
                                                                          [&](const auto& side) { return side[0] < cell; }) -
                                                     a.face_cells.begin());
-        chunks_.push_back({cell, face, position(a.boundary_faces, face), position(a.boundary_cells, cell)});
+        chunks_.push_back({cell, face, BoundaryFace{position(a.boundary_faces, face)}, position(a.boundary_cells, cell)});
     }
 
     std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
@@ -70,7 +70,7 @@ void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
         return;
     }
     for (const Chunk& chunk : chunks_) {
-        const auto position = [](const std::vector<std::int32_t>& list, std::int32_t first) {
+        const auto position = [](const auto& list, auto first) {
             return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
         };
         region.chunks.push_back({.face = position(region.faces, chunk.boundary),

@@ -10,8 +10,8 @@ namespace {
 /// Elements of a region that are worth a task of their own.
 inline constexpr std::ptrdiff_t region_grain = 256;
 
-template <class Body>
-void for_all(const std::vector<std::int32_t>& list, const Body& body) {
+template <class Id, class Body>
+void for_all(const std::vector<Id>& list, const Body& body) {
     parallel_each(
         static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
 }
@@ -45,9 +45,10 @@ template <int Dim>
 }
 
 template <int Dim>
-Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
+Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
     const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
-    const Lanes<Dim> origin = displacement(arrays_.cell_of(static_cast<std::int32_t>(b)));
+    const Lanes<Dim> origin = displacement(arrays_.cell_of(face));
+    const std::int32_t b = number_of(face);
     Lanes<Dim> sum;
     for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
         sum += arrays_.boundary_weights[i] * (displacement(boundary.cells[i]) - origin);
@@ -102,8 +103,8 @@ template <int Dim>
 }
 
 template <int Dim>
-Lanes<Dim> CcgSweeps<Dim>::boundary_gradient(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
-    const std::int32_t f = arrays_.boundary_faces[b];
+Lanes<Dim> CcgSweeps<Dim>::boundary_gradient(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
+    const std::int32_t f = arrays_.face_of(face), b = number_of(face);
     const Lanes<Dim> gradient = load_tensor<Dim>(s_, arrays_.face_cells[f][0]).times(arrays_.faces[f].area_vector) +
                                 load_packed<Dim>(pair_gradient_, b);
     return boundary_load.traction.empty() ? gradient : gradient - load_packed<Dim>(boundary_load.traction[b]);
@@ -122,7 +123,7 @@ Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t position) const
     const auto& [offsets, rows, weights] = arrays_.of_boundary_cell;
     Lanes<Dim> sum;
     for (std::int32_t i = offsets[position]; i < offsets[position + 1]; ++i)
-        sum += weights[i] * load_packed<Dim>(y_, arrays_.boundary_faces[rows[i]]);
+        sum += weights[i] * load_packed<Dim>(y_, arrays_.face_of(rows[i]));
     return sum;
 }
 
@@ -159,8 +160,8 @@ void CcgSweeps<Dim>::load_displacement(std::span<const Vector<Dim>> u) {
 template <int Dim>
 void CcgSweeps<Dim>::reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
     for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(reconstructed(f), relative_, f);
-    for (std::int32_t b = chunks_[k].boundary; b < chunks_[k + 1].boundary; ++b)
-        store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+    for (const BoundaryFace b : boundary_of_chunk(k))
+        store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b));
 }
 
 template <int Dim>
@@ -176,8 +177,7 @@ void CcgSweeps<Dim>::stresses_of_chunk(std::int32_t k) {
 template <int Dim>
 void CcgSweeps<Dim>::face_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
     for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(interior_gradient(f), y_, f);
-    for (std::int32_t b = chunks_[k].boundary; b < chunks_[k + 1].boundary; ++b)
-        store(boundary_gradient(b, boundary_load), y_, arrays_.boundary_faces[b]);
+    for (const BoundaryFace b : boundary_of_chunk(k)) store(boundary_gradient(b, boundary_load), y_, arrays_.face_of(b));
 }
 
 template <int Dim>
@@ -196,15 +196,16 @@ public:
     PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
         : sweeps_(sweeps), corrections_(corrections) {
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
-            store(load_packed<Dim>(corrections.displacement[i]), sweeps.correction_, corrections.faces[i]);
+            const std::int32_t b = number_of(corrections.faces[i]);
+            store(load_packed<Dim>(corrections.displacement[i]), sweeps.correction_, b);
             if (!corrections.energy_gradient.empty())
-                store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, corrections.faces[i]);
+                store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, b);
         }
     }
     ~PlacedCorrections() {
-        for (const std::int32_t b : corrections_.faces) {
-            store(Lanes<Dim>{}, sweeps_.correction_, b);
-            store(Lanes<Dim>{}, sweeps_.pair_gradient_, b);
+        for (const BoundaryFace face : corrections_.faces) {
+            store(Lanes<Dim>{}, sweeps_.correction_, number_of(face));
+            store(Lanes<Dim>{}, sweeps_.pair_gradient_, number_of(face));
         }
     }
     PlacedCorrections(const PlacedCorrections&) = delete;
@@ -267,7 +268,8 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
                                            std::span<Vector<Dim>> displacement) {
     load_displacement(u);
     parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
-        displacement[b] = u[arrays_.cell_of(static_cast<std::int32_t>(b))] + unload<Dim>(reconstructed_boundary(b, load));
+        const auto face = static_cast<BoundaryFace>(b);
+        displacement[b] = u[arrays_.cell_of(face)] + unload<Dim>(reconstructed_boundary(face, load));
     });
 }
 
@@ -279,7 +281,7 @@ void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<con
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
     for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
     for_all(region.reconstructed_boundary,
-            [&](std::int32_t b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]); });
+            [&](BoundaryFace b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b)); });
     for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_displacement_gradient(c); });
     for_all(region.stress_cells, [&](std::int32_t c) { set_stress(c); });
 }
@@ -290,7 +292,7 @@ void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const V
                                     std::span<Vector<Dim>> gradient) {
     evaluate_to_stress(region, u, boundary_load);
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
-        displacement[i] = face_displacement(arrays_.boundary_faces[region.faces[i]]);
+        displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
         gradient[i] = unload<Dim>(boundary_gradient(region.faces[i], boundary_load));
     }
 }
@@ -310,15 +312,15 @@ template <int Dim>
 void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
                               std::span<Vector<Dim>> result) {
     using Offsets = typename Region<Dim>::Offsets;
-    const auto each = [&](const std::vector<std::int32_t>& list, std::int32_t Offsets::*of, const auto& body) {
+    const auto each = [&](const auto& list, std::int32_t Offsets::*of, const auto& body) {
         for (std::int32_t i = region.chunks[k].*of; i < region.chunks[k + 1].*of; ++i) body(list[i]);
     };
     switch (stage) {
         case reconstruction:
             each(region.reconstructed, &Offsets::reconstructed,
                  [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
-            return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](std::int32_t b) {
-                store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+            return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](BoundaryFace b) {
+                store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b));
             });
         case displacement_gradients:
             return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell,
@@ -329,7 +331,7 @@ void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t
             each(region.energy_gradient_faces, &Offsets::energy_gradient_face,
                  [&](std::int32_t f) { store(interior_gradient(f), y_, f); });
             return each(region.faces, &Offsets::face,
-                        [&](std::int32_t b) { store(boundary_gradient(b, boundary_load), y_, arrays_.boundary_faces[b]); });
+                        [&](BoundaryFace b) { store(boundary_gradient(b, boundary_load), y_, arrays_.face_of(b)); });
         default:
             for (std::int32_t i = region.chunks[k].cell; i < region.chunks[k + 1].cell; ++i) {
                 const std::int32_t c = region.cells[i];

@@ -54,23 +54,28 @@ private:
     class PlacedCorrections;
     enum Stage { reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
     struct Chunk {  // where it begins among the cells, faces, boundary faces and boundary_cells
-        std::int32_t cell, face, boundary, boundary_cell;
+        std::int32_t cell, face;
+        BoundaryFace boundary;
+        std::int32_t boundary_cell;
     };
 
     // One element
     [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load_packed<Dim>(u_, c); }
     [[nodiscard]] Lanes<Dim> reconstructed(std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> reconstructed_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] Lanes<Dim> reconstructed_boundary(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
     void set_displacement_gradient(std::ptrdiff_t c);
     void set_stress(std::ptrdiff_t c);
     [[nodiscard]] Lanes<Dim> interior_gradient(std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> boundary_gradient(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] Lanes<Dim> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
 
     // One chunk
     void set_chunks();
+    [[nodiscard]] auto boundary_of_chunk(std::int32_t k) const {
+        return id_range(chunks_[k].boundary, chunks_[k + 1].boundary);
+    }
     void load_displacement(std::span<const Vector<Dim>> u);
     void reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
     void displacement_gradients_of_chunk(std::int32_t k);

@@ -9,11 +9,13 @@ using namespace abut;
 using namespace abut::test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using solid::BoundaryFace;
 using solid::FreeFaceRule;
 
 namespace {
 
-inline constexpr std::array neumann_choices{FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent};
+inline constexpr std::array neumann_choices{FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate,
+                                            FreeFaceRule::adjacent};
 
 const solid::Material material{.young = 2.0, .poisson = 0.3, .density = 1.5};
 
@@ -54,9 +56,9 @@ struct Operators {
           ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann)),
           q(random_state(static_cast<std::size_t>(mesh.n_cells()) * Dim, 3)) {}
 
-    std::vector<std::int32_t> some_faces(int step) const {
-        std::vector<std::int32_t> faces;
-        for (std::int32_t b = 1; b < ccg.n_boundary(); b += step) faces.push_back(b);
+    std::vector<BoundaryFace> some_faces(int step) const {
+        std::vector<BoundaryFace> faces;
+        for (std::int32_t b = 1; b < ccg.n_boundary(); b += step) faces.push_back(BoundaryFace{b});
         return faces;
     }
 };
@@ -234,21 +236,21 @@ TEMPLATE_TEST_CASE_SIG(
     if constexpr (Dim == 2)
         if (fan) mesh = mesh::fan_disc({0.0, 0.0}, 1.0, 9);
     solid::Ccg<Dim> ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann));
-    std::vector<std::int32_t> faces;
-    for (std::int32_t b = 0; b < ccg.n_boundary(); ++b) faces.push_back(b);
+    const auto all = ccg.boundary_faces();
+    const std::vector<BoundaryFace> faces(all.begin(), all.end());
     const auto coupling = ccg.coupling(faces);
     const std::vector<Vector<Dim>> zero(static_cast<std::size_t>(mesh.n_cells()), Vector<Dim>::Zero());
     std::vector<Vector<Dim>> force(zero.size());
     double worst = 0.0, size = 0.0;
-    for (const std::int32_t g : faces)
+    for (const BoundaryFace g : faces)
         for (int j = 0; j < Dim; ++j) {
-            const std::vector<std::int32_t> one{g};
+            const std::vector<BoundaryFace> one{g};
             const std::vector<Vector<Dim>> unit{Vector<Dim>::Unit(j)};
             ccg.gradient(zero, {}, {one, unit, {}}, force);
-            for (const std::int32_t f : faces) {
+            for (const BoundaryFace f : faces) {
                 Vector<Dim> expected = Vector<Dim>::Zero();
-                for (std::int32_t i = coupling.offsets[f]; i < coupling.offsets[f + 1]; ++i)
-                    if (coupling.columns[i] == g) expected = coupling.blocks[i].col(j);
+                for (std::int32_t i = coupling.offsets[number_of(f)]; i < coupling.offsets[number_of(f) + 1]; ++i)
+                    if (coupling.columns[i] == number_of(g)) expected = coupling.blocks[i].col(j);
                 raise(worst, (ccg.boundary_gradient(f) - expected).norm());
                 raise(size, expected.norm());
             }
@@ -357,7 +359,7 @@ TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 
     for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) {
         const std::int32_t f = mesh.boundary_faces[b], c = mesh.face_cells[f][0];
         const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];
-        CHECK(solid.ccg().normal_stiffness(static_cast<std::int32_t>(b)) == Approx(stiffness).epsilon(1e-13));
+        CHECK(solid.ccg().normal_stiffness(static_cast<BoundaryFace>(b)) == Approx(stiffness).epsilon(1e-13));
         CHECK(surface.stiffness[b] == Approx(stiffness).epsilon(1e-13));
         CHECK(surface.depth[b] ==
               Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));

@@ -56,7 +56,9 @@ TEMPLATE_TEST_CASE_SIG(
         if (contact.result().active_pairs().empty()) continue;
         // Nothing is prescribed: face i of the surface is boundary face i.
         const auto faces = contact.faces();
-        const auto region = ccg.region_of_faces(faces);
+        std::vector<solid::BoundaryFace> boundary;
+        for (const std::int32_t face : faces) boundary.push_back(solid::BoundaryFace{face});
+        const auto region = ccg.region_of_faces(boundary);
         std::vector<Vector<Dim>> u_0(faces.size()), u_1(u_0), y_0(u_0), y_1(u_0);
         ccg.evaluate_faces(region, vectors<Dim>(q_0), {}, u_0, y_0);
         ccg.evaluate_faces(region, as_vectors<Dim>(scene.memm.q()), {}, u_1, y_1);
