@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -19,6 +20,18 @@ concept IndexId = std::is_enum_v<Id> && std::same_as<std::underlying_type_t<Id>,
 template <IndexId Id>
 [[nodiscard]] constexpr std::int32_t number_of(Id id) {
     return static_cast<std::int32_t>(id);
+}
+
+/// The ids from `begin` to before `end`, in order.
+template <IndexId Id>
+[[nodiscard]] constexpr auto id_range(Id begin, Id end) {
+    return std::views::iota(number_of(begin), number_of(end)) | std::views::transform([](std::int32_t i) { return Id{i}; });
+}
+
+/// All ids of a numbering: 0, 1, ..., n - 1.
+template <IndexId Id>
+[[nodiscard]] constexpr auto all_ids(std::int32_t n) {
+    return id_range(Id{0}, Id{n});
 }
 
 /// One value per thing, owned by somebody else; only ids of its own kind index it.
@@ -47,7 +60,8 @@ template <IndexId Id, class T>
 class IdVector {
 public:
     IdVector() = default;
-    explicit IdVector(std::size_t n, const T& value = {}) : values_(n, value) {}
+    explicit IdVector(std::size_t n) : values_(n) {}
+    IdVector(std::size_t n, const T& value) : values_(n, value) {}
     explicit IdVector(std::vector<T> values) : values_(std::move(values)) {}
 
     [[nodiscard]] T& operator[](Id id) { return values_[static_cast<std::size_t>(id)]; }

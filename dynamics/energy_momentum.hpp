@@ -15,7 +15,7 @@ namespace abut::dynamics {
 /// The implicit energy-momentum scheme with the mean force as its discrete gradient. docs/integrators.md, Energy-momentum.
 ///
 ///     q^{n+1} = q^n + dt M^-1 (p^n + p^{n+1})/2
-///     p^{n+1} = p^n + dt mean of F over the straight way from q^n to q^{n+1}
+///     p^{n+1} = p^n + dt mean of F over the straight path from q^n to q^{n+1}
 ///
 /// conserves the energy H itself, exactly if the mean is exact, and is stable for any dt; Newton's method with a sparse LU
 /// decomposition in every iteration makes it a scheme for small systems. It has no half-step momenta: `p_before` and
@@ -83,7 +83,7 @@ private:
         return largest(change_) / (size > 0.0 ? size : 1.0);
     }
 
-    /// dt^2/2 times the derivative of the mean force at the end of the way: - integral of tau K(q_0 + tau (q_1 - q_0)).
+    /// dt^2/2 times the derivative of the mean force at the end of the path: - integral of tau K(q_0 + tau (q_1 - q_0)).
     void factorise(std::span<const double> q_0, std::span<const double> q_1) {
         const geometry::Quadrature rule = geometry::gauss_legendre(3);
         stiffness_.clear();

@@ -16,7 +16,7 @@ enum class StepChange {
     /// local steps, only for slow and smooth changes: alternating or irregular steps solve another equation and feed the
     /// parasitic mode, which then grows exponentially at any size of step, and H~ does not notice.
     keep,
-    restart,  ///< they are made anew from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
+    restart,  ///< they are rebuilt from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
 };
 
 namespace detail {
@@ -61,7 +61,7 @@ public:
         step();
     }
 
-    /// Turns the motion round: from here on the same way is gone back. Time goes on.
+    /// Turns the motion round: from here on the same path is followed back. Time goes on.
     void reverse() {
         std::swap(p_before_, p_after_);
         for (auto* momenta : {&p_before_, &p_after_})

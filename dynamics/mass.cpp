@@ -86,8 +86,8 @@ double mass_product(std::span<const double> a, const InverseMass& inverse_mass, 
 std::vector<MatrixEntry> mass_entries(std::span<const double> inverse_mass) {
     std::vector<MatrixEntry> entries;
     for (std::size_t i = 0; i < inverse_mass.size(); ++i) {
-        const auto place = static_cast<std::int32_t>(i);
-        entries.push_back({place, place, 1.0 / inverse_mass[i]});
+        const auto index = static_cast<std::int32_t>(i);
+        entries.push_back({index, index, 1.0 / inverse_mass[i]});
     }
     return entries;
 }

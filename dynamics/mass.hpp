@@ -7,7 +7,7 @@
 
 namespace abut::dynamics {
 
-/// An entry of a sparse matrix; entries of the same place add up.
+/// An entry of a sparse matrix; entries with the same row and column add up.
 struct MatrixEntry {
     std::int32_t row;
     std::int32_t column;
@@ -28,7 +28,7 @@ public:
     [[nodiscard]] std::size_t size() const;
     /// v = M^-1 p
     void apply(std::span<const double> p, std::span<double> v) const;
-    /// The entries of M, each place once.
+    /// The entries of M, each row and column once.
     [[nodiscard]] std::vector<MatrixEntry> mass() const;
 
 private:

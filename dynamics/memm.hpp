@@ -11,7 +11,7 @@ namespace abut::dynamics {
 /// The explicit pseudo-energy conserving scheme MEMM. docs/method.md, Time.
 ///
 ///     q^{n+1}   = q^n + dt M^-1 p^{n+1/2}
-///     p^{n+3/2} = p^{n-1/2} + 2 dt mean of F over the straight way from q^n to q^{n+1}
+///     p^{n+3/2} = p^{n-1/2} + 2 dt mean of F over the straight path from q^n to q^{n+1}
 ///
 /// conserves H~^n = 1/2 p^{n-1/2} . M^-1 p^{n+1/2} + V(q^n), less the work from outside, whatever dt. It is stable below the
 /// stable step only, and H~ alone does not tell: print `energy_excess` and `parasitic_momentum` beside it.

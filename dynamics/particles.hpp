@@ -28,7 +28,7 @@ struct LineSpring {
         const double x = acting(r[0]);
         return Vector<1>(x * (stiffness + quartic * x * x));
     }
-    /// Mean of the tension along the straight way; exact, cut where a one-sided spring begins or ends to act.
+    /// Mean of the tension along the straight path; exact, cut where a one-sided spring begins or ends to act.
     [[nodiscard]] Vector<1> mean_tension(const Vector<1>& r_0, const Vector<1>& r_1) const {
         const double a = acting(r_0[0]), b = acting(r_1[0]);
         const double whole = 0.5 * (a + b) * (stiffness + 0.5 * quartic * (a * a + b * b));
@@ -40,7 +40,7 @@ struct LineSpring {
     }
 
 private:
-    /// Whether the formula of the tension changes on the way.
+    /// Whether the formula of the tension changes along the path.
     [[nodiscard]] bool begins_or_ends(const Vector<1>& r_0, const Vector<1>& r_1) const {
         return one_sided && (r_0[0] < 0.0) != (r_1[0] < 0.0);
     }
@@ -89,7 +89,7 @@ public:
     static constexpr int dim = Law::dim;
     using V = Vector<dim>;
 
-    /// `load`: a constant force a degree of freedom [N]; empty: none. Throws BadInput if a bond has an end that
+    /// `load`: a constant force per degree of freedom [N]; empty: none. Throws BadInput if a bond has an end that
     /// is no particle, two ends that are the same, or if sizes disagree.
     Particles(Mass inverse_mass, std::vector<Bond<Law>> bonds, std::vector<double> load = {})
         : inverse_mass_(std::move(inverse_mass)), bonds_(std::move(bonds)), load_(std::move(load)) {
@@ -110,20 +110,21 @@ public:
     [[nodiscard]] const Mass& inverse_mass() const { return inverse_mass_; }
 
     void force(std::span<const double> q, std::span<double> force) {
-        evaluate(force, [&](const Bond<Law>& bond) { return bond.law.tension(way(bond, q)); });
+        evaluate(force, [&](const Bond<Law>& bond) { return bond.law.tension(separation(bond, q)); });
     }
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> force) {
-        evaluate(force, [&](const Bond<Law>& bond) { return bond.law.mean_tension(way(bond, q_0), way(bond, q_1)); });
+        evaluate(force,
+                 [&](const Bond<Law>& bond) { return bond.law.mean_tension(separation(bond, q_0), separation(bond, q_1)); });
     }
     [[nodiscard]] double potential(std::span<const double> q) const {
         double energy = 0.0;
-        for (const Bond<Law>& bond : bonds_) energy += bond.law.energy(way(bond, q));
+        for (const Bond<Law>& bond : bonds_) energy += bond.law.energy(separation(bond, q));
         for (std::size_t i = 0; i < load_.size(); ++i) energy -= load_[i] * q[i];
         return energy;
     }
     void append_stiffness(std::span<const double> q, double factor, std::vector<MatrixEntry>& entries) const {
         for (const Bond<Law>& bond : bonds_) {
-            const Matrix<dim> block = factor * bond.law.stiffness_at(way(bond, q));
+            const Matrix<dim> block = factor * bond.law.stiffness_at(separation(bond, q));
             for (const std::int32_t row : {bond.first, bond.second})
                 for (const std::int32_t column : {bond.first, bond.second}) {
                     if (row == Bond<Law>::fixed || column == Bond<Law>::fixed) continue;
@@ -175,7 +176,7 @@ private:
         }
         return r;
     }
-    [[nodiscard]] static V way(const Bond<Law>& bond, std::span<const double> q) {
+    [[nodiscard]] static V separation(const Bond<Law>& bond, std::span<const double> q) {
         return difference(bond, [&](std::size_t i) { return q[i]; }) + bond.offset;
     }
     /// A tension pulls the first particle towards the second.

@@ -9,15 +9,15 @@
 
 namespace abut::dynamics {
 
-/// How the mean of the force over the straight way of a step is taken.
+/// How the mean of the force over the straight path of a step is taken.
 enum class PathMean {
     system,   ///< the system's own mean, exact: what the scheme conserves is conserved to round-off
-    gauss_1,  ///< Gauss-Legendre: exact for forces that are polynomials of degree 1, 3, 5 along the way
+    gauss_1,  ///< Gauss-Legendre: exact for forces that are polynomials of degree 1, 3, 5 along the path
     gauss_2,
     gauss_3,
 };
 
-/// The mean of the force along straight ways.
+/// The mean of the force along straight paths.
 template <System S>
 class PathMeanForce {
 public:
@@ -25,7 +25,8 @@ public:
     PathMeanForce(S& system, PathMean mean) : system_(system), mean_(mean) {
         if (mean == PathMean::system && !PathMeanSystem<S>)
             throw BadInput(
-                "integrator: the system does not know the mean of its force along a way. Take PathMean::gauss_1, _2 or _3.");
+                "integrator: the system does not know the mean of its force along a path. Take PathMean::gauss_1, _2 or "
+                "_3.");
         if (mean != PathMean::system && FollowedSystem<S>)
             throw BadInput(
                 "integrator: the system must be led along every step. Take PathMean::system; contact has its own quadrature "

@@ -20,7 +20,7 @@ concept System = requires(S& system, std::span<const double> q, std::span<double
     { system.potential(q) } -> std::convertible_to<double>;        ///< V(q) [J]
 };
 
-/// A system that knows the mean of its force along the straight way from q_0 (at time t) to q_1 (at t + dt): exactly, or by
+/// A system that knows the mean of its force along the straight path from q_0 (at time t) to q_1 (at t + dt): exactly, or by
 /// any other rule with mean . (q_1 - q_0) = V(q_0) - V(q_1) that tends to F (a discrete gradient).
 template <class S>
 concept PathMeanSystem = System<S> &&

@@ -19,15 +19,15 @@ Matrix<Dim> projector(const DirichletCondition<Dim>& condition, const Vector<Dim
     return chosen;
 }
 
-/// Places in mesh.boundary_faces of the faces of a group.
+/// Boundary faces of a group.
 template <int Dim>
-std::vector<std::int32_t> boundary_places(const mesh::Mesh<Dim>& mesh, const std::string& group) {
-    std::vector<std::int32_t> places;
+std::vector<BoundaryFace> boundary_faces_of(const mesh::Mesh<Dim>& mesh, const std::string& group) {
+    std::vector<BoundaryFace> boundary;
     for (const std::int32_t face : mesh.group(group).faces) {
         const auto at = std::lower_bound(mesh.boundary_faces.begin(), mesh.boundary_faces.end(), face);
-        places.push_back(static_cast<std::int32_t>(at - mesh.boundary_faces.begin()));
+        boundary.push_back(static_cast<BoundaryFace>(at - mesh.boundary_faces.begin()));
     }
-    return places;
+    return boundary;
 }
 
 }  // namespace
@@ -38,22 +38,24 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
     sorted.prescribed.assign(mesh.boundary_faces.size(), Matrix<Dim>::Zero());
     for (const DirichletCondition<Dim>& condition : conditions.dirichlet) {
         auto& faces = sorted.dirichlet.emplace_back();
-        for (const std::int32_t b : boundary_places(mesh, condition.group)) {
-            const Matrix<Dim> added = projector(condition, mesh.face_normal[mesh.boundary_faces[b]]);
+        for (const BoundaryFace b : boundary_faces_of(mesh, condition.group)) {
+            const Matrix<Dim> added = projector(condition, mesh.face_normal[mesh_face(mesh, b)]);
             if (!(added * sorted.prescribed[b]).isZero(1e-12))
-                throw BadInput("boundary condition on '" + condition.group + "': face " +
-                               std::to_string(mesh.boundary_faces[b]) +
-                               " already has a prescribed displacement in that direction. Prescribe each direction once.");
+                throw BadInput(
+                    "boundary condition on '" + condition.group + "': face " + std::to_string(mesh_face(mesh, b)) +
+                        " already has a prescribed displacement in that direction. Prescribe each direction once.",
+                    {.face_1 = mesh_face(mesh, b)});
             sorted.prescribed[b] += added;
             faces.push_back({b, added});
         }
     }
     for (const TractionCondition<Dim>& condition : conditions.traction) {
-        sorted.traction.push_back(boundary_places(mesh, condition.group));
-        for (const std::int32_t b : sorted.traction.back())
+        sorted.traction.push_back(boundary_faces_of(mesh, condition.group));
+        for (const BoundaryFace b : sorted.traction.back())
             if (sorted.prescribed[b].isIdentity(1e-12))
                 throw BadInput("traction on '" + condition.group + "': the displacement of face " +
-                               std::to_string(mesh.boundary_faces[b]) + " is fully prescribed. Give one or the other.");
+                                   std::to_string(mesh_face(mesh, b)) + " is fully prescribed. Give one or the other.",
+                               {.face_1 = mesh_face(mesh, b)});
     }
     return sorted;
 }

@@ -7,17 +7,18 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_face.hpp"
 
 namespace abut::solid {
 
 /// What the displacement of a boundary face without a prescribed value is. docs/method.md, Space.
-enum class Neumann {
+enum class FreeFaceRule {
     local_equilibrium,  ///< sigma_c n = t in the cell: the face minimises the energy of its cell
     extrapolate,        ///< affine extrapolation from nearby cells: large parasitic energy in contact, for comparison
     adjacent,           ///< u_f = u_c: loses accuracy and costs energy in a rotation, for comparison
 };
 
-/// A vector that may depend on time and place.
+/// A vector that may depend on time and position.
 template <int Dim>
 using Field = std::function<Vector<Dim>(double time, const Vector<Dim>& position)>;
 
@@ -46,22 +47,22 @@ struct TractionCondition {
 
 template <int Dim>
 struct BoundaryConditions {
-    Neumann neumann = Neumann::local_equilibrium;
+    FreeFaceRule free_face_rule = FreeFaceRule::local_equilibrium;
     std::vector<DirichletCondition<Dim>> dirichlet;
     std::vector<TractionCondition<Dim>> traction;
 };
 
-/// The conditions sorted to the boundary faces of a mesh, in the order of `Mesh::boundary_faces`.
+/// The conditions sorted to the boundary faces of a mesh.
 template <int Dim>
 struct FaceConditions {
-    std::vector<Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
+    IdVector<BoundaryFace, Matrix<Dim>> prescribed;  ///< P_f, projector onto all prescribed directions (n_boundary)
     /// A boundary face of a Dirichlet condition and the directions that this condition prescribes there.
     struct Prescribed {
-        std::int32_t face;
+        BoundaryFace face;
         Matrix<Dim> projector;
     };
     std::vector<std::vector<Prescribed>> dirichlet;   ///< by condition
-    std::vector<std::vector<std::int32_t>> traction;  ///< boundary faces by condition
+    std::vector<std::vector<BoundaryFace>> traction;  ///< boundary faces by condition
 };
 
 /// Throws BadInput for an unknown group, two conditions that prescribe the same direction of a face, a

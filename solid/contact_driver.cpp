@@ -29,13 +29,13 @@ ContactDriver<Dim>::ContactDriver(const mesh::Mesh<Dim>& mesh, const SolidOption
 
 template <int Dim>
 void ContactDriver<Dim>::build_surface() {
-    const auto& prescribed = ccg_.prescribed();
-    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b) {
+    const auto prescribed = ccg_.prescribed();
+    for (const BoundaryFace b : ccg_.boundary_faces()) {
         if (!prescribed[b].isZero(0.0)) {
             ++faces_left_out_;
             continue;
         }
-        const std::int32_t face = mesh_.boundary_faces[b];
+        const std::int32_t face = mesh_face(mesh_, b);
         const std::int32_t cell = mesh_.face_cells[face][0];
         std::vector<Vector<Dim>> corners;
         for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
@@ -80,7 +80,7 @@ void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<cons
     contact_->search(u_0, u_1, [&](std::span<const contact::SurfaceFace> faces) {
         boundary_of_listed_.clear();
         for (const contact::SurfaceFace face : faces)
-            if (const std::int32_t b = boundary_face(face); b != no_face) boundary_of_listed_.push_back(b);
+            if (const BoundaryFace b = boundary_face(face); b != no_face) boundary_of_listed_.push_back(b);
         region_ = ccg_.region_of_faces(boundary_of_listed_);
         contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
         coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
@@ -94,8 +94,8 @@ void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<cons
 template <int Dim>
 std::vector<Vector<Dim>> ContactDriver<Dim>::surface_displacement(std::span<const Vector<Dim>> q,
                                                                   const BoundaryLoad<Dim>& load, double time) {
-    std::vector<Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
-    ccg_.boundary_displacement(q, load, boundary);
+    IdVector<BoundaryFace, Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
+    ccg_.boundary_displacement(q, load, boundary.values());
     std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
     for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) displacement[i] = boundary[boundary_of_surface_[i]];
     obstacles_.displace(time, std::span(displacement).subspan(boundary_of_surface_.size()));
@@ -226,12 +226,13 @@ ContactField ContactDriver<Dim>::field() const {
     const contact::ContactStep<Dim>& step = contact_->last();
     if (step.is_active())
         for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i) {
-            const std::int32_t b = boundary_of_listed_[i];
-            field.pressure[b] = step.mean_normal_force.values()[i] / mesh_.face_measure[mesh_.boundary_faces[b]];
+            const BoundaryFace b = boundary_of_listed_[i];
+            field.pressure[number_of(b)] = step.mean_normal_force.values()[i] / mesh_.face_measure[mesh_face(mesh_, b)];
         }
     for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
         for (const contact::SurfaceFace face : {overlap.face_1, overlap.face_2})
-            if (const std::int32_t b = boundary_face(face); b != no_face) field.gap[b] = std::min(field.gap[b], overlap.gap);
+            if (const BoundaryFace b = boundary_face(face); b != no_face)
+                field.gap[number_of(b)] = std::min(field.gap[number_of(b)], overlap.gap);
     return field;
 }
 

@@ -46,7 +46,7 @@ public:
     /// The start of the path is known: it is where the last step ended.
     [[nodiscard]] bool has_stepped() const { return has_stepped_; }
     /// The cells that `set_start` and `set_end` read, increasing.
-    [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.loaded_cells; }
+    [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.input_cells; }
     /// The next step begins where this one ends.
     void end_step();
 
@@ -96,7 +96,7 @@ private:
                                                                 const BoundaryLoad<Dim>& load, double time);
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
-    [[nodiscard]] std::int32_t boundary_face(contact::SurfaceFace face) const {
+    [[nodiscard]] BoundaryFace boundary_face(contact::SurfaceFace face) const {
         return surface_.view().is_rigid(number_of(face)) ? no_face : boundary_of_surface_[static_cast<std::size_t>(face)];
     }
     [[nodiscard]] std::size_t obstacle_of(contact::SurfaceFace face) const {
@@ -110,13 +110,13 @@ private:
     SolidTimes& times_;
     Obstacles<Dim> obstacles_;
     contact::Surface<Dim> surface_;                  // deformable faces, then those of the obstacles
-    std::vector<std::int32_t> boundary_of_surface_;  // boundary face of each deformable surface face
+    std::vector<BoundaryFace> boundary_of_surface_;  // boundary face of each deformable surface face
     std::int64_t faces_left_out_ = 0;
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
     bool has_stepped_ = false;
     Region<Dim> region_;                            // of the deformable listed faces
-    std::vector<std::int32_t> boundary_of_listed_;  // their boundary faces; they come first in the list
+    std::vector<BoundaryFace> boundary_of_listed_;  // their boundary faces; they come first in the list
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
         y_1_;                              // path of the listed faces; between steps _0 is where the last one ended
     std::vector<TouchingFaces> touching_;  // boundary faces of the pairs that were active in the last step

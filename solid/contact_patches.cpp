@@ -8,7 +8,7 @@
 namespace abut::solid {
 namespace {
 
-/// Cells by their place in an increasing list, joined to patches.
+/// Cells by their position in an increasing list, joined to patches.
 template <int Dim>
 class PatchFinder {
 public:
@@ -17,7 +17,7 @@ public:
         for (const auto& [face_1, face_2] : touching_) {
             join_cells_of(face_1);
             join_cells_of(face_2);
-            if (face_1 != no_face && face_2 != no_face) sets_.join(place(face_1), place(face_2));
+            if (face_1 != no_face && face_2 != no_face) sets_.join(position(face_1), position(face_2));
         }
     }
 
@@ -28,7 +28,7 @@ public:
             patch.held = patch.held || ccg_.has_prescribed_face(cells_[i]);
         }
         for (const auto& [face_1, face_2] : touching_)
-            if (face_1 == no_face || face_2 == no_face) patch_of(place(std::max(face_1, face_2))).held = true;
+            if (face_1 == no_face || face_2 == no_face) patch_of(position(std::max(face_1, face_2))).held = true;
         return std::move(patches_);
     }
 
@@ -36,7 +36,7 @@ private:
     std::vector<std::int32_t> cells_of_faces() const {
         std::vector<std::int32_t> cells;
         for (const auto& [face_1, face_2] : touching_)
-            for (const std::int32_t face : {face_1, face_2}) {
+            for (const BoundaryFace face : {face_1, face_2}) {
                 if (face == no_face) continue;
                 const auto of_face = ccg_.cells_of(face);
                 cells.insert(cells.end(), of_face.begin(), of_face.end());
@@ -45,18 +45,18 @@ private:
         return cells;
     }
 
-    std::int32_t place_of_cell(std::int32_t cell) const {
+    std::int32_t position_of(std::int32_t cell) const {
         return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
     }
-    std::int32_t place(std::int32_t face) const { return place_of_cell(ccg_.cells_of(face).front()); }
+    std::int32_t position(BoundaryFace face) const { return position_of(ccg_.cells_of(face).front()); }
 
-    void join_cells_of(std::int32_t face) {
+    void join_cells_of(BoundaryFace face) {
         if (face == no_face) return;
-        for (const std::int32_t cell : ccg_.cells_of(face)) sets_.join(place(face), place_of_cell(cell));
+        for (const std::int32_t cell : ccg_.cells_of(face)) sets_.join(position(face), position_of(cell));
     }
 
-    dynamics::ContactPatch& patch_of(std::int32_t place) {
-        std::int32_t& patch = patch_of_root_[sets_.find(place)];
+    dynamics::ContactPatch& patch_of(std::int32_t position) {
+        std::int32_t& patch = patch_of_root_[sets_.find(position)];
         if (patch < 0) {
             patch = static_cast<std::int32_t>(patches_.size());
             patches_.emplace_back();

@@ -10,10 +10,10 @@
 
 namespace abut::solid {
 
-/// Two faces in contact, as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+/// Two faces in contact; `no_face` is one of an obstacle.
 struct TouchingFaces {
-    std::int32_t face_1;
-    std::int32_t face_2;
+    BoundaryFace face_1;
+    BoundaryFace face_2;
 };
 
 /// The cells whose displacement enters these faces, sorted into patches: the cells of one face are in one patch, and so are

@@ -1,19 +1,16 @@
 #pragma once
-#include <cstdint>
 #include <vector>
 
 #include "abut/base/vector.hpp"
+#include "abut/solid/boundary_face.hpp"
 
 namespace abut::solid {
 
-/// Stands for a face of an obstacle where boundary faces are named.
-inline constexpr std::int32_t no_face = -1;
-
-/// A contact of two faces, given as places in Mesh::boundary_faces; `no_face` is one of an obstacle.
+/// A contact of two faces; `no_face` is one of an obstacle.
 template <int Dim>
 struct TouchingPair {
-    std::int32_t face_1;
-    std::int32_t face_2;
+    BoundaryFace face_1;
+    BoundaryFace face_2;
     Vector<Dim> normal;  ///< from the body of face 1 into that of face 2
     double gap;          ///< [m]
 };

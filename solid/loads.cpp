@@ -61,7 +61,7 @@ template <int Dim>
 void Loads<Dim>::add_work(double share, double& work) const {
     if (!vary()) return;
     for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
-        work += share * ccg_.boundary_force(b).dot(end_.displacement[b] - start_.displacement[b]);
+        work += share * ccg_.boundary_gradient(BoundaryFace{b}).dot(end_.displacement[b] - start_.displacement[b]);
 }
 
 template <int Dim>

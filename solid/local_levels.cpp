@@ -13,8 +13,8 @@ namespace {
 
 /// Sets the positions of some cells at dt from now.
 template <int Dim>
-void place(const dynamics::FreeFlight& flight, double dt, std::span<const std::int32_t> cells,
-           std::span<Vector<Dim>> position) {
+void set_positions(const dynamics::FreeFlight& flight, double dt, std::span<const std::int32_t> cells,
+                   std::span<Vector<Dim>> position) {
     parallel_each(static_cast<std::ptrdiff_t>(cells.size()), [&](std::ptrdiff_t i) {
         const auto first = static_cast<std::size_t>(cells[i]) * Dim;
         for (int d = 0; d < Dim; ++d) position[cells[i]][d] = flight.at(first + d, dt);
@@ -50,7 +50,7 @@ void LocalLevels<Dim>::set_regions(std::int32_t n_levels, std::span<const std::i
         for (const std::int32_t c : all_cells_)
             if (level[static_cast<std::size_t>(c) * Dim] >= l) as_fine.push_back(c);
         // K is symmetric: what these cells depend on depends on them.
-        for (const std::int32_t c : ccg_.region_of_cells(as_fine).loaded_cells) evaluated[c] = l;
+        for (const std::int32_t c : ccg_.region_of_cells(as_fine).input_cells) evaluated[c] = l;
     }
     for (std::int32_t l = 0; l < n_levels; ++l) {
         std::vector<std::int32_t> cells;
@@ -62,7 +62,7 @@ void LocalLevels<Dim>::set_regions(std::int32_t n_levels, std::span<const std::i
 
 template <int Dim>
 void LocalLevels<Dim>::set_surface_cells(const mesh::Mesh<Dim>& mesh) {
-    for (std::int32_t b = 0; b < ccg_.n_boundary(); ++b)
+    for (const BoundaryFace b : ccg_.boundary_faces())
         surface_cells_.insert(surface_cells_.end(), ccg_.cells_of(b).begin(), ccg_.cells_of(b).end());
     for (const std::int32_t face : mesh.boundary_faces) surface_cells_.push_back(mesh.face_cells[face][0]);
     sort_unique(surface_cells_);
@@ -74,7 +74,7 @@ std::int64_t LocalLevels<Dim>::add_bulk_impulse(std::int32_t level, const dynami
                                                 std::span<Vector<Dim>> impulse) {
     const Region<Dim>& region = regions_[level];
     if (region.cells.empty()) return 0;
-    place<Dim>(flight, 0.5 * dt, region.loaded_cells, moved_);
+    set_positions<Dim>(flight, 0.5 * dt, region.input_cells, moved_);
     ccg_.evaluate_cells(region, moved_, loads_.end(), {}, gradient_);
     loads_.add_impulse(region.cells, gradient_, dt, impulse);
     return static_cast<std::int64_t>(region.cells.size());
@@ -86,7 +86,7 @@ void LocalLevels<Dim>::add_contact_impulse(std::span<const std::int32_t> input_c
                                            const FaceCorrections<Dim>& corrections, double dt,
                                            std::span<Vector<Dim>> impulse) {
     if (!std::ranges::equal(input_cells, contact_region_.cells)) contact_region_ = ccg_.region_of_cells(input_cells);
-    for (const std::int32_t c : contact_region_.loaded_cells) moved_[c].setZero();
+    for (const std::int32_t c : contact_region_.input_cells) moved_[c].setZero();
     ccg_.evaluate_cells(contact_region_, moved_, ccg_.load_free(), corrections, gradient_);
     for (std::size_t i = 0; i < contact_region_.cells.size(); ++i) impulse[contact_region_.cells[i]] -= dt * gradient_[i];
 }
@@ -94,14 +94,14 @@ void LocalLevels<Dim>::add_contact_impulse(std::span<const std::int32_t> input_c
 template <int Dim>
 std::span<const Vector<Dim>> LocalLevels<Dim>::start_of(const dynamics::FreeFlight& flight,
                                                         std::span<const std::int32_t> cells) {
-    place<Dim>(flight, 0.0, cells, at_start_);
+    set_positions<Dim>(flight, 0.0, cells, at_start_);
     return at_start_;
 }
 
 template <int Dim>
 std::span<const Vector<Dim>> LocalLevels<Dim>::end_of(const dynamics::FreeFlight& flight, double dt,
                                                       std::span<const std::int32_t> cells) {
-    place<Dim>(flight, dt, cells, moved_);
+    set_positions<Dim>(flight, dt, cells, moved_);
     return moved_;
 }
 

@@ -155,12 +155,10 @@ std::int32_t merge_coarsest(Levels& level) {
 /// Cells of the faces that contact may reach, and those that their displacement depends on.
 template <int Dim>
 std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
-    std::vector<std::int32_t> faces;
-    for (std::int32_t b = 0; b < solid.ccg().n_boundary(); ++b)
-        if (solid.ccg().prescribed()[b].isZero(0.0)) faces.push_back(b);
     std::vector<std::int32_t> cells;
-    for (const std::int32_t b : faces) {
-        cells.push_back(solid.mesh().face_cells[solid.mesh().boundary_faces[b]][0]);
+    for (const BoundaryFace b : solid.ccg().boundary_faces()) {
+        if (!solid.ccg().prescribed()[b].isZero(0.0)) continue;
+        cells.push_back(cell_of(solid.mesh(), b));
         cells.insert(cells.end(), solid.ccg().cells_of(b).begin(), solid.ccg().cells_of(b).end());
     }
     std::ranges::sort(cells);

@@ -22,20 +22,20 @@ double spectral_norm(const Matrix<Dim>& m) {
 
 template <int Dim>
 MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), cells_(arrays.boundary_cells) {
-    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(b));
+    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(BoundaryFace{b}));
     sort_unique(cells_);
-    const auto place = [&](std::int32_t cell) {
+    const auto position = [&](std::int32_t cell) {
         return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
     };
     const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
     for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
-        own_.push_back(place(arrays.cell_of(b)));
+        own_.push_back(position(arrays.cell_of(BoundaryFace{b})));
         kept_.push_back(spectral_norm<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b]));
     }
-    for (const std::int32_t cell : boundary.cells) places_.push_back(place(cell));
+    for (const std::int32_t cell : boundary.cells) positions_.push_back(position(cell));
     for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
         for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-            norms_.push_back(places_[i] == own_[b] ? 0.0 : spectral_norm<Dim>(boundary.weights[i]));  // du_c - du_c = 0
+            norms_.push_back(positions_[i] == own_[b] ? 0.0 : spectral_norm<Dim>(boundary.weights[i]));  // du_c - du_c = 0
         norm_sum_.push_back(std::accumulate(norms_.begin() + boundary.offsets[b], norms_.end(), 0.0));
         amplification_ = std::max(amplification_, (1.0 + rounding) * (kept_[b] + 2.0 * norm_sum_[b]));
     }
@@ -43,11 +43,12 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
 }
 
 template <int Dim>
-double MotionBound<Dim>::of_face(std::int32_t b) const {
-    const Lanes<Dim> own = load<Dim>(moved_, own_[b]);
+double MotionBound<Dim>::of_face(BoundaryFace face) const {
+    const std::int32_t b = number_of(face);
+    const Lanes<Dim> own = load_packed<Dim>(moved_, own_[b]);
     Lanes<Dim> squares;  // by direction
     for (std::int32_t i = arrays_.boundary.offsets[b]; i < arrays_.boundary.offsets[b + 1]; ++i) {
-        const Lanes<Dim> relative = load<Dim>(moved_, places_[i]) - own;
+        const Lanes<Dim> relative = load_packed<Dim>(moved_, positions_[i]) - own;
         squares.r += norms_[i] * relative.r * relative.r;
     }
     return kept_[b] * std::sqrt(dot(own, own)) + std::sqrt(norm_sum_[b] * unload<Dim>(squares).sum());
@@ -56,12 +57,13 @@ double MotionBound<Dim>::of_face(std::int32_t b) const {
 template <int Dim>
 double MotionBound<Dim>::operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                     std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
-    parallel_each(static_cast<std::ptrdiff_t>(cells_.size()),
-                  [&](std::ptrdiff_t i) { store(load<Dim>(u_to[cells_[i]]) - load<Dim>(u_from[cells_[i]]), moved_, i); });
+    parallel_each(static_cast<std::ptrdiff_t>(cells_.size()), [&](std::ptrdiff_t i) {
+        store(load_packed<Dim>(u_to[cells_[i]]) - load_packed<Dim>(u_from[cells_[i]]), moved_, i);
+    });
     return largest(arrays_.n_boundary(), [&](std::ptrdiff_t i) {
-        const auto b = static_cast<std::int32_t>(i);
+        const auto b = static_cast<BoundaryFace>(i);
         if (load_to.displacement.empty()) return of_face(b);
-        return of_face(b) + (load_to.displacement[b] - load_from.displacement[b]).norm();
+        return of_face(b) + (load_to.displacement[i] - load_from.displacement[i]).norm();
     });
 }
 

@@ -31,15 +31,15 @@ public:
     [[nodiscard]] double amplification() const { return amplification_; }
 
 private:
-    [[nodiscard]] double of_face(std::int32_t b) const;
+    [[nodiscard]] double of_face(BoundaryFace face) const;
 
     const CcgArrays<Dim>& arrays_;
-    std::vector<std::int32_t> cells_;   // all that a boundary face depends on, and those of the faces, increasing
-    std::vector<std::int32_t> own_;     // place in cells_ of the face's cell (n_boundary)
-    std::vector<double> kept_;          // |1 - D| (n_boundary)
-    std::vector<std::int32_t> places_;  // place in cells_, by weight
-    std::vector<double> norms_;         // |W_j|, by weight; 0 for the face's own cell
-    std::vector<double> norm_sum_;      // of a row (n_boundary)
+    std::vector<std::int32_t> cells_;      // all that a boundary face depends on, and those of the faces, increasing
+    std::vector<std::int32_t> own_;        // position in cells_ of the face's cell (n_boundary)
+    std::vector<double> kept_;             // |1 - D| (n_boundary)
+    std::vector<std::int32_t> positions_;  // in cells_, by weight
+    std::vector<double> norms_;            // |W_j|, by weight; 0 for the face's own cell
+    std::vector<double> norm_sum_;         // of a row (n_boundary)
     double amplification_ = 0.0;
     std::vector<double> moved_;  // du of cells_, registers
 };

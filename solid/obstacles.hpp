@@ -17,7 +17,7 @@ public:
 
     /// Whether one of them has a path.
     [[nodiscard]] bool move() const;
-    /// From rest [m]. Throws BadInput where a path leads to a place that is not finite.
+    /// From rest [m]. Throws BadInput where a path gives one that is not finite.
     [[nodiscard]] Vector<Dim> displacement(std::size_t obstacle, double time) const;
     /// How far the one that moves most is at `to` from where it was at `from` [m].
     [[nodiscard]] double motion(double from, double to) const;

@@ -63,12 +63,12 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
     const mesh::Mesh<Dim>& mesh = solid.mesh();
     const auto n = static_cast<Eigen::Index>(frame.size()) * n_motions<Dim>;
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
-    const auto body_at = [&](std::int32_t b) { return mesh.cell_body[mesh.face_cells[mesh.boundary_faces[b]][0]]; };
-    const auto motions = [&](std::int32_t b) {
-        return motions_at(frame[static_cast<std::size_t>(body_at(b))], mesh.face_centroid[mesh.boundary_faces[b]]);
+    const auto body_at = [&](BoundaryFace b) { return mesh.cell_body[cell_of(mesh, b)]; };
+    const auto motions = [&](BoundaryFace b) {
+        return motions_at(frame[static_cast<std::size_t>(body_at(b))], mesh.face_centroid[mesh_face(mesh, b)]);
     };
     const auto prescribed = solid.ccg().prescribed();
-    for (std::int32_t b = 0; b < solid.ccg().n_boundary(); ++b) {
+    for (const BoundaryFace b : solid.ccg().boundary_faces()) {
         const Motions<Dim> held = prescribed[b] * motions(b);
         const Eigen::Index first = Eigen::Index{body_at(b)} * n_motions<Dim>;
         result.template block<n_motions<Dim>, n_motions<Dim>>(first, first) += held.transpose() * held;
@@ -76,7 +76,7 @@ Eigen::MatrixXd hold(Solid<Dim>& solid, std::span<const double> q, const std::ve
     const double size = std::ranges::max_element(frame, {}, [](const Frame<Dim>& one) { return one.radius; })->radius;
     for (const TouchingPair<Dim>& pair : solid.touching_pairs(q, closed * size)) {
         Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
-        const auto add = [&](std::int32_t b, double sign) {
+        const auto add = [&](BoundaryFace b, double sign) {
             if (b == no_face) return;
             row.segment<n_motions<Dim>>(Eigen::Index{body_at(b)} * n_motions<Dim>) +=
                 sign * motions(b).transpose() * pair.normal;

@@ -32,8 +32,7 @@ class Solid {
 public:
     static constexpr int dimension = Dim;
 
-    /// The mesh must outlive the solid. Throws BadInput with place, value, limit and
-    /// remedy.
+    /// The mesh must outlive the solid. Throws BadInput saying where, how much, how much is allowed and what to do.
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options);
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
@@ -48,13 +47,13 @@ public:
 
     /// Displacements q are cell by cell, shape (n_cells, Dim) [m].
     void force(std::span<const double> q, std::span<double> force);
-    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the way (docs/method.md, Time).
+    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the path (docs/method.md, Time).
     /// Throws Misuse where the step should begin when the last one ended but does not, Diverged or TooDeep when the
     /// run has diverged or a pair is pressed in deeper than `compression_limit`. After such an error a run with loads that
     /// vary is over; another may try a shorter step.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                     std::span<double> force);
-    /// F(q_1) after the straight way from q_0: for schemes that take no mean. Loads, candidates and admission follow the
+    /// F(q_1) after the straight path from q_0: for schemes that take no mean. Loads, candidates and admission follow the
     /// step as in `mean_force`: tractions are those at its start. Contacts that open and close again inside it go unnoticed.
     /// Work from outside is taken by the trapezoidal rule. Throws as `mean_force`.
     void end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,

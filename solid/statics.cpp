@@ -33,7 +33,7 @@ enum class Ending {
     iterations,  ///< all of them are used up
 };
 
-/// Ends the minimiser from inside: it has no other way.
+/// Ends the minimiser from inside: it has no other means.
 struct Finished {
     Ending ending;
 };
@@ -150,15 +150,15 @@ public:
     /// Brings the report to the state reached.
     void update_report() {
         const std::vector<double> reached = q();
-        std::vector<std::int32_t> faces;
+        std::vector<BoundaryFace> faces;
         for (const TouchingPair<Dim>& pair : solid_.touching_pairs(reached, nearly_closed * smallest_depth(solid_.mesh())))
-            for (const std::int32_t face : {pair.face_1, pair.face_2})
+            for (const BoundaryFace face : {pair.face_1, pair.face_2})
                 if (face != no_face) faces.push_back(face);
         sort_unique(faces);
         solid_.force(reached, force_);
         report_.compression = solid_.compression();
         report_.residual = residual();
-        report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).loaded_cells);
+        report_.residual_elsewhere = residual(solid_.ccg().region_of_faces(faces).input_cells);
         touches_ = !faces.empty();
     }
     /// Whether all that is out of balance there is around contacts.

@@ -10,7 +10,7 @@ namespace {
 
 using contact::OverlapMode;
 using contact::Weights;
-using solid::Neumann;
+using solid::FreeFaceRule;
 
 const Choices<OverlapMode> overlap_modes = {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}};
 const Choices<Weights> weights = {{"half", Weights::half}, {"stiffness", Weights::stiffness}};
@@ -21,9 +21,9 @@ const Choices<SolidIntegrator> integrators = {{"memm", SolidIntegrator::memm},
 const Choices<bool> switches = {{"on", true}, {"off", false}};
 const Choices<bool> filters = {{"none", false}, {"neutral", true}};
 const Choices<int> quadratures = {{"1", 1}, {"2", 2}, {"3", 3}};
-const Choices<Neumann> neumanns = {{"local_equilibrium", Neumann::local_equilibrium},
-                                   {"extrapolate", Neumann::extrapolate},
-                                   {"adjacent", Neumann::adjacent}};
+const Choices<FreeFaceRule> neumanns = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
+                                   {"extrapolate", FreeFaceRule::extrapolate},
+                                   {"adjacent", FreeFaceRule::adjacent}};
 
 }  // namespace
 

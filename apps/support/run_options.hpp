@@ -24,7 +24,7 @@ struct RunOptions {
     double dt = not_given;    ///< time step [s], instead of `cfl`
     bool allow_unstable = false;
     contact::ContactOptions contact;
-    solid::Neumann neumann = solid::Neumann::local_equilibrium;
+    solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
     SolidIntegrator integrator = SolidIntegrator::memm;
     int levels = 0;            ///< of memm_async, at most; 0: 8
     int contact_margin = 1;    ///< of memm_async: levels that cells in contact are finer than they need to be alone

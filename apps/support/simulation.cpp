@@ -31,7 +31,7 @@ constexpr double most_steps = 1e15;
 template <int Dim>
 solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
     solid::SolidOptions<Dim> solid = scene.solid;
-    solid.boundary.neumann = options.neumann;
+    solid.boundary.free_face_rule = options.neumann;
     if (scene.contact) solid.contact = options.contact;
     return solid;
 }

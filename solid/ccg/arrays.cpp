@@ -8,16 +8,16 @@ namespace abut::solid {
 namespace {
 
 /// visit(i, row, weight) is called for every entry by for_each_entry(visit), rows increasing; i in [0, n).
-template <class Weight, class ForEachEntry>
-Occurrences<Weight> occurrences(std::size_t n, const ForEachEntry& for_each_entry) {
-    Occurrences<Weight> found;
+template <class Row, class Weight, class ForEachEntry>
+Occurrences<Row, Weight> occurrences(std::size_t n, const ForEachEntry& for_each_entry) {
+    Occurrences<Row, Weight> found;
     found.offsets.assign(n + 1, 0);
-    for_each_entry([&](std::int32_t i, std::int32_t, const Weight&) { ++found.offsets[i + 1]; });
+    for_each_entry([&](std::int32_t i, Row, const Weight&) { ++found.offsets[i + 1]; });
     std::partial_sum(found.offsets.begin(), found.offsets.end(), found.offsets.begin());
     found.rows.resize(static_cast<std::size_t>(found.offsets.back()));
     found.weights.resize(found.rows.size());
     std::vector<std::int32_t> next(found.offsets.begin(), found.offsets.end() - 1);
-    for_each_entry([&](std::int32_t i, std::int32_t row, const Weight& weight) {
+    for_each_entry([&](std::int32_t i, Row row, const Weight& weight) {
         found.rows[next[i]] = row;
         found.weights[next[i]++] = weight;
     });
@@ -35,34 +35,34 @@ std::array<double, Dim> to_array(const Vector<Dim>& v) {
 
 template <int Dim>
 CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                          const FaceConditions<Dim>& conditions, Neumann neumann) {
+                          const FaceConditions<Dim>& conditions, FreeFaceRule rule) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
-    set_boundary(mesh, materials, conditions, neumann);
+    set_boundary(mesh, materials, conditions, rule);
 }
 
 template <int Dim>
 void CcgArrays<Dim>::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     const auto n = static_cast<std::size_t>(mesh.n_faces());
-    sides = mesh.face_cells;
+    face_cells = mesh.face_cells;
     stencils.resize(n);
-    boundary_place.assign(n, -1);
+    boundary_index.assign(n, no_face);
     std::vector<std::int32_t> interior;
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f) {
         FaceGeometry<Dim>& face = faces.emplace_back();
         face.area_vector = to_array<Dim>(mesh.face_measure[f] * mesh.face_normal[f]);
         if (mesh.is_boundary(f)) {
-            boundary_place[f] = static_cast<std::int32_t>(boundary_faces.size());
+            boundary_index[f] = static_cast<BoundaryFace>(boundary_faces.size());
             boundary_faces.push_back(f);
-            sides[f][1] = sides[f][0];
-            stencils[f].cells.fill(sides[f][0]);
+            face_cells[f][1] = face_cells[f][0];
+            stencils[f].cells.fill(face_cells[f][0]);
             stencils[f].weights.fill(0.0);
             face.jump_stiffness = 0.0;
             continue;
         }
         interior.push_back(f);
         // |f| eta / h_f with h_f = |f|^(1/(d-1))
-        const double eta = materials[mesh.cell_body[sides[f][0]]].stabilisation();
+        const double eta = materials[mesh.cell_body[face_cells[f][0]]].stabilisation();
         face.jump_stiffness = Dim == 2 ? eta : eta * std::sqrt(mesh.face_measure[f]);
     }
     const auto selected = select_stencils<Dim>(mesh, interior, report);
@@ -71,45 +71,46 @@ void CcgArrays<Dim>::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Mate
 
 template <int Dim>
 void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
-    slot_offsets = mesh.cell_faces.offsets;
-    std::vector<std::int32_t> slot_of_first(sides.size(), -1);
+    half_face_offsets = mesh.cell_faces.offsets;
+    std::vector<std::int32_t> first_half_face(face_cells.size(), -1);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
         const Material& material = materials[mesh.cell_body[c]];
         cells.push_back({1.0 / mesh.cell_measure[c], material.lambda(), material.mu()});
         for (const std::int32_t f : mesh.cell_faces[c]) {
-            const auto slot = static_cast<std::int32_t>(slots.size());
-            std::int32_t opposite = slot;
-            if (slot_of_first[f] < 0) {
-                slot_of_first[f] = slot;
+            const auto half_face = static_cast<std::int32_t>(half_faces.size());
+            std::int32_t twin = half_face;
+            if (first_half_face[f] < 0) {
+                first_half_face[f] = half_face;
             } else {
-                opposite = slot_of_first[f];
-                slots[opposite].opposite = slot;
+                twin = first_half_face[f];
+                half_faces[twin].twin = half_face;
             }
-            slots.push_back({f, sides[f][0], opposite});
-            arms.push_back(to_array<Dim>(mesh.face_centroid[f] - mesh.cell_centroid[c]));
+            half_faces.push_back({f, face_cells[f][0], twin});
+            lever_arms.push_back(to_array<Dim>(mesh.face_centroid[f] - mesh.cell_centroid[c]));
         }
     }
-    of_cell = occurrences<double>(cells.size(), [&](const auto& visit) {
+    of_cell = occurrences<std::int32_t, double>(cells.size(), [&](const auto& visit) {
         for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
-            if (boundary_place[f] < 0)
+            if (boundary_index[f] == no_face)
                 for (int j = 0; j <= Dim; ++j) visit(stencils[f].cells[j], f, stencils[f].weights[j]);
     });
 }
 
 template <int Dim>
 void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                                  const FaceConditions<Dim>& conditions, Neumann neumann) {
-    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, neumann);
-    for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load<Dim>(weight));
+                                  const FaceConditions<Dim>& conditions, FreeFaceRule rule) {
+    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule);
+    for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load_packed<Dim>(weight));
     boundary_cells = boundary.cells;
     sort_unique(boundary_cells);
-    boundary_cell_place.assign(cells.size(), -1);
+    boundary_cell_position.assign(cells.size(), -1);
     for (std::size_t i = 0; i < boundary_cells.size(); ++i)
-        boundary_cell_place[boundary_cells[i]] = static_cast<std::int32_t>(i);
-    of_boundary_cell = occurrences<LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
+        boundary_cell_position[boundary_cells[i]] = static_cast<std::int32_t>(i);
+    of_boundary_cell = occurrences<BoundaryFace, LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
         for (std::int32_t b = 0; b < boundary.size(); ++b)
             for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-                visit(boundary_cell_place[boundary.cells[i]], b, load<Dim>(Matrix<Dim>(boundary.weights[i].transpose())));
+                visit(boundary_cell_position[boundary.cells[i]], BoundaryFace{b},
+                      load_packed<Dim>(Matrix<Dim>(boundary.weights[i].transpose())));
     });
 }
 

@@ -12,10 +12,10 @@
 namespace abut::solid {
 
 /// A face as one of its cells has it.
-struct Slot {
+struct HalfFace {
     std::int32_t face;
-    std::int32_t first;     // cell on the first side of the face
-    std::int32_t opposite;  // slot of the same face in the cell on its other side; the slot itself on the boundary
+    std::int32_t first;  // cell on the first side of the face
+    std::int32_t twin;   // that of the cell on the other side of the face; itself on the boundary
 };
 
 /// A boundary face has no stiffness.
@@ -34,10 +34,10 @@ struct CellGeometry {
 
 /// For each index of a range: the rows in which it occurs, increasing, and its weights there. The transpose of a sparse
 /// matrix.
-template <class Weight>
+template <class Row, class Weight>
 struct Occurrences {
     std::vector<std::int32_t> offsets;
-    std::vector<std::int32_t> rows;
+    std::vector<Row> rows;
     std::vector<Weight> weights;
 };
 
@@ -45,42 +45,46 @@ struct Occurrences {
 template <int Dim>
 struct CcgArrays {
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-              Neumann neumann);
+              FreeFaceRule rule);
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
-    [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(sides.size()); }
+    [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
     [[nodiscard]] std::int32_t n_boundary() const { return boundary.size(); }
     /// The only cell of a boundary face.
-    [[nodiscard]] std::int32_t cell_of(std::int32_t b) const { return sides[boundary_faces[b]][0]; }
-    [[nodiscard]] std::span<const Slot> slots_of(std::int32_t c) const {
-        return {slots.data() + slot_offsets[c], static_cast<std::size_t>(slot_offsets[c + 1] - slot_offsets[c])};
+    [[nodiscard]] std::int32_t cell_of(BoundaryFace b) const { return face_cells[face_of(b)][0]; }
+    /// Its index among all faces.
+    [[nodiscard]] std::int32_t face_of(BoundaryFace b) const { return boundary_faces[static_cast<std::size_t>(b)]; }
+    [[nodiscard]] std::span<const HalfFace> half_faces_of(std::int32_t c) const {
+        return {half_faces.data() + half_face_offsets[c],
+                static_cast<std::size_t>(half_face_offsets[c + 1] - half_face_offsets[c])};
     }
 
     // Faces. A boundary face has its one cell on both sides, no stiffness and an empty stencil: the sweeps need no branch.
-    std::vector<std::array<std::int32_t, 2>> sides;
+    std::vector<std::array<std::int32_t, 2>> face_cells;
     std::vector<FaceStencil<Dim>> stencils;
     std::vector<FaceGeometry<Dim>> faces;
     StencilReport report;
-    // Cells and their slots, cell by cell.
+    // Cells and their half-faces, cell by cell.
     std::vector<CellGeometry<Dim>> cells;
-    std::vector<std::int32_t> slot_offsets;  // (n_cells + 1)
-    std::vector<Slot> slots;
-    std::vector<std::array<double, Dim>> arms;  // x_f - x_c, by slot
-    Occurrences<double> of_cell;                // interior stencils that use a cell
+    std::vector<std::int32_t> half_face_offsets;  // (n_cells + 1)
+    std::vector<HalfFace> half_faces;
+    std::vector<std::array<double, Dim>> lever_arms;  // x_f - x_c, by half-face
+    Occurrences<std::int32_t, double> of_cell;        // interior stencils that use a cell
     // Boundary faces.
     std::vector<std::int32_t> boundary_faces;
-    std::vector<std::int32_t> boundary_place;  // of a face, -1 inside
+    std::vector<BoundaryFace> boundary_index;  // of a face; none inside
     BoundaryReconstruction<Dim> boundary;
-    std::vector<LaneTensor<Dim>> boundary_weights;  // as boundary.weights
-    std::vector<std::int32_t> boundary_cells;       // cells that some boundary face depends on
-    std::vector<std::int32_t> boundary_cell_place;  // of a cell, -1 elsewhere
-    Occurrences<LaneTensor<Dim>> of_boundary_cell;  // rows of `boundary` by place in boundary_cells, transposed
+    std::vector<LaneTensor<Dim>> boundary_weights;     // as boundary.weights
+    std::vector<std::int32_t> boundary_cells;          // cells that some boundary face depends on
+    std::vector<std::int32_t> boundary_cell_position;  // of a cell, -1 elsewhere
+    Occurrences<BoundaryFace, LaneTensor<Dim>>
+        of_boundary_cell;  // rows of `boundary` by position in boundary_cells, transposed
 
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                      const FaceConditions<Dim>& conditions, Neumann neumann);
+                      const FaceConditions<Dim>& conditions, FreeFaceRule rule);
 };
 
 }  // namespace abut::solid

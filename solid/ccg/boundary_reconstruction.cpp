@@ -11,21 +11,23 @@ inline constexpr double null_space_cut = 1e-10;  // of the largest eigenvalue
 /// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
 template <int Dim>
 struct Row {
+    template <class Index>
     struct Term {
-        std::int32_t index;
+        Index index;
         Matrix<Dim> weight;
     };
-    std::vector<Term> cells;
-    std::vector<Term> displacement;  // of boundary faces
-    std::vector<Term> traction;
+    std::vector<Term<std::int32_t>> cells;
+    std::vector<Term<BoundaryFace>> displacement;
+    std::vector<Term<BoundaryFace>> traction;
 
-    static void add(std::vector<Term>& terms, std::int32_t index, const Matrix<Dim>& weight) {
-        const auto place =
-            std::lower_bound(terms.begin(), terms.end(), index, [](const Term& t, std::int32_t i) { return t.index < i; });
-        if (place != terms.end() && place->index == index)
-            place->weight += weight;
+    template <class Index>
+    static void add(std::vector<Term<Index>>& terms, Index index, const Matrix<Dim>& weight) {
+        const auto position =
+            std::lower_bound(terms.begin(), terms.end(), index, [](const Term<Index>& t, Index i) { return t.index < i; });
+        if (position != terms.end() && position->index == index)
+            position->weight += weight;
         else
-            terms.insert(place, {index, weight});
+            terms.insert(position, {index, weight});
     }
     void add_stencil(const FaceStencil<Dim>& stencil, const Matrix<Dim>& weight) {
         for (int j = 0; j <= Dim; ++j) add(cells, stencil.cells[j], stencil.weights[j] * weight);
@@ -36,17 +38,16 @@ template <int Dim>
 class Builder {
 public:
     Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
-            const FaceConditions<Dim>& conditions, Neumann neumann)
+            const FaceConditions<Dim>& conditions, FreeFaceRule rule)
         : mesh_(mesh),
           interior_(interior),
           materials_(materials),
           conditions_(conditions),
-          neumann_(neumann),
-          place_(static_cast<std::size_t>(mesh.n_faces()), -1),
+          rule_(rule),
+          index_(static_cast<std::size_t>(mesh.n_faces()), no_face),
           affine_(mesh.boundary_faces.size()),
           rows_(mesh.boundary_faces.size()) {
-        for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b)
-            place_[mesh.boundary_faces[b]] = static_cast<std::int32_t>(b);
+        for (const BoundaryFace b : boundary_faces(mesh)) index_[mesh_face(mesh, b)] = b;
     }
 
     BoundaryReconstruction<Dim> build() {
@@ -56,31 +57,30 @@ public:
     }
 
 private:
-    /// Boundary faces of a cell, as places in mesh.boundary_faces.
-    std::vector<std::int32_t> boundary_of(std::int32_t cell) const {
-        std::vector<std::int32_t> places;
+    /// Boundary faces of a cell.
+    std::vector<BoundaryFace> boundary_of(std::int32_t cell) const {
+        std::vector<BoundaryFace> boundary;
         for (const std::int32_t face : mesh_.cell_faces[cell])
-            if (place_[face] >= 0) places.push_back(place_[face]);
-        return places;
+            if (index_[face] != no_face) boundary.push_back(index_[face]);
+        return boundary;
     }
 
-    bool is_free(std::int32_t b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
+    bool is_free(BoundaryFace b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
 
     /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces.
     void select_affine_stencils() {
-        if (neumann_ == Neumann::adjacent) return;
-        std::vector<std::int32_t> wanted;
-        for (std::int32_t b = 0; b < static_cast<std::int32_t>(mesh_.boundary_faces.size()); ++b) {
+        if (rule_ == FreeFaceRule::adjacent) return;
+        std::vector<BoundaryFace> wanted;
+        for (const BoundaryFace b : boundary_faces(mesh_)) {
             if (!is_free(b)) continue;
-            const std::int32_t cell = mesh_.face_cells[mesh_.boundary_faces[b]][0];
-            const auto others = boundary_of(cell);
+            const auto others = boundary_of(cell_of(mesh_, b));
             const auto n_free =
-                std::count_if(others.begin(), others.end(), [&](std::int32_t other) { return is_free(other); });
-            if (neumann_ == Neumann::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
+                std::count_if(others.begin(), others.end(), [&](BoundaryFace other) { return is_free(other); });
+            if (rule_ == FreeFaceRule::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
                 wanted.push_back(b);
         }
         std::vector<std::int32_t> faces;
-        for (const std::int32_t b : wanted) faces.push_back(mesh_.boundary_faces[b]);
+        for (const BoundaryFace b : wanted) faces.push_back(mesh_face(mesh_, b));
         const auto stencils = select_stencils<Dim>(mesh_, faces, report_);
         for (std::size_t i = 0; i < wanted.size(); ++i) affine_[wanted[i]] = stencils[i];
     }
@@ -88,12 +88,12 @@ private:
     void reconstruct(std::int32_t cell) {
         const auto boundary = boundary_of(cell);
         if (boundary.empty()) return;
-        for (const std::int32_t b : boundary) Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
-        if (neumann_ == Neumann::local_equilibrium) return balance(cell, boundary);
-        for (const std::int32_t b : boundary) {
+        for (const BoundaryFace b : boundary) Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
+        if (rule_ == FreeFaceRule::local_equilibrium) return balance(cell, boundary);
+        for (const BoundaryFace b : boundary) {
             const Matrix<Dim> free = Matrix<Dim>::Identity() - conditions_.prescribed[b];
             if (free.isZero(1e-12)) continue;
-            if (neumann_ == Neumann::extrapolate)
+            if (rule_ == FreeFaceRule::extrapolate)
                 rows_[b].add_stencil(affine_[b], free);
             else
                 Row<Dim>::add(rows_[b].cells, cell, free);
@@ -111,7 +111,7 @@ private:
     /// Minimum of the cell's energy over what is free of its boundary faces:
     ///   N A N z = N (|f| t - A_interior u_g - A P u_D),  z = pinv(...) + the part of the affine extrapolation in the null
     /// space.
-    void balance(std::int32_t cell, const std::vector<std::int32_t>& boundary) {
+    void balance(std::int32_t cell, const std::vector<BoundaryFace>& boundary) {
         const auto n = static_cast<Eigen::Index>(boundary.size()) * Dim;
         const auto block = [](Eigen::MatrixXd& m, std::size_t i, std::size_t j) {
             return m.block<Dim, Dim>(static_cast<Eigen::Index>(i) * Dim, static_cast<Eigen::Index>(j) * Dim);
@@ -121,7 +121,7 @@ private:
         for (std::size_t i = 0; i < boundary.size(); ++i) {
             block(free, i, i) = Matrix<Dim>::Identity() - conditions_.prescribed[boundary[i]];
             for (std::size_t j = 0; j < boundary.size(); ++j)
-                block(a, i, j) = stiffness(cell, mesh_.boundary_faces[boundary[i]], mesh_.boundary_faces[boundary[j]]);
+                block(a, i, j) = stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j]));
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(free * a * free);
         Eigen::VectorXd inverse = eigen.eigenvalues();
@@ -135,14 +135,14 @@ private:
         for (std::size_t i = 0; i < boundary.size(); ++i) {
             Row<Dim>& row = rows_[boundary[i]];
             for (std::size_t j = 0; j < boundary.size(); ++j) {
-                const std::int32_t b = boundary[j];
-                const std::int32_t face = mesh_.boundary_faces[b];
+                const BoundaryFace b = boundary[j];
+                const std::int32_t face = mesh_face(mesh_, b);
                 const Matrix<Dim> answer = block(compliance, i, j);
                 Row<Dim>::add(row.displacement, b, block(from_prescribed, i, j) * conditions_.prescribed[b]);
                 Row<Dim>::add(row.traction, b, mesh_.face_measure[face] * answer);
                 if (!block(undetermined, i, j).isZero(1e-9)) row.add_stencil(affine_[b], block(undetermined, i, j));
                 for (const std::int32_t g : mesh_.cell_faces[cell])
-                    if (place_[g] < 0) row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
+                    if (index_[g] == no_face) row.add_stencil(interior_[g], -answer * stiffness(cell, face, g));
             }
         }
     }
@@ -178,10 +178,10 @@ private:
     std::span<const FaceStencil<Dim>> interior_;
     std::span<const Material> materials_;
     const FaceConditions<Dim>& conditions_;
-    Neumann neumann_;
-    std::vector<std::int32_t> place_;       // of a face among the boundary faces, -1 inside
-    std::vector<FaceStencil<Dim>> affine_;  // by boundary face, where wanted
-    std::vector<Row<Dim>> rows_;
+    FreeFaceRule rule_;
+    std::vector<BoundaryFace> index_;                  // by face; none inside
+    IdVector<BoundaryFace, FaceStencil<Dim>> affine_;  // where wanted
+    IdVector<BoundaryFace, Row<Dim>> rows_;
     StencilReport report_;
 };
 
@@ -198,15 +198,15 @@ Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const 
 template <int Dim>
 BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior,
                                                  std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-                                                 Neumann neumann) {
-    return Builder<Dim>(mesh, interior, materials, conditions, neumann).build();
+                                                 FreeFaceRule rule) {
+    return Builder<Dim>(mesh, interior, materials, conditions, rule).build();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                             \
     template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
     template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
         const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
-        Neumann);
+        FreeFaceRule);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

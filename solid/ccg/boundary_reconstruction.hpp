@@ -10,7 +10,7 @@
 
 namespace abut::solid {
 
-/// û = R u + B u_D + L t on the boundary faces, in the order of Mesh::boundary_faces. docs/method.md, Space.
+/// û = R u + B u_D + L t on the boundary faces. docs/method.md, Space.
 template <int Dim>
 struct BoundaryReconstruction {
     std::vector<std::int32_t> offsets{0};  ///< (n_boundary + 1)
@@ -18,7 +18,7 @@ struct BoundaryReconstruction {
     std::vector<Matrix<Dim>> weights;            ///< R; they sum to the identity where nothing is prescribed
     std::vector<Matrix<Dim>> deficit;            ///< identity less the sum of a row's weights (n_boundary)
     std::vector<std::int32_t> load_offsets{0};   ///< (n_boundary + 1)
-    std::vector<std::int32_t> load_faces;        ///< boundary faces whose u_D or t enters
+    std::vector<BoundaryFace> load_faces;        ///< boundary faces whose u_D or t enters
     std::vector<Matrix<Dim>> from_displacement;  ///< B
     std::vector<Matrix<Dim>> from_traction;      ///< L [m/Pa]
     StencilReport report;                        ///< of the affine extrapolations that were needed
@@ -31,9 +31,9 @@ template <int Dim>
 [[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh,
                                                                std::span<const FaceStencil<Dim>> interior,
                                                                std::span<const Material> materials,
-                                                               const FaceConditions<Dim>& conditions, Neumann neumann);
+                                                               const FaceConditions<Dim>& conditions, FreeFaceRule rule);
 
-/// A_fg of a cell: the answer of the energy's face force on f to a displacement of g, stabilisation left out; the area
+/// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const Vector<Dim>& area_f,

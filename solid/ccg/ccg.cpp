@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
@@ -20,7 +21,7 @@ std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const M
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
     if (materials.size() != n_bodies)
         throw BadInput(mesh.name + ": " + std::to_string(materials.size()) + " materials are given for " +
-                       std::to_string(n_bodies) + " bodies. Give one a body.");
+                       std::to_string(n_bodies) + " bodies. Give one per body.");
     for (std::size_t body = 0; body < n_bodies; ++body) check(materials[body], static_cast<int>(body));
     return materials;
 }
@@ -34,9 +35,9 @@ struct Ccg<Dim>::Impl {
     CcgArrays<Dim> arrays;
     CcgSweeps<Dim> sweeps;
     MotionBound<Dim> motion_bound;
-    std::vector<Vector<Dim>> boundary_centroid;
-    std::vector<double> boundary_measure;
-    std::vector<double> boundary_stiffness;
+    IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
+    IdVector<BoundaryFace, double> boundary_measure;
+    IdVector<BoundaryFace, double> boundary_stiffness;
     bool varies = false;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
@@ -48,7 +49,7 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
                      const BoundaryConditions<Dim>& boundary_conditions)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, checked(mesh, materials), face_conditions, conditions.neumann),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule),
       sweeps(arrays),
       motion_bound(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
@@ -95,9 +96,9 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
     if (m.conditions.dirichlet.empty() && m.conditions.traction.empty()) return load;
     const BoundaryReconstruction<Dim>& boundary = m.arrays.boundary;
     const auto n = static_cast<std::size_t>(boundary.size());
-    std::vector<Vector<Dim>> prescribed(n, Vector<Dim>::Zero());
-    std::vector<Vector<Dim>> traction(n, Vector<Dim>::Zero());
-    const auto value_at = [&](const auto& condition, double time, std::int32_t b) {
+    IdVector<BoundaryFace, Vector<Dim>> prescribed(n, Vector<Dim>::Zero());
+    IdVector<BoundaryFace, Vector<Dim>> traction(n, Vector<Dim>::Zero());
+    const auto value_at = [&](const auto& condition, double time, BoundaryFace b) {
         const Vector<Dim> value = condition.history ? condition.history(time, m.boundary_centroid[b]) : condition.value;
         if (!value.allFinite())
             throw BadInput("boundary condition on '" + condition.group + "': its value at t = " + number(time) +
@@ -108,13 +109,13 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
         for (const auto& [b, projector] : m.face_conditions.dirichlet[i])
             prescribed[b] += projector * value_at(m.conditions.dirichlet[i], displacement_time, b);
     for (std::size_t i = 0; i < m.conditions.traction.size(); ++i)
-        for (const std::int32_t b : m.face_conditions.traction[i])
+        for (const BoundaryFace b : m.face_conditions.traction[i])
             traction[b] += value_at(m.conditions.traction[i], traction_time, b);
 
     load.displacement.assign(n, Vector<Dim>::Zero());
     load.traction.assign(n, Vector<Dim>::Zero());
     for (std::size_t b = 0; b < n; ++b) {
-        load.traction[b] = m.boundary_measure[b] * traction[b];
+        load.traction[b] = m.boundary_measure[BoundaryFace(b)] * traction[BoundaryFace(b)];
         for (std::int32_t i = boundary.load_offsets[b]; i < boundary.load_offsets[b + 1]; ++i)
             load.displacement[b] += boundary.from_displacement[i] * prescribed[boundary.load_faces[i]] +
                                     boundary.from_traction[i] * traction[boundary.load_faces[i]];
@@ -130,15 +131,15 @@ BoundaryLoad<Dim> Ccg<Dim>::load_free() const {
 }
 
 template <int Dim>
-std::span<const Matrix<Dim>> Ccg<Dim>::prescribed() const {
-    return impl_->face_conditions.prescribed;
+IdSpan<BoundaryFace, const Matrix<Dim>> Ccg<Dim>::prescribed() const {
+    return IdSpan<BoundaryFace, const Matrix<Dim>>(std::as_const(impl_->face_conditions.prescribed).values());
 }
 
 template <int Dim>
 bool Ccg<Dim>::has_prescribed_face(std::int32_t cell) const {
-    return std::ranges::any_of(impl_->arrays.slots_of(cell), [&](const Slot& slot) {
-        const std::int32_t b = impl_->arrays.boundary_place[slot.face];
-        return b >= 0 && !impl_->face_conditions.prescribed[b].isZero(0.0);
+    return std::ranges::any_of(impl_->arrays.half_faces_of(cell), [&](const HalfFace& half_face) {
+        const BoundaryFace b = impl_->arrays.boundary_index[half_face.face];
+        return b != no_face && !impl_->face_conditions.prescribed[b].isZero(0.0);
     });
 }
 
@@ -155,8 +156,8 @@ void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>&
 }
 
 template <int Dim>
-Vector<Dim> Ccg<Dim>::boundary_force(std::int32_t boundary_face) const {
-    return impl_->sweeps.face_force(impl_->arrays.boundary_faces[boundary_face]);
+Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
+    return impl_->sweeps.face_gradient(impl_->arrays.face_of(face));
 }
 
 template <int Dim>
@@ -170,7 +171,7 @@ double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Di
 }
 
 template <int Dim>
-Region<Dim> Ccg<Dim>::region_of_faces(std::span<const std::int32_t> faces) const {
+Region<Dim> Ccg<Dim>::region_of_faces(std::span<const BoundaryFace> faces) const {
     return solid::region_of_faces(impl_->arrays, faces);
 }
 
@@ -183,8 +184,8 @@ Region<Dim> Ccg<Dim>::region_of_cells(std::span<const std::int32_t> cells) const
 
 template <int Dim>
 void Ccg<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                              std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force) {
-    impl_->sweeps.evaluate_faces(region, u, load, displacement, force);
+                              std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient) {
+    impl_->sweeps.evaluate_faces(region, u, load, displacement, gradient);
 }
 
 template <int Dim>
@@ -194,7 +195,7 @@ void Ccg<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<
 }
 
 template <int Dim>
-contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const std::int32_t> faces) const {
+contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const BoundaryFace> faces) const {
     return face_coupling(impl_->arrays, faces);
 }
 
@@ -235,15 +236,15 @@ std::span<const FaceStencil<Dim>> Ccg<Dim>::stencils() const {
 }
 
 template <int Dim>
-double Ccg<Dim>::normal_stiffness(std::int32_t boundary_face) const {
-    return impl_->boundary_stiffness[boundary_face];
+double Ccg<Dim>::normal_stiffness(BoundaryFace face) const {
+    return impl_->boundary_stiffness[face];
 }
 
 template <int Dim>
-std::span<const std::int32_t> Ccg<Dim>::cells_of(std::int32_t boundary_face) const {
+std::span<const std::int32_t> Ccg<Dim>::cells_of(BoundaryFace face) const {
     const BoundaryReconstruction<Dim>& boundary = impl_->arrays.boundary;
-    const std::int32_t begin = boundary.offsets[boundary_face];
-    return {boundary.cells.data() + begin, static_cast<std::size_t>(boundary.offsets[boundary_face + 1] - begin)};
+    const std::int32_t begin = boundary.offsets[number_of(face)];
+    return {boundary.cells.data() + begin, static_cast<std::size_t>(boundary.offsets[number_of(face) + 1] - begin)};
 }
 
 template class Ccg<2>;

@@ -20,24 +20,25 @@ struct BoundaryLoad {
 /// Changes of some boundary faces: what contact adds. Empty where there is no contact.
 template <int Dim>
 struct FaceCorrections {
-    std::span<const std::int32_t> faces;        ///< places in Mesh::boundary_faces, increasing (n)
-    std::span<const Vector<Dim>> displacement;  ///< delta_f = ũ_f - û_f (n) [m]
-    std::span<const Vector<Dim>> force;         ///< dV/dû_f of the pairs (n) [N]; may be empty
+    std::span<const BoundaryFace> faces;           ///< boundary faces, increasing (n)
+    std::span<const Vector<Dim>> displacement;     ///< delta_f = ũ_f - û_f (n) [m]
+    std::span<const Vector<Dim>> energy_gradient;  ///< dV/dû_f of the pairs (n) [N]; may be empty
 };
 
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
 template <int Dim>
 struct Region {
-    std::vector<std::int32_t> faces;         ///< boundary faces whose û and y are wanted, as places in Mesh::boundary_faces
-    std::vector<std::int32_t> cells;         ///< cells whose force is wanted, increasing
-    std::vector<std::int32_t> loaded_cells;  ///< all below: what is evaluated on the way, increasing
+    std::vector<BoundaryFace> faces;        ///< boundary faces whose û and y are wanted, increasing
+    std::vector<std::int32_t> cells;        ///< cells whose dV/du is wanted, increasing
+    std::vector<std::int32_t> input_cells;  ///< all below: what is evaluated in between, increasing
     std::vector<std::int32_t> reconstructed;
-    std::vector<std::int32_t> reconstructed_boundary;
-    std::vector<std::int32_t> gradient_cells;
+    std::vector<BoundaryFace> reconstructed_boundary;
+    std::vector<std::int32_t> displacement_gradient_cells;
     std::vector<std::int32_t> stress_cells;
-    std::vector<std::int32_t> force_faces;
+    std::vector<std::int32_t> energy_gradient_faces;
     struct Offsets {  // into the lists
-        std::int32_t face, cell, reconstructed, reconstructed_boundary, gradient_cell, stress_cell, force_face;
+        std::int32_t face, cell, reconstructed, reconstructed_boundary, displacement_gradient_cell, stress_cell,
+            energy_gradient_face;
     };
     /// Of `region_of_cells`: where each chunk of the mesh begins, one more at the end; two for a small region as a whole.
     std::vector<Offsets> chunks;
@@ -45,14 +46,14 @@ struct Region {
 
 /// Cell-centred Galerkin operators of a mesh, without a matrix. docs/method.md, Space.
 ///
-///     u_f by the stencils -> G_c and its traces I_c(x_f) -> S_c with the jumps k [u]_f -> face forces y_f -> dV/du_c
+///     u_f by the stencils -> G_c and its traces I_c(x_f) -> S_c with the jumps k [u]_f -> face gradients y_f -> dV/du_c
 ///
 /// Every result is a sum in a fixed order: the bits do not depend on the number of threads. Not safe to use from two
 /// threads at once: the work arrays are shared by all calls.
 template <int Dim>
 class Ccg {
 public:
-    /// One material a body. Throws BadInput for another number of them, and as `check(Material)`,
+    /// One material per body. Throws BadInput for another number of them, and as `check(Material)`,
     /// `sort_to_faces` and `select_stencils` do.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions);
     ~Ccg();
@@ -61,14 +62,15 @@ public:
 
     [[nodiscard]] std::int32_t n_cells() const;
     [[nodiscard]] std::int32_t n_boundary() const;
+    [[nodiscard]] auto boundary_faces() const { return all_ids<BoundaryFace>(n_boundary()); }
 
     /// u_D and t at their times, brought to the boundary faces; empty where no condition is given.
     [[nodiscard]] BoundaryLoad<Dim> load_at(double displacement_time, double traction_time) const;
     /// The same with u_D = 0 and t = 0.
     [[nodiscard]] BoundaryLoad<Dim> load_free() const;
     [[nodiscard]] bool load_varies() const;
-    /// Projectors onto the prescribed directions of the boundary faces (n_boundary).
-    [[nodiscard]] std::span<const Matrix<Dim>> prescribed() const;
+    /// Projectors onto the prescribed directions (n_boundary).
+    [[nodiscard]] IdSpan<BoundaryFace, const Matrix<Dim>> prescribed() const;
     /// Whether some face of the cell has a prescribed displacement.
     [[nodiscard]] bool has_prescribed_face(std::int32_t cell) const;
 
@@ -76,30 +78,30 @@ public:
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
 
-    /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the forces of `corrections` are taken along.
+    /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
-    /// y_f - |f| t_f + pair force of a boundary face [N], as of the last call of `gradient`; `evaluate_cells` since then has
+    /// y_f - |f| t_f and the pairs' part of dV/dû_f, of a boundary face [N], as of the last call of `gradient`; `evaluate_cells` since then has
     /// set those of its region.
-    [[nodiscard]] Vector<Dim> boundary_force(std::int32_t boundary_face) const;
+    [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;
 
     /// V(u, û + delta) less the work of tractions [J].
     [[nodiscard]] double potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                    const FaceCorrections<Dim>& corrections);
 
-    /// What `evaluate_faces` needs for these boundary faces (places in Mesh::boundary_faces).
-    [[nodiscard]] Region<Dim> region_of_faces(std::span<const std::int32_t> faces) const;
+    /// What `evaluate_faces` needs for these boundary faces.
+    [[nodiscard]] Region<Dim> region_of_faces(std::span<const BoundaryFace> faces) const;
     /// What `evaluate_cells` needs for these cells, increasing.
     [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
     /// û and y - |f| t of the region's faces, without contact.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                        std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force);
+                        std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
     /// dV/du_c of the region's cells, as `gradient` gives it.
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
-    /// Q_ff' among these boundary faces (places in Mesh::boundary_faces). docs/method.md, Time.
-    [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const std::int32_t> faces) const;
+    /// Q_ff' among these boundary faces. docs/method.md, Time.
+    [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const BoundaryFace> faces) const;
 
     /// How far a boundary face has moved at most from one state to another [m]; a close bound, much cheaper than the motion.
     [[nodiscard]] double motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
@@ -116,9 +118,9 @@ public:
     [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;
     [[nodiscard]] std::span<const FaceStencil<Dim>> stencils() const;  ///< by face; a boundary face has weight 0 throughout
     /// Normal stiffness (lambda + 2 mu) |f|/|c| of a boundary half-cell [Pa/m].
-    [[nodiscard]] double normal_stiffness(std::int32_t boundary_face) const;
+    [[nodiscard]] double normal_stiffness(BoundaryFace face) const;
     /// Cells on whose displacement û of this boundary face depends.
-    [[nodiscard]] std::span<const std::int32_t> cells_of(std::int32_t boundary_face) const;
+    [[nodiscard]] std::span<const std::int32_t> cells_of(BoundaryFace face) const;
 
 private:
     struct Impl;

@@ -38,7 +38,7 @@ struct Lanes {
 };
 
 template <int Dim>
-[[nodiscard]] inline Lanes<Dim> load(const Vector<Dim>& v) {
+[[nodiscard]] inline Lanes<Dim> load_packed(const Vector<Dim>& v) {
     if constexpr (Dim == 2)
         return {Register2{v[0], v[1]}};
     else
@@ -50,7 +50,7 @@ template <int Dim>
 inline constexpr std::size_t lane_width = Dim == 2 ? 2 : 4;
 
 template <int Dim>
-[[nodiscard]] inline Lanes<Dim> load(const std::vector<double>& packed, std::ptrdiff_t i) {
+[[nodiscard]] inline Lanes<Dim> load_packed(const std::vector<double>& packed, std::ptrdiff_t i) {
     Lanes<Dim> a;
     std::memcpy(&a.r, packed.data() + lane_width<Dim> * i, sizeof a.r);
     return a;
@@ -115,7 +115,7 @@ struct LaneTensor {
 template <int Dim>
 [[nodiscard]] inline LaneTensor<Dim> load_tensor(const std::vector<double>& packed, std::ptrdiff_t i) {
     LaneTensor<Dim> t;
-    for (int j = 0; j < Dim; ++j) t.col[j] = load<Dim>(packed, Dim * i + j);
+    for (int j = 0; j < Dim; ++j) t.col[j] = load_packed<Dim>(packed, Dim * i + j);
     return t;
 }
 
@@ -125,9 +125,9 @@ inline void store_tensor(const LaneTensor<Dim>& t, std::vector<double>& packed, 
 }
 
 template <int Dim>
-[[nodiscard]] inline LaneTensor<Dim> load(const Matrix<Dim>& m) {
+[[nodiscard]] inline LaneTensor<Dim> load_packed(const Matrix<Dim>& m) {
     LaneTensor<Dim> t;
-    for (int j = 0; j < Dim; ++j) t.col[j] = load<Dim>(Vector<Dim>(m.col(j)));
+    for (int j = 0; j < Dim; ++j) t.col[j] = load_packed<Dim>(Vector<Dim>(m.col(j)));
     return t;
 }
 

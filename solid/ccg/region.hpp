@@ -10,12 +10,12 @@ namespace abut::solid {
 
 /// See Ccg.
 template <int Dim>
-[[nodiscard]] Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> faces);
+[[nodiscard]] Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces);
 template <int Dim>
 [[nodiscard]] Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> cells);
 
-/// How face forces answer to face displacements: Q_ff' among these boundary faces. docs/method.md, Time.
+/// How face gradients answer to face displacements: Q_ff' among these boundary faces. docs/method.md, Time.
 template <int Dim>
-[[nodiscard]] contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> faces);
+[[nodiscard]] contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces);
 
 }  // namespace abut::solid

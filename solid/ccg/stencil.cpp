@@ -21,7 +21,7 @@ inline constexpr std::size_t n_nearest = Dim == 2 ? 10 : 14;
 inline constexpr double volume_floor = 0.05;  // of the volume of the face's first cell
 inline constexpr int max_floor_halvings = 20;
 inline constexpr double extrapolation_step = 1e-3;
-inline constexpr double resolution = 1e-6;  // relative: numbers nearer to each other are equal but for rounding
+inline constexpr double resolution = 1e-6;  // relative: numbers nearer to each other differ by rounding only
 
 /// Centroids of one body's cells (a contiguous range), as nanoflann wants them.
 template <int Dim>

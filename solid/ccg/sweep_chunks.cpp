@@ -23,15 +23,15 @@ template <int Dim>
 void CcgSweeps<Dim>::set_chunks() {
     const CcgArrays<Dim>& a = arrays_;
     const std::int32_t n_chunks = std::max(1, (a.n_cells() + chunk_size - 1) / chunk_size);
-    const auto place = [](const auto& sorted, std::int32_t value) {
+    const auto position = [](const auto& sorted, std::int32_t value) {
         return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
     };
     for (std::int32_t k = 0; k <= n_chunks; ++k) {
         const std::int32_t cell = std::min(k * chunk_size, a.n_cells());
-        const auto face = static_cast<std::int32_t>(
-            std::partition_point(a.sides.begin(), a.sides.end(), [&](const auto& side) { return side[0] < cell; }) -
-            a.sides.begin());
-        chunks_.push_back({cell, face, place(a.boundary_faces, face), place(a.boundary_cells, cell)});
+        const auto face = static_cast<std::int32_t>(std::partition_point(a.face_cells.begin(), a.face_cells.end(),
+                                                                         [&](const auto& side) { return side[0] < cell; }) -
+                                                    a.face_cells.begin());
+        chunks_.push_back({cell, face, BoundaryFace{position(a.boundary_faces, face)}, position(a.boundary_cells, cell)});
     }
 
     std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
@@ -40,17 +40,17 @@ void CcgSweeps<Dim>::set_chunks() {
         auto& row = needs[stage - 1][cell / chunk_size];
         if (const std::int32_t chunk = of_cell / chunk_size; row.empty() || row.back() != chunk) row.push_back(chunk);
     };
-    for (const auto& [first, second] : a.sides) {
-        need(gradients, second, first);  // a face's displacement is made with its first side
+    for (const auto& [first, second] : a.face_cells) {
+        need(displacement_gradients, second, first);  // a face's displacement is made with its first side
         need(stresses, first, second);
         need(stresses, second, first);
-        need(face_forces, first, second);
+        need(face_gradients, first, second);
     }
     for (std::int32_t c = 0; c < a.n_cells(); ++c) {
-        for (const Stage stage : {gradients, stresses, face_forces, cell_gradients}) need(stage, c, c);
+        for (const Stage stage : {displacement_gradients, stresses, face_gradients, cell_gradients}) need(stage, c, c);
         for (std::int32_t i = a.of_cell.offsets[c]; i < a.of_cell.offsets[c + 1]; ++i)
-            need(cell_gradients, c, a.sides[a.of_cell.rows[i]][0]);
-        if (const std::int32_t p = a.boundary_cell_place[c]; p >= 0)
+            need(cell_gradients, c, a.face_cells[a.of_cell.rows[i]][0]);
+        if (const std::int32_t p = a.boundary_cell_position[c]; p >= 0)
             for (std::int32_t i = a.of_boundary_cell.offsets[p]; i < a.of_boundary_cell.offsets[p + 1]; ++i)
                 need(cell_gradients, c, a.cell_of(a.of_boundary_cell.rows[i]));
     }
@@ -66,20 +66,20 @@ void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
         const auto n = [](const auto& list) { return static_cast<std::int32_t>(list.size()); };
         region.chunks = {{},
                          {n(region.faces), n(region.cells), n(region.reconstructed), n(region.reconstructed_boundary),
-                          n(region.gradient_cells), n(region.stress_cells), n(region.force_faces)}};
+                          n(region.displacement_gradient_cells), n(region.stress_cells), n(region.energy_gradient_faces)}};
         return;
     }
     for (const Chunk& chunk : chunks_) {
-        const auto place = [](const std::vector<std::int32_t>& list, std::int32_t first) {
+        const auto position = [](const auto& list, auto first) {
             return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
         };
-        region.chunks.push_back({.face = place(region.faces, chunk.boundary),
-                                 .cell = place(region.cells, chunk.cell),
-                                 .reconstructed = place(region.reconstructed, chunk.face),
-                                 .reconstructed_boundary = place(region.reconstructed_boundary, chunk.boundary),
-                                 .gradient_cell = place(region.gradient_cells, chunk.cell),
-                                 .stress_cell = place(region.stress_cells, chunk.cell),
-                                 .force_face = place(region.force_faces, chunk.face)});
+        region.chunks.push_back({.face = position(region.faces, chunk.boundary),
+                                 .cell = position(region.cells, chunk.cell),
+                                 .reconstructed = position(region.reconstructed, chunk.face),
+                                 .reconstructed_boundary = position(region.reconstructed_boundary, chunk.boundary),
+                                 .displacement_gradient_cell = position(region.displacement_gradient_cells, chunk.cell),
+                                 .stress_cell = position(region.stress_cells, chunk.cell),
+                                 .energy_gradient_face = position(region.energy_gradient_faces, chunk.face)});
     }
 }
 

@@ -10,20 +10,20 @@ namespace {
 /// Elements of a region that are worth a task of their own.
 inline constexpr std::ptrdiff_t region_grain = 256;
 
-template <class Body>
-void for_all(const std::vector<std::int32_t>& list, const Body& body) {
+template <class Id, class Body>
+void for_all(const std::vector<Id>& list, const Body& body) {
     parallel_each(
         static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
 }
 
 template <int Dim>
-LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<Dim>& gradient) {
-    const LaneTensor<Dim> transposed = gradient.transposed();
+LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<Dim>& g) {
+    const LaneTensor<Dim> transposed = g.transposed();
     double trace = 0.0;
-    for (int j = 0; j < Dim; ++j) trace += gradient.col[j][j];
+    for (int j = 0; j < Dim; ++j) trace += g.col[j][j];
     LaneTensor<Dim> sigma;
     for (int j = 0; j < Dim; ++j) {
-        sigma.col[j] = cell.mu * (gradient.col[j] + transposed.col[j]);
+        sigma.col[j] = cell.mu * (g.col[j] + transposed.col[j]);
         sigma.col[j].r[j] += cell.lambda * trace;
     }
     return sigma;
@@ -38,52 +38,53 @@ LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<D
 template <int Dim>
 [[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(std::ptrdiff_t f) const {
     const FaceStencil<Dim>& stencil = arrays_.stencils[f];
-    const Lanes<Dim> origin = displacement(arrays_.sides[f][0]);
+    const Lanes<Dim> origin = displacement(arrays_.face_cells[f][0]);
     Lanes<Dim> sum;
     for (int j = 0; j <= Dim; ++j) sum += stencil.weights[j] * (displacement(stencil.cells[j]) - origin);
     return sum;
 }
 
 template <int Dim>
-Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
+Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
     const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
-    const Lanes<Dim> origin = displacement(arrays_.cell_of(static_cast<std::int32_t>(b)));
+    const Lanes<Dim> origin = displacement(arrays_.cell_of(face));
+    const std::int32_t b = number_of(face);
     Lanes<Dim> sum;
     for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
         sum += arrays_.boundary_weights[i] * (displacement(boundary.cells[i]) - origin);
-    sum += load<Dim>(correction_, b);
+    sum += load_packed<Dim>(correction_, b);
     if (boundary_load.displacement.empty()) return sum;
-    return sum + load<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
+    return sum + load_packed<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
 }
 
 template <int Dim>
-[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_gradient(std::ptrdiff_t c) {
+[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_displacement_gradient(std::ptrdiff_t c) {
     const Lanes<Dim> u_c = displacement(c);
-    const std::int32_t begin = arrays_.slot_offsets[c];
-    const std::int32_t end = arrays_.slot_offsets[c + 1];
-    LaneTensor<Dim> gradient{};
+    const std::int32_t begin = arrays_.half_face_offsets[c];
+    const std::int32_t end = arrays_.half_face_offsets[c + 1];
+    LaneTensor<Dim> g{};
     for (std::int32_t i = begin; i < end; ++i) {
-        const Slot& slot = arrays_.slots[i];
-        const double sign = slot.first == c ? 1.0 : -1.0;
-        gradient.add_outer(sign * (load<Dim>(relative_, slot.face) + (displacement(slot.first) - u_c)),
-                           arrays_.faces[slot.face].area_vector);
+        const HalfFace& half_face = arrays_.half_faces[i];
+        const double sign = half_face.first == c ? 1.0 : -1.0;
+        g.add_outer(sign * (load_packed<Dim>(relative_, half_face.face) + (displacement(half_face.first) - u_c)),
+                    arrays_.faces[half_face.face].area_vector);
     }
-    for (Lanes<Dim>& column : gradient.col) column = arrays_.cells[c].inverse_measure * column;
-    store_tensor(gradient, g_, c);
+    for (Lanes<Dim>& column : g.col) column = arrays_.cells[c].inverse_measure * column;
+    store_tensor(g, g_, c);
     for (std::int32_t i = begin; i < end; ++i)
-        store(gradient.times(arrays_.arms[i]) + (u_c - displacement(arrays_.slots[i].first)), trace_, i);
+        store(g.times(arrays_.lever_arms[i]) + (u_c - displacement(arrays_.half_faces[i].first)), trace_, i);
 }
 
 template <int Dim>
 [[gnu::always_inline]] inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
     LaneTensor<Dim> sum{};
     Lanes<Dim> direct;
-    for (std::int32_t i = arrays_.slot_offsets[c]; i < arrays_.slot_offsets[c + 1]; ++i) {
-        const Slot& slot = arrays_.slots[i];
-        const Lanes<Dim> force =
-            arrays_.faces[slot.face].jump_stiffness * (load<Dim>(trace_, i) - load<Dim>(trace_, slot.opposite));
-        sum.add_outer(force, arrays_.arms[i]);
-        direct += force;
+    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
+        const HalfFace& half_face = arrays_.half_faces[i];
+        const Lanes<Dim> jump_gradient = arrays_.faces[half_face.face].jump_stiffness *
+                                         (load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin));
+        sum.add_outer(jump_gradient, arrays_.lever_arms[i]);
+        direct += jump_gradient;
     }
     const CellGeometry<Dim>& cell = arrays_.cells[c];
     const LaneTensor<Dim> sigma = elastic_stress(cell, load_tensor<Dim>(g_, c));
@@ -93,8 +94,8 @@ template <int Dim>
 }
 
 template <int Dim>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::interior_force(std::ptrdiff_t f) const {
-    const auto [a, b] = arrays_.sides[f];
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::interior_gradient(std::ptrdiff_t f) const {
+    const auto [a, b] = arrays_.face_cells[f];
     LaneTensor<Dim> difference = load_tensor<Dim>(s_, a);
     const LaneTensor<Dim> other = load_tensor<Dim>(s_, b);
     for (int j = 0; j < Dim; ++j) difference.col[j] -= other.col[j];
@@ -102,27 +103,27 @@ template <int Dim>
 }
 
 template <int Dim>
-Lanes<Dim> CcgSweeps<Dim>::boundary_force(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const {
-    const std::int32_t f = arrays_.boundary_faces[b];
-    const Lanes<Dim> force =
-        load_tensor<Dim>(s_, arrays_.sides[f][0]).times(arrays_.faces[f].area_vector) + load<Dim>(pair_force_, b);
-    return boundary_load.traction.empty() ? force : force - load<Dim>(boundary_load.traction[b]);
+Lanes<Dim> CcgSweeps<Dim>::boundary_gradient(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
+    const std::int32_t f = arrays_.face_of(face), b = number_of(face);
+    const Lanes<Dim> gradient = load_tensor<Dim>(s_, arrays_.face_cells[f][0]).times(arrays_.faces[f].area_vector) +
+                                load_packed<Dim>(pair_gradient_, b);
+    return boundary_load.traction.empty() ? gradient : gradient - load_packed<Dim>(boundary_load.traction[b]);
 }
 
 template <int Dim>
 [[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::cell_gradient(std::ptrdiff_t c) const {
     const auto& [offsets, rows, weights] = arrays_.of_cell;
-    Lanes<Dim> sum = load<Dim>(direct_, c);
-    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i) sum += weights[i] * load<Dim>(y_, rows[i]);
+    Lanes<Dim> sum = load_packed<Dim>(direct_, c);
+    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i) sum += weights[i] * load_packed<Dim>(y_, rows[i]);
     return sum;
 }
 
 template <int Dim>
-Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t place) const {
+Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t position) const {
     const auto& [offsets, rows, weights] = arrays_.of_boundary_cell;
     Lanes<Dim> sum;
-    for (std::int32_t i = offsets[place]; i < offsets[place + 1]; ++i)
-        sum += weights[i] * load<Dim>(y_, arrays_.boundary_faces[rows[i]]);
+    for (std::int32_t i = offsets[position]; i < offsets[position + 1]; ++i)
+        sum += weights[i] * load_packed<Dim>(y_, arrays_.face_of(rows[i]));
     return sum;
 }
 
@@ -130,16 +131,16 @@ Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t place) const {
 template <int Dim>
 double CcgSweeps<Dim>::energy(std::ptrdiff_t c) const {
     const CellGeometry<Dim>& cell = arrays_.cells[c];
-    const LaneTensor<Dim> gradient = load_tensor<Dim>(g_, c);
-    const LaneTensor<Dim> sigma = elastic_stress(cell, gradient);
+    const LaneTensor<Dim> g = load_tensor<Dim>(g_, c);
+    const LaneTensor<Dim> sigma = elastic_stress(cell, g);
     double density = 0.0;
-    for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], gradient.col[j]);
+    for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], g.col[j]);
     double twice = density / cell.inverse_measure;
-    for (std::int32_t i = arrays_.slot_offsets[c]; i < arrays_.slot_offsets[c + 1]; ++i) {
-        const Slot& slot = arrays_.slots[i];
-        if (slot.first != c) continue;
-        const Lanes<Dim> jump = load<Dim>(trace_, i) - load<Dim>(trace_, slot.opposite);
-        twice += arrays_.faces[slot.face].jump_stiffness * dot(jump, jump);
+    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
+        const HalfFace& half_face = arrays_.half_faces[i];
+        if (half_face.first != c) continue;
+        const Lanes<Dim> jump = load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin);
+        twice += arrays_.faces[half_face.face].jump_stiffness * dot(jump, jump);
     }
     return 0.5 * twice;
 }
@@ -153,19 +154,19 @@ Matrix<Dim> CcgSweeps<Dim>::stress(std::int32_t c) const {
 
 template <int Dim>
 void CcgSweeps<Dim>::load_displacement(std::span<const Vector<Dim>> u) {
-    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load<Dim>(u[c]), u_, c); });
+    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), u_, c); });
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
     for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(reconstructed(f), relative_, f);
-    for (std::int32_t b = chunks_[k].boundary; b < chunks_[k + 1].boundary; ++b)
-        store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+    for (const BoundaryFace b : boundary_of_chunk(k))
+        store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b));
 }
 
 template <int Dim>
-void CcgSweeps<Dim>::gradients_of_chunk(std::int32_t k) {
-    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_gradient(c);
+void CcgSweeps<Dim>::displacement_gradients_of_chunk(std::int32_t k) {
+    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_displacement_gradient(c);
 }
 
 template <int Dim>
@@ -174,17 +175,16 @@ void CcgSweeps<Dim>::stresses_of_chunk(std::int32_t k) {
 }
 
 template <int Dim>
-void CcgSweeps<Dim>::face_forces_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
-    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(interior_force(f), y_, f);
-    for (std::int32_t b = chunks_[k].boundary; b < chunks_[k + 1].boundary; ++b)
-        store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]);
+void CcgSweeps<Dim>::face_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
+    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(interior_gradient(f), y_, f);
+    for (const BoundaryFace b : boundary_of_chunk(k)) store(boundary_gradient(b, boundary_load), y_, arrays_.face_of(b));
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const {
     for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) result[c] = unload<Dim>(cell_gradient(c));
-    for (std::int32_t place = chunks_[k].boundary_cell; place < chunks_[k + 1].boundary_cell; ++place)
-        result[arrays_.boundary_cells[place]] += unload<Dim>(boundary_cell_gradient(place));
+    for (std::int32_t position = chunks_[k].boundary_cell; position < chunks_[k + 1].boundary_cell; ++position)
+        result[arrays_.boundary_cells[position]] += unload<Dim>(boundary_cell_gradient(position));
 }
 
 // Whole meshes -------------------------------------------------------------------------------------------------------
@@ -196,14 +196,16 @@ public:
     PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
         : sweeps_(sweeps), corrections_(corrections) {
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
-            store(load<Dim>(corrections.displacement[i]), sweeps.correction_, corrections.faces[i]);
-            if (!corrections.force.empty()) store(load<Dim>(corrections.force[i]), sweeps.pair_force_, corrections.faces[i]);
+            const std::int32_t b = number_of(corrections.faces[i]);
+            store(load_packed<Dim>(corrections.displacement[i]), sweeps.correction_, b);
+            if (!corrections.energy_gradient.empty())
+                store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, b);
         }
     }
     ~PlacedCorrections() {
-        for (const std::int32_t b : corrections_.faces) {
-            store(Lanes<Dim>{}, sweeps_.correction_, b);
-            store(Lanes<Dim>{}, sweeps_.pair_force_, b);
+        for (const BoundaryFace face : corrections_.faces) {
+            store(Lanes<Dim>{}, sweeps_.correction_, number_of(face));
+            store(Lanes<Dim>{}, sweeps_.pair_gradient_, number_of(face));
         }
     }
     PlacedCorrections(const PlacedCorrections&) = delete;
@@ -220,12 +222,12 @@ CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays) : arrays_(arrays) {
     u_.resize(width * arrays.cells.size());
     relative_.resize(width * arrays.faces.size());
     g_.resize(width * Dim * arrays.cells.size());
-    trace_.resize(width * arrays.slots.size());
+    trace_.resize(width * arrays.half_faces.size());
     s_.resize(width * Dim * arrays.cells.size());
     direct_.resize(width * arrays.cells.size());
     y_.resize(width * arrays.faces.size());
     correction_.resize(width * arrays.boundary_faces.size());
-    pair_force_.resize(width * arrays.boundary_faces.size());
+    pair_gradient_.resize(width * arrays.boundary_faces.size());
     set_chunks();
 }
 
@@ -238,12 +240,12 @@ void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad
         switch (stage) {
             case reconstruction:
                 return reconstruct_chunk(chunk, load);
-            case gradients:
-                return gradients_of_chunk(chunk);
+            case displacement_gradients:
+                return displacement_gradients_of_chunk(chunk);
             case stresses:
                 return stresses_of_chunk(chunk);
-            case face_forces:
-                return face_forces_of_chunk(chunk, load);
+            case face_gradients:
+                return face_gradients_of_chunk(chunk, load);
             default:
                 return cell_gradients_of_chunk(chunk, result);
         }
@@ -257,7 +259,7 @@ double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const Bound
     load_displacement(u);
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
     oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
-    oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { gradients_of_chunk(k); });
+    oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k); });
     return ordered_sum(arrays_.n_cells(), 0.0, [&](std::ptrdiff_t c) { return energy(c); });
 }
 
@@ -266,7 +268,8 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
                                            std::span<Vector<Dim>> displacement) {
     load_displacement(u);
     parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
-        displacement[b] = u[arrays_.cell_of(static_cast<std::int32_t>(b))] + unload<Dim>(reconstructed_boundary(b, load));
+        const auto face = static_cast<BoundaryFace>(b);
+        displacement[b] = u[arrays_.cell_of(face)] + unload<Dim>(reconstructed_boundary(face, load));
     });
 }
 
@@ -275,22 +278,22 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
 template <int Dim>
 void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                         const BoundaryLoad<Dim>& boundary_load) {
-    for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
+    for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
     for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
     for_all(region.reconstructed_boundary,
-            [&](std::int32_t b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]); });
-    for_all(region.gradient_cells, [&](std::int32_t c) { set_gradient(c); });
+            [&](BoundaryFace b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b)); });
+    for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_displacement_gradient(c); });
     for_all(region.stress_cells, [&](std::int32_t c) { set_stress(c); });
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                     const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
-                                    std::span<Vector<Dim>> force) {
+                                    std::span<Vector<Dim>> gradient) {
     evaluate_to_stress(region, u, boundary_load);
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
-        displacement[i] = face_displacement(arrays_.boundary_faces[region.faces[i]]);
-        force[i] = unload<Dim>(boundary_force(region.faces[i], boundary_load));
+        displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
+        gradient[i] = unload<Dim>(boundary_gradient(region.faces[i], boundary_load));
     }
 }
 
@@ -299,7 +302,7 @@ void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const V
                                     const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
                                     std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
-    for_all(region.loaded_cells, [&](std::int32_t c) { store(load<Dim>(u[c]), u_, c); });
+    for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
     const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); };
     if (region.chunks.size() == chunks_.size()) return schedule_.run(task);
     for (int stage = 0; stage < n_stages; ++stage) task(stage, 0);
@@ -309,30 +312,32 @@ template <int Dim>
 void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
                               std::span<Vector<Dim>> result) {
     using Offsets = typename Region<Dim>::Offsets;
-    const auto each = [&](const std::vector<std::int32_t>& list, std::int32_t Offsets::*of, const auto& body) {
+    const auto each = [&](const auto& list, std::int32_t Offsets::*of, const auto& body) {
         for (std::int32_t i = region.chunks[k].*of; i < region.chunks[k + 1].*of; ++i) body(list[i]);
     };
     switch (stage) {
         case reconstruction:
             each(region.reconstructed, &Offsets::reconstructed,
                  [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
-            return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](std::int32_t b) {
-                store(reconstructed_boundary(b, boundary_load), relative_, arrays_.boundary_faces[b]);
+            return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](BoundaryFace b) {
+                store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b));
             });
-        case gradients:
-            return each(region.gradient_cells, &Offsets::gradient_cell, [&](std::int32_t c) { set_gradient(c); });
+        case displacement_gradients:
+            return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell,
+                        [&](std::int32_t c) { set_displacement_gradient(c); });
         case stresses:
             return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) { set_stress(c); });
-        case face_forces:
-            each(region.force_faces, &Offsets::force_face, [&](std::int32_t f) { store(interior_force(f), y_, f); });
+        case face_gradients:
+            each(region.energy_gradient_faces, &Offsets::energy_gradient_face,
+                 [&](std::int32_t f) { store(interior_gradient(f), y_, f); });
             return each(region.faces, &Offsets::face,
-                        [&](std::int32_t b) { store(boundary_force(b, boundary_load), y_, arrays_.boundary_faces[b]); });
+                        [&](BoundaryFace b) { store(boundary_gradient(b, boundary_load), y_, arrays_.face_of(b)); });
         default:
             for (std::int32_t i = region.chunks[k].cell; i < region.chunks[k + 1].cell; ++i) {
                 const std::int32_t c = region.cells[i];
                 Lanes<Dim> sum = cell_gradient(c);
-                if (const std::int32_t place = arrays_.boundary_cell_place[c]; place >= 0)
-                    sum += boundary_cell_gradient(place);
+                if (const std::int32_t position = arrays_.boundary_cell_position[c]; position >= 0)
+                    sum += boundary_cell_gradient(position);
                 result[i] = unload<Dim>(sum);
             }
     }

@@ -38,44 +38,49 @@ public:
     /// Sets Region::chunks, which `evaluate_cells` needs.
     void divide_into_chunks(Region<Dim>& region) const;
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                        std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> force);
+                        std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
     // Of the last call.
     [[nodiscard]] Vector<Dim> face_displacement(std::int32_t f) const {
-        return unload<Dim>(load<Dim>(relative_, f) + load<Dim>(u_, arrays_.sides[f][0]));
+        return unload<Dim>(load_packed<Dim>(relative_, f) + load_packed<Dim>(u_, arrays_.face_cells[f][0]));
     }
-    [[nodiscard]] Vector<Dim> face_force(std::int32_t f) const { return unload<Dim>(load<Dim>(y_, f)); }
+    [[nodiscard]] Vector<Dim> face_gradient(std::int32_t f) const { return unload<Dim>(load_packed<Dim>(y_, f)); }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(load_tensor<Dim>(g_, c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
 
 private:
     class PlacedCorrections;
-    enum Stage { reconstruction, gradients, stresses, face_forces, cell_gradients, n_stages };
+    enum Stage { reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
     struct Chunk {  // where it begins among the cells, faces, boundary faces and boundary_cells
-        std::int32_t cell, face, boundary, boundary_cell;
+        std::int32_t cell, face;
+        BoundaryFace boundary;
+        std::int32_t boundary_cell;
     };
 
     // One element
-    [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load<Dim>(u_, c); }
+    [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load_packed<Dim>(u_, c); }
     [[nodiscard]] Lanes<Dim> reconstructed(std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> reconstructed_boundary(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const;
-    void set_gradient(std::ptrdiff_t c);
+    [[nodiscard]] Lanes<Dim> reconstructed_boundary(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
+    void set_displacement_gradient(std::ptrdiff_t c);
     void set_stress(std::ptrdiff_t c);
-    [[nodiscard]] Lanes<Dim> interior_force(std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> boundary_force(std::ptrdiff_t b, const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] Lanes<Dim> interior_gradient(std::ptrdiff_t f) const;
+    [[nodiscard]] Lanes<Dim> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
-    [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t place) const;
+    [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
 
     // One chunk
     void set_chunks();
+    [[nodiscard]] auto boundary_of_chunk(std::int32_t k) const {
+        return id_range(chunks_[k].boundary, chunks_[k + 1].boundary);
+    }
     void load_displacement(std::span<const Vector<Dim>> u);
     void reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
-    void gradients_of_chunk(std::int32_t k);
+    void displacement_gradients_of_chunk(std::int32_t k);
     void stresses_of_chunk(std::int32_t k);
-    void face_forces_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
+    void face_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
 
     // A part of the mesh
@@ -86,16 +91,16 @@ private:
 
     const CcgArrays<Dim>& arrays_;
     // Work arrays of registers.
-    std::vector<double> u_;           // displacement, by cell
-    std::vector<double> relative_;    // u_f - u_c of the first side, by face
-    std::vector<double> g_;           // displacement gradient, by cell
-    std::vector<double> trace_;       // I_c(x_f) - u_c of the first side, by slot
-    std::vector<double> s_;           // S_c, by cell
-    std::vector<double> direct_;      // sum of k [u], by cell
-    std::vector<double> y_;           // face forces, by face
-    std::vector<double> correction_;  // delta_f, by boundary face; zero but during a call
-    std::vector<double> pair_force_;  // by boundary face; zero but during a call
-    std::vector<Chunk> chunks_;       // one more at the end
+    std::vector<double> u_;              // displacement, by cell
+    std::vector<double> relative_;       // u_f - u_c of the first side, by face
+    std::vector<double> g_;              // displacement gradient, by cell
+    std::vector<double> trace_;          // I_c(x_f) - u_c of the first side, by half-face
+    std::vector<double> s_;              // S_c, by cell
+    std::vector<double> direct_;         // sum of k [u], by cell
+    std::vector<double> y_;              // dV/dũ_f, by face
+    std::vector<double> correction_;     // delta_f, by boundary face; zero but during a call
+    std::vector<double> pair_gradient_;  // by boundary face; zero but during a call
+    std::vector<Chunk> chunks_;          // one more at the end
     SweepSchedule<n_stages> schedule_;
 };
 

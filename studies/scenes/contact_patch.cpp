@@ -66,7 +66,7 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
     solid.boundary.dirichlet.push_back({.group = "lower." + bottom, .constraint = solid::Constraint::normal});
     const double p = options.strain * solid.materials[0].wave_modulus();
     solid.boundary.traction = {{.group = "upper." + top, .value = -p * Vector<Dim>::Unit(Dim - 1)}};
-    solid.boundary.neumann = options.neumann;
+    solid.boundary.free_face_rule = options.neumann;
     solid.contact = options.contact;
     return solid;
 }

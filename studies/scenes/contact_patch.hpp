@@ -24,7 +24,7 @@ struct PatchOptions {
     /// faces at the edges change as the blocks slide
     double strain = 1e-9;
     contact::ContactOptions contact;
-    solid::Neumann neumann = solid::Neumann::local_equilibrium;
+    solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
 };
 
 /// Largest errors of all cells and contact faces [-].

@@ -115,7 +115,7 @@ solid::SolidOptions<Dim> solid_options(const HertzOptions& options, const mesh::
     const double density = solid.materials.front().density;
     solid.acceleration.assign(solid.materials.size(), Vector<Dim>::Zero());
     solid.acceleration.front() = -options.load / (density * volume(mesh)) * up<Dim>();
-    solid.boundary.neumann = options.neumann;
+    solid.boundary.free_face_rule = options.neumann;
     solid.contact = options.contact;
     return solid;
 }

@@ -41,10 +41,10 @@ Vector<Dim> side_normal(std::size_t side) {
 }
 
 template <int Dim>
-solid::SolidOptions<Dim> patch(const AffineField<Dim>& field, PatchBoundary boundary, solid::Neumann neumann) {
+solid::SolidOptions<Dim> patch(const AffineField<Dim>& field, PatchBoundary boundary, solid::FreeFaceRule neumann) {
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 70e3, .poisson = 0.3}};
-    options.boundary.neumann = neumann;
+    options.boundary.free_face_rule = neumann;
     options.boundary.dirichlet = whole_boundary<Dim>([field](double, const Vector<Dim>& x) { return field(x); });
     if (boundary == PatchBoundary::displacement) return options;
     options.boundary.dirichlet.resize(2);
@@ -73,7 +73,7 @@ PatchErrors errors(const AffineField<Dim>& field, solid::Solid<Dim>& solid, std:
 }  // namespace
 
 template <int Dim>
-PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::Neumann neumann) {
+PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann) {
     const AffineField<Dim> field;
     solid::Solid<Dim> solid(box, patch(field, boundary, neumann));
     const auto solution = solid::solve_statics(solid, std::vector<double>(solid.size(), 0.0),
@@ -84,10 +84,10 @@ PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid
 }
 
 template <int Dim>
-ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::Neumann neumann) {
+ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann) {
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 1.0, .poisson = 0.3}};
-    options.boundary.neumann = neumann;
+    options.boundary.free_face_rule = neumann;
     solid::Solid<Dim> solid(mesh, options);
     const Eigen::MatrixXd k = dense_stiffness(solid);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (k + k.transpose()), Eigen::EigenvaluesOnly);
@@ -103,9 +103,9 @@ ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::Neumann neumann) {
             .next = *next / highest};
 }
 
-template PatchErrors patch_test(const mesh::Mesh<2>&, PatchBoundary, solid::Neumann);
-template PatchErrors patch_test(const mesh::Mesh<3>&, PatchBoundary, solid::Neumann);
-template ZeroModes zero_modes(const mesh::Mesh<2>&, solid::Neumann);
-template ZeroModes zero_modes(const mesh::Mesh<3>&, solid::Neumann);
+template PatchErrors patch_test(const mesh::Mesh<2>&, PatchBoundary, solid::FreeFaceRule);
+template PatchErrors patch_test(const mesh::Mesh<3>&, PatchBoundary, solid::FreeFaceRule);
+template ZeroModes zero_modes(const mesh::Mesh<2>&, solid::FreeFaceRule);
+template ZeroModes zero_modes(const mesh::Mesh<3>&, solid::FreeFaceRule);
 
 }  // namespace abut::examples

@@ -22,7 +22,7 @@ struct PatchErrors {
 /// A box under the boundary conditions of a displacement A x + b, A without symmetry, E = 70e3, nu = 0.3; solved from
 /// u = 0 as far as rounding allows. Throws as solid::solve_statics.
 template <int Dim>
-[[nodiscard]] PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::Neumann neumann);
+[[nodiscard]] PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
 
 /// Eigenvalues of the stiffness K of a free body.
 struct ZeroModes {
@@ -34,6 +34,6 @@ struct ZeroModes {
 /// From a dense matrix: for small meshes, up to some thousand unknowns. Throws std::runtime_error where the decomposition
 /// fails.
 template <int Dim>
-[[nodiscard]] ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::Neumann neumann);
+[[nodiscard]] ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann);
 
 }  // namespace abut::examples

@@ -18,7 +18,7 @@
 namespace abut::examples {
 namespace {
 
-using solid::Neumann;
+using solid::FreeFaceRule;
 
 const Program program{.name = "bulk_patch",
                       .purpose = "Affine displacements and rigid motions: patch test and zero modes on all kinds of mesh.",
@@ -27,9 +27,9 @@ const Program program{.name = "bulk_patch",
 constexpr double allowed_error = 1e-12;
 constexpr double allowed_zero = 1e-8;  // the largest zero over the next eigenvalue
 
-const Choices<Neumann> neumann_choices = {{"local_equilibrium", Neumann::local_equilibrium},
-                                          {"extrapolate", Neumann::extrapolate},
-                                          {"adjacent", Neumann::adjacent}};
+const Choices<FreeFaceRule> neumann_choices = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
+                                          {"extrapolate", FreeFaceRule::extrapolate},
+                                          {"adjacent", FreeFaceRule::adjacent}};
 
 struct PatchOptions {
     int cells = 5;
@@ -52,8 +52,8 @@ mesh::Mesh<Dim> box(BoxCells cells, int along_edge) {
     return box_of<Dim>(cells, Vector<Dim>::Constant(-0.3), upper, 1.1 / along_edge);
 }
 
-double target(Neumann neumann, double allowed) {
-    return neumann == Neumann::local_equilibrium ? allowed : std::numeric_limits<double>::infinity();
+double target(FreeFaceRule neumann, double allowed) {
+    return neumann == FreeFaceRule::local_equilibrium ? allowed : std::numeric_limits<double>::infinity();
 }
 
 /// A relative error, which should be 0.
@@ -62,7 +62,7 @@ Quantity error_of(const std::string& name, double value, double allowed) {
 }
 
 template <int Dim>
-void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name, Neumann neumann,
+void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name, FreeFaceRule neumann,
                double allowed) {
     const PatchErrors errors = patch_test(mesh, boundary, neumann);
     level.quantities.push_back(error_of("displacement, " + name, errors.displacement, allowed));
@@ -70,7 +70,7 @@ void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary
 }
 
 template <int Dim>
-void add_modes(Level& level, const mesh::Mesh<Dim>& mesh, const std::string& name, Neumann neumann) {
+void add_modes(Level& level, const mesh::Mesh<Dim>& mesh, const std::string& name, FreeFaceRule neumann) {
     const double exact = Dim == 2 ? 3 : 6;
     const ZeroModes modes = zero_modes(mesh, neumann);
     const auto count = static_cast<double>(modes.count);
@@ -86,7 +86,7 @@ Level level(const PatchOptions& options, BoxCells cells) {
     const Stopwatch watch(result.seconds);
     const auto patch = box<Dim>(cells, options.cells), free_body = box<Dim>(cells, options.mode_cells);
     result.name = fmt::format("{}D, {} {}; modes of {}", Dim, patch.n_cells(), name_of(cells), free_body.n_cells());
-    add_patch(result, patch, PatchBoundary::displacement, "imposed", Neumann::local_equilibrium, allowed_error);
+    add_patch(result, patch, PatchBoundary::displacement, "imposed", FreeFaceRule::local_equilibrium, allowed_error);
     for (const auto& [name, neumann] : neumann_choices)
         add_patch(result, patch, PatchBoundary::mixed, name, neumann, target(neumann, allowed_error));
     for (const auto& [name, neumann] : neumann_choices) add_modes(result, free_body, name, neumann);

@@ -31,9 +31,9 @@ struct Options {
 const Choices<PatchMesh> meshes = {
     {"matching", PatchMesh::matching}, {"non-matching", PatchMesh::non_matching}, {"unstructured", PatchMesh::unstructured}};
 const Choices<contact::Weights> weights = {{"stiffness", contact::Weights::stiffness}, {"half", contact::Weights::half}};
-const Choices<solid::Neumann> neumanns = {{"local_equilibrium", solid::Neumann::local_equilibrium},
-                                          {"extrapolate", solid::Neumann::extrapolate},
-                                          {"adjacent", solid::Neumann::adjacent}};
+const Choices<solid::FreeFaceRule> neumanns = {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
+                                          {"extrapolate", solid::FreeFaceRule::extrapolate},
+                                          {"adjacent", solid::FreeFaceRule::adjacent}};
 struct Sides {
     std::string name;
     bool free;
@@ -46,7 +46,7 @@ constexpr double exact = 1e-10;
 /// Where the method is exact.
 double target(const PatchOptions& options, const Sides& sides) {
     const bool is_exact = options.mesh == PatchMesh::matching && options.contact.weights == contact::Weights::stiffness &&
-                          options.neumann == solid::Neumann::local_equilibrium && (!sides.free || sides.zero_poisson);
+                          options.neumann == solid::FreeFaceRule::local_equilibrium && (!sides.free || sides.zero_poisson);
     return is_exact ? exact : std::numeric_limits<double>::infinity();
 }
 

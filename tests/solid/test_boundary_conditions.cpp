@@ -5,7 +5,7 @@
 using namespace abut;
 using namespace abut::test;
 using solid::Constraint;
-using solid::Neumann;
+using solid::FreeFaceRule;
 
 namespace {
 
@@ -39,7 +39,7 @@ double relative_drift(Scene<Dim>& scene, int steps) {
 TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equilibrium in the exact affine field",
                        "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     const bool by_components = GENERATE(false, true);
-    const Neumann neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate);
+    const FreeFaceRule neumann = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate);
     const double traction = 0.01;
     const double young = material.young, nu = material.poisson;
     // Plane strain in 2D.
@@ -48,7 +48,7 @@ TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equili
     for (const auto& [name, mesh] : boxes<Dim>()) {
         INFO(name);
         auto options = one_body<Dim>();
-        options.boundary.neumann = neumann;
+        options.boundary.free_face_rule = neumann;
         for (const char* side : {"xmin", "ymin", "zmin"})
             if (Dim == 3 || side[0] != 'z') options.boundary.dirichlet.push_back(roller<Dim>(side, by_components));
         options.boundary.traction.push_back({.group = "xmax", .value = traction * Vector<Dim>::Unit(0), .history = {}});
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, 
 
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
-    options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
+    options.boundary.free_face_rule = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     solid::DirichletCondition<Dim> driven;
     driven.group = "xmin";
     SECTION("all components") {}
@@ -154,7 +154,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynam
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[dynamics][boundary]",
                        ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
-    options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
+    options.boundary.free_face_rule = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     solid::TractionCondition<Dim> pulse;
     pulse.group = "xmax";
     pulse.history = [](double t, const Vector<Dim>& x) {
@@ -180,7 +180,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
         mesh::box<Dim>({.lower = lower, .upper = upper, .size = Dim == 2 ? 0.2 : 0.35, .name = "lower"}),
         mesh::box<Dim>({.lower = other_lower, .upper = other_upper, .size = Dim == 2 ? 0.15 : 0.3, .name = "upper"}));
     auto options = bodies<Dim>(2);
-    options.boundary.neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent);
+    options.boundary.free_face_rule = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     solid::DirichletCondition<Dim> fixed, driven;
     fixed.group = "lower." + axis + "min";
     driven.group = "upper." + axis + "max";

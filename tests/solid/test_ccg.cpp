@@ -9,23 +9,25 @@ using namespace abut;
 using namespace abut::test;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using solid::Neumann;
+using solid::BoundaryFace;
+using solid::FreeFaceRule;
 
 namespace {
 
-inline constexpr std::array neumann_choices{Neumann::local_equilibrium, Neumann::extrapolate, Neumann::adjacent};
+inline constexpr std::array neumann_choices{FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate,
+                                            FreeFaceRule::adjacent};
 
 const solid::Material material{.young = 2.0, .poisson = 0.3, .density = 1.5};
 
 template <int Dim>
-solid::BoundaryConditions<Dim> free_boundary(Neumann neumann) {
+solid::BoundaryConditions<Dim> free_boundary(FreeFaceRule neumann) {
     solid::BoundaryConditions<Dim> conditions;
-    conditions.neumann = neumann;
+    conditions.free_face_rule = neumann;
     return conditions;
 }
 
 template <int Dim>
-std::vector<double> eigenvalues(const mesh::Mesh<Dim>& mesh, Neumann neumann) {
+std::vector<double> eigenvalues(const mesh::Mesh<Dim>& mesh, FreeFaceRule neumann) {
     solid::SolidOptions<Dim> options;
     options.materials = {material};
     options.boundary = free_boundary<Dim>(neumann);
@@ -49,14 +51,14 @@ struct Operators {
     solid::Ccg<Dim> ccg;
     std::vector<double> q;
 
-    explicit Operators(Neumann neumann, double size = 0.5)
+    explicit Operators(FreeFaceRule neumann, double size = 0.5)
         : mesh(round_body<Dim>(size)),
           ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann)),
           q(random_state(static_cast<std::size_t>(mesh.n_cells()) * Dim, 3)) {}
 
-    std::vector<std::int32_t> some_faces(int step) const {
-        std::vector<std::int32_t> faces;
-        for (std::int32_t b = 1; b < ccg.n_boundary(); b += step) faces.push_back(b);
+    std::vector<BoundaryFace> some_faces(int step) const {
+        std::vector<BoundaryFace> faces;
+        for (std::int32_t b = 1; b < ccg.n_boundary(); b += step) faces.push_back(BoundaryFace{b});
         return faces;
     }
 };
@@ -72,7 +74,7 @@ std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
 
 TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 zero eigenvalues", "[dynamics][ccg]",
                        ((int Dim), Dim), 2, 3) {
-    const Neumann neumann = GENERATE(Neumann::local_equilibrium, Neumann::extrapolate);
+    const FreeFaceRule neumann = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate);
     const auto values = eigenvalues(small_unstructured<Dim>(GENERATE(false, true)), neumann);
     const double highest = values.back();
     const std::size_t rigid_motions = Dim == 2 ? 3 : 6;
@@ -82,7 +84,7 @@ TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 
 
 TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only translations cost no energy", "[dynamics][ccg]",
                        ((int Dim), Dim), 2, 3) {
-    const auto values = eigenvalues(small_unstructured<Dim>(false), Neumann::adjacent);
+    const auto values = eigenvalues(small_unstructured<Dim>(false), FreeFaceRule::adjacent);
     const double highest = values.back();
     for (std::size_t i = 0; i < Dim; ++i) CHECK(std::abs(values[i]) < 1e-13 * highest);
     CHECK(values[Dim] > 1e-6 * highest);
@@ -90,12 +92,12 @@ TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only transl
 
 TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and for every Neumann choice", "[dynamics][ccg]",
                        ((int Dim), Dim), 2, 3) {
-    const Neumann neumann = GENERATE(from_range(neumann_choices));
+    const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     for (const auto& [name, mesh] : boxes<Dim>(2)) {
         INFO(name);
         solid::SolidOptions<Dim> options;
         options.materials = {material};
-        options.boundary.neumann = neumann;
+        options.boundary.free_face_rule = neumann;
         solid::Solid<Dim> solid(mesh, options);
         const MatrixXd k = dense_stiffness(solid);
         CHECK((k - k.transpose()).cwiseAbs().template maxCoeff<Eigen::PropagateNaN>() < 1e-14 * k.cwiseAbs().maxCoeff());
@@ -105,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and fo
 TEMPLATE_TEST_CASE_SIG(
     "patch test: under an affine displacement of the whole boundary every cell is in equilibrium and has the exact stress",
     "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
-    const Neumann neumann = GENERATE(from_range(neumann_choices));
+    const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     const auto values = random_state(Dim * Dim + Dim, 8, 0.1);
     const Matrix<Dim> a = Eigen::Map<const Matrix<Dim>>(values.data());
     const Vector<Dim> b = Eigen::Map<const Vector<Dim>>(values.data() + Dim * Dim);
@@ -116,7 +118,7 @@ TEMPLATE_TEST_CASE_SIG(
     for (const auto& [name, mesh] : boxes<Dim>()) {
         INFO(name);
         solid::BoundaryConditions<Dim> conditions;
-        conditions.neumann = neumann;
+        conditions.free_face_rule = neumann;
         for (const std::string& side : box_sides(Dim)) {
             solid::DirichletCondition<Dim> condition;
             condition.group = side;
@@ -185,7 +187,7 @@ TEMPLATE_TEST_CASE_SIG("the forces of a free body sum to zero, also under correc
 
 TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no more than its own rounding", "[dynamics][ccg]",
                        ((int Dim), Dim), 2, 3) {
-    Operators<Dim> operators(Neumann::local_equilibrium);
+    Operators<Dim> operators(FreeFaceRule::local_equilibrium);
     auto moved = operators.q;
     for (double& q : moved) q += 600.0;
     std::vector<double> force(moved.size()), force_moved(moved.size());
@@ -211,7 +213,7 @@ TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of 
     ccg.gradient(u, {}, {}, vectors<Dim>(whole_force));
     for (std::size_t i = 0; i < faces.size(); ++i) {
         CHECK(displacement[i] == whole_displacement[static_cast<std::size_t>(faces[i])]);
-        CHECK(force[i] == ccg.boundary_force(faces[i]));
+        CHECK(force[i] == ccg.boundary_gradient(faces[i]));
     }
 
     std::vector<std::int32_t> cells;
@@ -229,27 +231,27 @@ TEMPLATE_TEST_CASE_SIG(
     "coupling blocks are what unit corrections change in the face forces, and faces left out do not answer",
     "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
     const bool fan = Dim == 2 && GENERATE(false, true);
-    const Neumann neumann = GENERATE(from_range(neumann_choices));
+    const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     mesh::Mesh<Dim> mesh = round_body<Dim>(Dim == 2 ? 0.5 : 0.6);
     if constexpr (Dim == 2)
         if (fan) mesh = mesh::fan_disc({0.0, 0.0}, 1.0, 9);
     solid::Ccg<Dim> ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann));
-    std::vector<std::int32_t> faces;
-    for (std::int32_t b = 0; b < ccg.n_boundary(); ++b) faces.push_back(b);
+    const auto all = ccg.boundary_faces();
+    const std::vector<BoundaryFace> faces(all.begin(), all.end());
     const auto coupling = ccg.coupling(faces);
     const std::vector<Vector<Dim>> zero(static_cast<std::size_t>(mesh.n_cells()), Vector<Dim>::Zero());
     std::vector<Vector<Dim>> force(zero.size());
     double worst = 0.0, size = 0.0;
-    for (const std::int32_t g : faces)
+    for (const BoundaryFace g : faces)
         for (int j = 0; j < Dim; ++j) {
-            const std::vector<std::int32_t> one{g};
+            const std::vector<BoundaryFace> one{g};
             const std::vector<Vector<Dim>> unit{Vector<Dim>::Unit(j)};
             ccg.gradient(zero, {}, {one, unit, {}}, force);
-            for (const std::int32_t f : faces) {
+            for (const BoundaryFace f : faces) {
                 Vector<Dim> expected = Vector<Dim>::Zero();
-                for (std::int32_t i = coupling.offsets[f]; i < coupling.offsets[f + 1]; ++i)
-                    if (coupling.columns[i] == g) expected = coupling.blocks[i].col(j);
-                raise(worst, (ccg.boundary_force(f) - expected).norm());
+                for (std::int32_t i = coupling.offsets[number_of(f)]; i < coupling.offsets[number_of(f) + 1]; ++i)
+                    if (coupling.columns[i] == number_of(g)) expected = coupling.blocks[i].col(j);
+                raise(worst, (ccg.boundary_gradient(f) - expected).norm());
                 raise(size, expected.norm());
             }
         }
@@ -357,7 +359,7 @@ TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 
     for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) {
         const std::int32_t f = mesh.boundary_faces[b], c = mesh.face_cells[f][0];
         const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];
-        CHECK(solid.ccg().normal_stiffness(static_cast<std::int32_t>(b)) == Approx(stiffness).epsilon(1e-13));
+        CHECK(solid.ccg().normal_stiffness(static_cast<BoundaryFace>(b)) == Approx(stiffness).epsilon(1e-13));
         CHECK(surface.stiffness[b] == Approx(stiffness).epsilon(1e-13));
         CHECK(surface.depth[b] ==
               Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));

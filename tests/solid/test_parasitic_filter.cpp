@@ -109,8 +109,8 @@ TEMPLATE_TEST_CASE_SIG(
     "the neutral filter keeps H~ and momentum whatever the boundary reconstruction, down to patches of one or two cells",
     "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
     auto options = bodies<Dim>(2);
-    options.boundary.neumann =
-        GENERATE(solid::Neumann::local_equilibrium, solid::Neumann::extrapolate, solid::Neumann::adjacent);
+    options.boundary.free_face_rule =
+        GENERATE(solid::FreeFaceRule::local_equilibrium, solid::FreeFaceRule::extrapolate, solid::FreeFaceRule::adjacent);
     const auto scene = [&] {
         if constexpr (Dim == 2)
             return std::make_unique<Scene<2>>(two_discs(0.8), options, disc_velocities);
@@ -126,5 +126,5 @@ TEMPLATE_TEST_CASE_SIG(
     scene->run_until(4.0, 10);
     CHECK(scene->ledger.pseudo_energy_drift() < 1e-11 * scene->kinetic_start());
     CHECK(scene->ledger.momentum_drift() < 1e-12);
-    if (options.boundary.neumann == solid::Neumann::adjacent) CHECK(smallest <= 4);
+    if (options.boundary.free_face_rule == solid::FreeFaceRule::adjacent) CHECK(smallest <= 4);
 }

@@ -1,0 +1,33 @@
+#pragma once
+#include <cstdint>
+
+#include "abut/base/ids.hpp"
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::solid {
+
+/// Index of a face in Mesh::boundary_faces.
+enum class BoundaryFace : std::int32_t {};
+
+/// Where a boundary face is named: there is none. In a pair of contact it stands for a face of an obstacle.
+inline constexpr BoundaryFace no_face{-1};
+
+/// The index that a boundary face has among all faces of the mesh.
+template <int Dim>
+[[nodiscard]] std::int32_t mesh_face(const mesh::Mesh<Dim>& mesh, BoundaryFace face) {
+    return mesh.boundary_faces[static_cast<std::size_t>(face)];
+}
+
+/// Its only cell.
+template <int Dim>
+[[nodiscard]] std::int32_t cell_of(const mesh::Mesh<Dim>& mesh, BoundaryFace face) {
+    return mesh.face_cells[mesh_face(mesh, face)][0];
+}
+
+/// All boundary faces of a mesh.
+template <int Dim>
+[[nodiscard]] auto boundary_faces(const mesh::Mesh<Dim>& mesh) {
+    return all_ids<BoundaryFace>(static_cast<std::int32_t>(mesh.boundary_faces.size()));
+}
+
+}  // namespace abut::solid
