@@ -7,7 +7,8 @@ namespace abut::dynamics::detail {
 
 void refuse_gauge(double potential, double gauge) {
     throw Diverged("Bilbao scheme: V = " + number(potential) + " J with the gauge c = " + number(gauge) +
-                   " J; V + c must stay > 0 J. Raise the gauge.");
+                       " J; V + c must stay > 0 J. Raise the gauge.",
+                   {.value = potential + gauge, .allowed = 0.0});
 }
 
 void refuse_varying_potential() {

@@ -14,15 +14,17 @@ void require_finite(std::span<const double> values, const std::string& name, con
     const auto wrong = std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     if (wrong != values.end())
         throw BadInput("integrator: " + name + " " + std::to_string(wrong - values.begin()) + " is " + number(*wrong) + " " +
-                       unit + " at the start; it must be finite.");
+                           unit + " at the start; it must be finite.",
+                       {.value = *wrong});
 }
 
 }  // namespace
 
 void check_step(double dt) {
     if (!(dt > 0.0) || !std::isfinite(dt))
-        throw BadInput("time step is " + number(dt) +
-                       " s; it must be finite and > 0. `stable_step` says how large it may be.");
+        throw BadInput(
+            "time step is " + number(dt) + " s; it must be finite and > 0. `stable_step` says how large it may be.",
+            {.value = dt});
 }
 
 void check_start(std::size_t size, std::span<const double> q, std::span<const double> p) {

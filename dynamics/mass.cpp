@@ -37,7 +37,8 @@ InverseMass::InverseMass(std::size_t n, std::span<const MatrixEntry> mass) : imp
     const double asymmetry = largest_entry(Sparse(impl_->matrix - Sparse(impl_->matrix.transpose())));
     if (asymmetry > symmetry_tolerance * largest_entry(impl_->matrix))
         throw BadInput("mass: the matrix differs from its transpose by up to " + number(asymmetry) +
-                       " kg; it must be symmetric. Give both of its triangles.");
+                           " kg; it must be symmetric. Give both of its triangles.",
+                       {.value = asymmetry, .allowed = 0.0});
     impl_->factors.compute(impl_->matrix);
     if (impl_->factors.info() != Eigen::Success)
         throw BadInput("mass: the matrix is not positive definite. Every degree of freedom needs a mass above 0 kg.");

@@ -39,8 +39,9 @@ void NewtonMatrix::multiply_mass(std::span<const double> a, std::span<double> pr
 
 void detail::refuse_newton(int iterations, double change, double dt) {
     throw Diverged("energy-momentum scheme: Newton's method has not converged after " + std::to_string(iterations) +
-                   " iterations (relative change " + number(change) + ") in a step of " + number(dt) +
-                   " s. Take a smaller time step.");
+                       " iterations (relative change " + number(change) + ") in a step of " + number(dt) +
+                       " s. Take a smaller time step.",
+                   {.value = change});
 }
 
 }  // namespace abut::dynamics

@@ -23,7 +23,8 @@ std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Ve
     const auto n_bodies = static_cast<std::size_t>(solid.mesh().n_bodies());
     if (body_velocity.size() != n_bodies)
         throw BadInput(std::to_string(body_velocity.size()) + " velocities are given for " + std::to_string(n_bodies) +
-                       " bodies. Give one per body.");
+                           " bodies. Give one per body.",
+                       {.value = static_cast<double>(body_velocity.size()), .allowed = static_cast<double>(n_bodies)});
     std::vector<double> momentum(solid.size());
     const auto p = as_vectors<Dim>(std::span<double>(momentum));
     for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)

@@ -11,8 +11,9 @@ namespace {
 
 void require(bool holds, int body, const char* quantity, double value, const char* limit) {
     if (!holds)
-        throw BadInput("material of body " + std::to_string(body) + ": " + quantity + " is " + number(value) +
-                       "; it must be " + limit);
+        throw BadInput(
+            "material of body " + std::to_string(body) + ": " + quantity + " is " + number(value) + "; it must be " + limit,
+            {.value = value});
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ public:
     [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
     [[nodiscard]] const contact::Contact<Dim>* contact() const;    ///< null without contact
     [[nodiscard]] std::int64_t contact_faces_left_out() const;
-    /// Places of corners that are too sharp for contact to see them coming; empty without contact. contact/blind_corners.hpp.
+    /// Corners that are too sharp for contact to see them coming; empty without contact. contact/blind_corners.hpp.
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
 

@@ -44,17 +44,24 @@ constexpr double rounding_of_potential = 1e-12;
 constexpr double balanced_elsewhere = 1e-3;  // of the largest stress: where more is left away from contact, V is not lowest
 
 void check(const StaticOptions& options) {
-    const auto refuse = [](const std::string& what) { throw BadInput("statics: " + what); };
+    const auto refuse = [](const std::string& what, double value, double allowed) {
+        throw BadInput("statics: " + what, {.value = value, .allowed = allowed});
+    };
     if (!(options.tolerance > 0.0))
-        refuse("tolerance is " + number(options.tolerance) + "; it must be > 0. 1e-8 is the default.");
+        refuse("tolerance is " + number(options.tolerance) + "; it must be > 0. 1e-8 is the default.", options.tolerance,
+               0.0);
     if (!(options.potential_tolerance >= 0.0))
         refuse("potential_tolerance is " + number(options.potential_tolerance) +
-               "; it must be 0 or more. 1e-11 is the default.");
-    if (options.iterations < 1) refuse("iterations is " + std::to_string(options.iterations) + "; at least 1 is needed.");
+                   "; it must be 0 or more. 1e-11 is the default.",
+               options.potential_tolerance, 0.0);
+    if (options.iterations < 1)
+        refuse("iterations is " + std::to_string(options.iterations) + "; at least 1 is needed.", options.iterations, 1.0);
     if (options.history < 1)
-        refuse("history is " + std::to_string(options.history) + "; at least 1 is needed. 20 is the default.");
+        refuse("history is " + std::to_string(options.history) + "; at least 1 is needed. 20 is the default.",
+               options.history, 1.0);
     if (!(options.first_step >= 0.0 && std::isfinite(options.first_step)))
-        refuse("first_step is " + number(options.first_step) + " m; it must be 0 (chosen) or more.");
+        refuse("first_step is " + number(options.first_step) + " m; it must be 0 (chosen) or more.", options.first_step,
+               0.0);
 }
 
 template <int Dim>

@@ -21,7 +21,8 @@ std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const M
     const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
     if (materials.size() != n_bodies)
         throw BadInput(mesh.name + ": " + std::to_string(materials.size()) + " materials are given for " +
-                       std::to_string(n_bodies) + " bodies. Give one per body.");
+                           std::to_string(n_bodies) + " bodies. Give one per body.",
+                       {.value = static_cast<double>(materials.size()), .allowed = static_cast<double>(n_bodies)});
     for (std::size_t body = 0; body < n_bodies; ++body) check(materials[body], static_cast<int>(body));
     return materials;
 }
@@ -102,7 +103,8 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
         const Vector<Dim> value = condition.history ? condition.history(time, m.boundary_centroid[b]) : condition.value;
         if (!value.allFinite())
             throw BadInput("boundary condition on '" + condition.group + "': its value at t = " + number(time) +
-                           " s is not finite. Correct its value or history.");
+                               " s is not finite. Correct its value or history.",
+                           {.face_1 = m.arrays.face_of(b)});
         return value;
     };
     for (std::size_t i = 0; i < m.conditions.dirichlet.size(); ++i)

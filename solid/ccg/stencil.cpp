@@ -163,8 +163,9 @@ FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& ne
         if (near.size() < wanted) break;
     }
     throw BadInput(mesh.name + ": face " + std::to_string(face) + " of cell " + std::to_string(cell) +
-                   ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
-                   "The body is one cell thick there: put at least two cells across it.");
+                       ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
+                       "The body is one cell thick there: put at least two cells across it.",
+                   {.face_1 = face, .cell = cell});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "abut/base/error.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -139,6 +140,12 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
     CHECK_THROWS_AS(scene->solid.potential(upper_moved(scene->mesh, 1.0)), Misuse);
     CHECK_THROWS_WITH(scene->solid.contact_field(upper_moved(scene->mesh, 1.0)),
                       Catch::Matchers::Contains("half the skin") && Catch::Matchers::Contains("CandidateOptions::skin"));
+    try {
+        static_cast<void>(scene->solid.potential(upper_moved(scene->mesh, 1.0)));
+    } catch (const Error& error) {
+        CHECK(error.facts().allowed == 0.5 * scene->solid.contact()->skin());
+        CHECK(error.facts().value > error.facts().allowed);
+    }
     const std::vector<double> q(scene->memm.q().begin(), scene->memm.q().end()), zero(q.size(), 0.0);
     dynamics::Memm<solid::Solid<Dim>> again(scene->solid, q, zero, scene->memm.dt());
     CHECK_THROWS_WITH(again.step(), Catch::Matchers::Contains("make a Solid for every run"));

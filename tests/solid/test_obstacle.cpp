@@ -28,6 +28,17 @@ solid::SolidOptions<2> bar_and_wall(std::function<Vector<2>(double)> path = {}) 
 
 }  // namespace
 
+TEST_CASE("the force on an obstacle that there is not is refused", "[dynamics][obstacle][errors]") {
+    const mesh::Mesh<2> mesh = bar();
+    auto options = bar_and_wall();
+    const solid::Solid<2> with_wall(mesh, options);
+    CHECK(with_wall.obstacle_force(0) == Vector<2>::Zero());
+    CHECK_THROWS_AS(with_wall.obstacle_force(1), Misuse);
+    options.obstacles.clear();
+    options.contact.reset();
+    CHECK_THROWS_AS(solid::Solid<2>(mesh, options).obstacle_force(0), Misuse);
+}
+
 TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 2L/c and rebounds", "[dynamics][obstacle]") {
     Scene<2> scene(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
     double impulse = 0.0, first = 0.0, last = 0.0;
