@@ -9,7 +9,7 @@
 
 #include "abut/base/stopwatch.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 constexpr double default_distance = 0.5;  // mean face sizes
@@ -96,4 +96,4 @@ void Detection::keep_near_ones() {
     }
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps
