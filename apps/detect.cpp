@@ -20,11 +20,11 @@
 #include <stdexcept>
 
 #include "abut/base/stopwatch.hpp"
+#include "abut/run/files.hpp"
 #include "apps/detect/output.hpp"
 #include "apps/detect/report.hpp"
-#include "apps/support/files.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using oneapi::tbb::global_control;
@@ -146,16 +146,16 @@ void run(const DetectOptions& options) {
         steps.emplace(bodies, options, motion, report);
     }
     steps->all_steps();
-    if (!options.no_files) write_whole(options.out / "summary.json", summary(report, options).dump(2) + "\n");
+    if (!options.no_files) run::write_whole(options.out / "summary.json", summary(report, options).dump(2) + "\n");
     print(report, options);
     throw_if_missed(report.verification);
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::apps
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut::apps;
     DetectOptions options;
     return run_program(
         detect_program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });

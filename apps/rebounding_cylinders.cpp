@@ -7,8 +7,8 @@
 #include "apps/two_cylinders.hpp"
 
 int main(int argc, char** argv) {
-    return abut::examples::run_two_cylinders(argc, argv,
-                                             {.program = "rebounding_cylinders",
-                                              .purpose = "Two elastic cylinders collide head-on and rebound.",
-                                              .offset_over_radius = 0.0});
+    return abut::apps::run_two_cylinders(argc, argv,
+                                         {.program = "rebounding_cylinders",
+                                          .purpose = "Two elastic cylinders collide head-on and rebound.",
+                                          .offset_over_radius = 0.0});
 }

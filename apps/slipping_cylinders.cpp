@@ -7,9 +7,9 @@
 #include "apps/two_cylinders.hpp"
 
 int main(int argc, char** argv) {
-    return abut::examples::run_two_cylinders(
+    return abut::apps::run_two_cylinders(
         argc, argv,
         {.program = "slipping_cylinders",
          .purpose = "Two elastic cylinders collide off-centre, slip over each other and part.",
-         .offset_over_radius = abut::examples::slipping_offset});
+         .offset_over_radius = abut::apps::slipping_offset});
 }

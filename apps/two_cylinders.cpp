@@ -11,8 +11,9 @@
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "apps/support/preset.hpp"
+#include "apps/support/run_scene.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 /// After the first touch, in units of (R / sqrt(E / rho)) of the slower body: long enough for impact, slip and release.
@@ -66,7 +67,7 @@ void add_place_options(CLI::App& app, CylinderOptions& options, double offset_ov
         ->group("Scene");
 }
 
-void check(const CylinderOptions& options, const RunOptions& run) {
+void check(const CylinderOptions& options, const run::RunOptions& run) {
     if (options.speed[0] + options.speed[1] == 0.0)
         throw BadInput(
             "--speed: 0 m/s for both bodies, they never meet. Give at least one of them a speed above "
@@ -154,7 +155,7 @@ mesh::Mesh<Dim> both_bodies(const CylinderOptions& options) {
 
 /// Speed of separation over speed of approach, along the line of the two centres where they first touch [-].
 template <int Dim>
-double restitution(const CylinderOptions& options, const RunResult<Dim>& result) {
+double restitution(const CylinderOptions& options, const run::RunResult<Dim>& result) {
     const auto middle = centres(options);
     const Vector<2> normal = (middle[1] - middle[0]).normalized();
     const auto separation = [&](const std::vector<solid::BodyMotion<Dim>>& bodies) {
@@ -173,18 +174,25 @@ double default_time(const CylinderOptions& options) {
     return approach + default_crossings * std::max(options.radius[0], options.radius[1]) / wave_speed;
 }
 
-nlohmann::ordered_json to_json(const CylinderOptions& options) {
-    nlohmann::ordered_json json = {{"dim", options.dim},         {"young", options.young}, {"poisson", options.poisson},
-                                   {"density", options.density}, {"speed", options.speed}, {"eta", options.eta}};
+std::vector<double> both(const BodyValues& values) { return {values.begin(), values.end()}; }
+
+run::NamedValues named_values(const CylinderOptions& options) {
+    run::NamedValues values = {{"dim", options.dim},
+                               {"young", both(options.young)},
+                               {"poisson", both(options.poisson)},
+                               {"density", both(options.density)},
+                               {"speed", both(options.speed)},
+                               {"eta", both(options.eta)}};
+    const auto append = [&](const run::NamedValues& more) { values.insert(values.end(), more.begin(), more.end()); };
     if (!options.meshes.empty()) {
-        json["mesh"] = options.meshes;
-        json["non_planar"] = name_of(non_planar_faces, options.non_planar);
-        return json;
+        append({{"mesh", options.meshes}, {"non_planar", name_of(non_planar_faces, options.non_planar)}});
+        return values;
     }
-    json.update({{"radius", options.radius}, {"size", options.size}, {"offset", options.offset}, {"gap", options.gap}});
-    if (options.refine != 1.0) json.update({{"refine", options.refine}, {"refine_over", options.refine_over}});
-    if (options.dim == 3) json["length"] = options.length;
-    return json;
+    append(
+        {{"radius", both(options.radius)}, {"size", both(options.size)}, {"offset", options.offset}, {"gap", options.gap}});
+    if (options.refine != 1.0) append({{"refine", options.refine}, {"refine_over", options.refine_over}});
+    if (options.dim == 3) append({{"length", both(options.length)}});
+    return values;
 }
 
 }  // namespace
@@ -198,8 +206,8 @@ void fill_defaults(CylinderOptions& options, double offset_over_radius) {
 }
 
 template <int Dim>
-Scene<Dim> two_cylinders(const CylinderOptions& options) {
-    Scene<Dim> scene{.mesh = both_bodies<Dim>(options), .options = to_json(options)};
+run::Scene<Dim> two_cylinders(const CylinderOptions& options) {
+    run::Scene<Dim> scene{.mesh = both_bodies<Dim>(options), .options = named_values(options)};
     scene.mesh.name = "scene";
     for (std::size_t body = 0; body < 2; ++body) {
         scene.solid.materials.push_back(
@@ -208,7 +216,7 @@ Scene<Dim> two_cylinders(const CylinderOptions& options) {
     }
     scene.time = default_time(options);
     if (options.meshes.empty())
-        scene.findings = [options](const RunResult<Dim>& result) -> std::vector<Finding> {
+        scene.findings = [options](const run::RunResult<Dim>& result) -> std::vector<run::Finding> {
             return {{"restitution", "restitution along the line of centres", restitution<Dim>(options, result)}};
         };
     scene.remedy_if_overlapping =
@@ -224,7 +232,7 @@ int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
                               "A pair of values, one for the left and one for the right body, is separated by a comma: "
                               "--young 1,100. Units are SI."};
     CylinderOptions scene;
-    RunOptions options{.out = "out/" + cylinders.program};
+    run::RunOptions options{.out = "out/" + cylinders.program};
     const auto add_options = [&](CLI::App& app) {
         add_choice(app, "--dim", scene.dim, "discs in plane strain, or cylinders", Choices<int>{{"2", 2}, {"3", 3}})
             ->group("Scene");
@@ -238,12 +246,12 @@ int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
     return run_program(program, argc, argv, add_options, [&] {
         fill_defaults(scene, cylinders.offset_over_radius);
         check(scene, options);
-        scene.dim == 2 ? run<2>(program, options, [&] { return two_cylinders<2>(scene); })
-                       : run<3>(program, options, [&] { return two_cylinders<3>(scene); });
+        scene.dim == 2 ? run_scene<2>(program, options, [&] { return two_cylinders<2>(scene); })
+                       : run_scene<3>(program, options, [&] { return two_cylinders<3>(scene); });
     });
 }
 
-template Scene<2> two_cylinders<2>(const CylinderOptions&);
-template Scene<3> two_cylinders<3>(const CylinderOptions&);
+template run::Scene<2> two_cylinders<2>(const CylinderOptions&);
+template run::Scene<3> two_cylinders<3>(const CylinderOptions&);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

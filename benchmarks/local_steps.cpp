@@ -23,7 +23,7 @@ namespace {
 using namespace abut;
 
 struct Choices {
-    examples::CylinderOptions cylinders{.dim = 2, .refine = 10.0, .offset = 0.0};
+    apps::CylinderOptions cylinders{.dim = 2, .refine = 10.0, .offset = 0.0};
     double size = 0.0;
     double time = 0.0;
     double cfl = 0.9;
@@ -34,7 +34,7 @@ struct Choices {
 };
 
 template <int Dim>
-solid::SolidOptions<Dim> with_contact(const examples::Scene<Dim>& scene) {
+solid::SolidOptions<Dim> with_contact(const run::Scene<Dim>& scene) {
     solid::SolidOptions<Dim> options = scene.solid;
     options.contact.emplace();
     return options;
@@ -70,7 +70,7 @@ void close(const Scheme& scheme, const solid::Solid<Dim>& solid, Record<Dim>& re
     record.speed = solid::body_motions<Dim>(scheme, solid)[0].velocity.x();
     const double kinetic = record.ledger.entries().front().kinetic;
     benchmark::require_small("drift of the pseudo-energy over K0", record.ledger.pseudo_energy_drift() / kinetic, 1e-11);
-    benchmark::require_small("contacts lost", static_cast<double>(record.contact.lost_contacts), 0.0);
+    benchmark::require_small("contacts lost", static_cast<double>(record.contact.missed_contacts), 0.0);
     if (record.contact.events == 0) throw std::runtime_error("the bodies never touched: nothing is measured. Raise --time.");
 }
 
@@ -104,7 +104,7 @@ void print(const nlohmann::json& r) {
 template <int Dim>
 nlohmann::json compare(const Choices& choices) {
     const auto clock = benchmark::clock_for(choices.threads);
-    const examples::Scene<Dim> scene = examples::two_cylinders<Dim>(choices.cylinders);
+    const run::Scene<Dim> scene = apps::two_cylinders<Dim>(choices.cylinders);
     solid::Solid<Dim> uniform_solid(scene.mesh, with_contact(scene));
     solid::Solid<Dim> local_solid(scene.mesh, with_contact(scene));
     const auto stable = dynamics::stable_step(uniform_solid);
@@ -172,7 +172,7 @@ int run(int argc, char** argv) {
                                               static_cast<std::size_t>(choices.threads));
     if (choices.size == 0.0) choices.size = cylinders.dim == 2 ? 0.03 : 0.15;
     cylinders.size = {choices.size, choices.size};
-    examples::fill_defaults(cylinders, 0.0);
+    apps::fill_defaults(cylinders, 0.0);
     nlohmann::json result = benchmark::circumstances(argc, argv);
     result.update(cylinders.dim == 2 ? compare<2>(choices) : compare<3>(choices));
     benchmark::write(result, choices.json);

@@ -31,12 +31,14 @@ abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
 abut_find(nanoflann 1.4 ARGS CONFIG TARGETS nanoflann::nanoflann)
 abut_find(LBFGSpp "" ARGS MODULE TARGETS LBFGSpp::LBFGSpp)
 
+# run
+abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)
+abut_find(nlohmann_json 3.11 ARGS CONFIG TARGETS nlohmann_json::nlohmann_json)
+
 # programs
 if(ABUT_PROGRAMS OR ABUT_BENCHMARKS)
   abut_find(CLI11 2.1 ARGS CONFIG TARGETS CLI11::CLI11)
-  abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)
   abut_find(spdlog 1.10 ARGS CONFIG TARGETS spdlog::spdlog)
-  abut_find(nlohmann_json 3.11 ARGS CONFIG TARGETS nlohmann_json::nlohmann_json)
 endif()
 
 # benchmarks

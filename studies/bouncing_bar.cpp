@@ -15,7 +15,7 @@
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -25,12 +25,13 @@ constexpr double height = ExactBounce::height, impact_speed = ExactBounce::speed
 const double contact_time = the_bar.contact_time();                                                              // [s]
 const double impact_energy = 0.5 * the_bar.mass() * impact_speed * impact_speed;
 
-const Program program{.name = "bouncing_bar",
-                      .purpose = "Chain of masses that bounces on a rigid wall, under all integrators.",
-                      .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3; it hits the wall, 5 m away, at 10 m/s."};
+const apps::Program program{
+    .name = "bouncing_bar",
+    .purpose = "Chain of masses that bounces on a rigid wall, under all integrators.",
+    .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3; it hits the wall, 5 m away, at 10 m/s."};
 
 struct BounceOptions {
-    SchemeOptions schemes{.gauge = 2.0 * impact_energy, .fast = 4, .parts = 4};  // V sinks by H0 as the bar falls
+    apps::SchemeOptions schemes{.gauge = 2.0 * impact_energy, .fast = 4, .parts = 4};  // V sinks by H0 as the bar falls
     int cells = 100;
     double gravity = 10.0;  // [m/s^2]
     double cfl = 0.5;       // c dt/h [-]
@@ -42,26 +43,27 @@ struct BounceOptions {
 };
 
 void add_options(CLI::App& app, BounceOptions& options) {
-    add_count(app, "--cells", options.cells, "cells of the bar, a mass each", 4)->group("Bar");
-    add_choice(app, "--gravity", options.gravity, "towards the wall, in m/s^2: what closed forms are known for",
-               Choices<double>{{"0", 0.0}, {"10", 10.0}})
+    apps::add_count(app, "--cells", options.cells, "cells of the bar, a mass each", 4)->group("Bar");
+    apps::add_choice(app, "--gravity", options.gravity, "towards the wall, in m/s^2: what closed forms are known for",
+                     apps::Choices<double>{{"0", 0.0}, {"10", 10.0}})
         ->group("Bar");
-    add_number(app, "--cfl", options.cfl, "Courant number c dt/h",
-               {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the explicit schemes are unstable."})
+    apps::add_number(app, "--cfl", options.cfl, "Courant number c dt/h",
+                     {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the explicit schemes are unstable."})
         ->group("Time");
-    add_count(app, "--steps", options.steps, "steps of the run; 0: three periods (16 s) with gravity, 2 s without", 0)
+    apps::add_count(app, "--steps", options.steps, "steps of the run; 0: three periods (16 s) with gravity, 2 s without", 0)
         ->group("Time");
-    add_integrator(app, options.schemes);
-    add_gauge(app, options.schemes);
-    add_local_steps(app, options.schemes);
-    auto* filter = add_choice(app, "--filter", options.filter,
-                              "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
-                              Choices<bool>{{"none", false}, {"neutral", true}});
-    auto* patch = add_count(app, "--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2)
-                      ->needs(filter);
-    for (auto* option : {filter, patch}) restrict_to(option->group("Schemes"), options.schemes, {Scheme::memm});
-    add_out_option(app, options.out);
-    add_interval_option(app, options.interval);
+    apps::add_integrator(app, options.schemes);
+    apps::add_gauge(app, options.schemes);
+    apps::add_local_steps(app, options.schemes);
+    auto* filter = apps::add_choice(app, "--filter", options.filter,
+                                    "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
+                                    apps::Choices<bool>{{"none", false}, {"neutral", true}});
+    auto* patch =
+        apps::add_count(app, "--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2)
+            ->needs(filter);
+    for (auto* option : {filter, patch}) apps::restrict_to(option->group("Schemes"), options.schemes, {apps::Scheme::memm});
+    apps::add_out_option(app, options.out);
+    apps::add_interval_option(app, options.interval);
 }
 
 /// Whether the lowest mass, displaced by q, presses on the wall.
@@ -96,11 +98,11 @@ private:
 };
 
 /// What happens at the wall.
-class Impacts : public Watcher {
+class Impacts : public apps::Watcher {
 public:
     explicit Impacts(double gravity) : exact_(gravity), weight_(the_bar.mass() * gravity) {}
 
-    void look(const Node& node) override {
+    void look(const apps::Node& node) override {
         double momentum = 0.0;
         for (std::size_t i = 0; i < node.q.size(); ++i) momentum += node.momentum(i);
         const bool pressed = touches(node.q[0]);
@@ -113,8 +115,8 @@ public:
     }
     std::vector<std::string> columns() const override { return {"foot", "foot_exact", "pressure"}; }
     std::vector<double> row() const override { return {foot_, exact_.height_at(time_), pressure_}; }
-    std::vector<Finding> findings() const override {
-        const auto known = [](bool is, double value) { return is ? Json(value) : Json(); };
+    std::vector<run::Finding> findings() const override {
+        const auto known = [](bool is, double value) { return is ? run::Value(value) : run::Value(); };
         const bool one = complete_ > 0, two = complete_ > 1;
         const double lasted = first_.end - first_.begin;
         return {{"contact_first", "first impact: contact from [s]", known(one, first_.begin)},
@@ -192,7 +194,7 @@ private:
 };
 
 /// The end of the bar, energies and drifts over time.
-Picture picture(const std::vector<SchemeRun>& runs, double end) {
+run::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
     constexpr std::array colours = {"#2a78d6", "#eb6834", "#1f9e6e", "#8a4fc7", "#c2a100"};
     const auto lines = [&](const std::string& what, const std::string& style) {
         std::string plots;
@@ -232,51 +234,54 @@ Json to_json(const BounceOptions& options, std::int64_t steps) {
 }
 
 void check(const BounceOptions& options) {
-    check(options.schemes);
+    apps::check(options.schemes);
     if (options.patch > options.cells)
         throw BadInput(
             fmt::format("--patch: {} masses, the bar has {}. Give at most that many.", options.patch, options.cells));
 }
 
-SchemeRun run_scheme(Scheme scheme, const BounceOptions& options, const Start& start, const Schedule& schedule) {
+apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, const apps::Start& start,
+                           const apps::Schedule& schedule) {
     BarChain bar = bar_chain({.gap = height, .gravity = options.gravity}, options.cells);
     Impacts impacts(options.gravity);
-    const bool filtered = options.filter && scheme == Scheme::memm;
-    return follow(scheme, bar, start, options.schemes, schedule, impacts, [&]<class Integrator>(Integrator& integrator) {
-        if constexpr (Integrator::takes_after_step)
-            if (filtered) integrator.set_after_step(PatchFilter(bar, options.patch));
-    });
+    const bool filtered = options.filter && scheme == apps::Scheme::memm;
+    return apps::follow(scheme, bar, start, options.schemes, schedule, impacts,
+                        [&]<class Integrator>(Integrator& integrator) {
+                            if constexpr (Integrator::takes_after_step)
+                                if (filtered) integrator.set_after_step(PatchFilter(bar, options.patch));
+                        });
 }
 
 void run(const BounceOptions& options) {
     check(options);
-    prepare_results(program, options.out);
+    apps::prepare_results(program, options.out);
     const auto n = static_cast<std::size_t>(options.cells);
     const double h = the_bar.length / options.cells, dt = options.cfl * h / the_bar.wave_speed();
     const double speed = options.gravity > 0.0 ? 0.0 : -impact_speed;
-    const Start start{.q = std::vector<double>(n, 0.0),
-                      .p = std::vector<double>(n, the_bar.density * h * speed),
-                      .dt = dt,
-                      .local_steps = local_steps_of_first(options.schemes, n)};
-    Schedule schedule{.steps = options.steps, .energy_scale = impact_energy};
-    if (options.steps == 0) schedule.steps = steps_until(options.gravity > 0.0 ? 3.0 * period : 2.0, dt);
-    schedule.interval = rows_interval(options.interval, schedule.steps);
-    Comparison comparison{
+    const apps::Start start{.q = std::vector<double>(n, 0.0),
+                            .p = std::vector<double>(n, the_bar.density * h * speed),
+                            .dt = dt,
+                            .local_steps = apps::local_steps_of_first(options.schemes, n)};
+    apps::Schedule schedule{.steps = options.steps, .energy_scale = impact_energy};
+    if (options.steps == 0) schedule.steps = apps::steps_until(options.gravity > 0.0 ? 3.0 * period : 2.0, dt);
+    schedule.interval = apps::rows_interval(options.interval, schedule.steps);
+    apps::Comparison comparison{
         .title = fmt::format("{} masses, {} steps of {:.6g} s (c dt/h = {:g}), gravity {:g} m/s^2, H0 = {:g} J", n,
                              schedule.steps, dt, options.cfl, options.gravity, impact_energy),
         .options = to_json(options, schedule.steps)};
-    for (const Scheme scheme : options.schemes.schemes)
+    for (const apps::Scheme scheme : options.schemes.schemes)
         comparison.runs.push_back(run_scheme(scheme, options, start, schedule));
     comparison.picture = picture(comparison.runs, static_cast<double>(schedule.steps) * dt);
-    report(program, options.out, comparison);
+    apps::report(program, options.out, comparison);
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     BounceOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
 }

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "apps/support/choices.hpp"
-#include "apps/support/run.hpp"
+#include "apps/support/run_scene.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double gravity = 10.0;  // [m/s^2]
@@ -19,7 +19,7 @@ const Bar the_bar;
 const double crossing = 0.5 * the_bar.contact_time();         // L/c [s]
 const double exact_impulse = ExactBounce(gravity).impulse();  // an impact, per area of the bar [N s/m]
 
-const Program program{
+const apps::Program program{
     .name = "bouncing_strip",
     .purpose =
         "Bar, a strip of cells, that bounces on a rigid wall under gravity: pseudo-energy, energy and parasitic mode.",
@@ -29,16 +29,17 @@ const Program program{
 struct StripOptions {
     int cells = 100;
     double eta = 0.0;  // [Pa], 0: E
-    RunOptions run{.steps = 10'000, .filter = true, .out = "out/" + program.name, .interval = 100};
+    run::RunOptions run{.steps = 10'000, .filter = true, .out = "out/" + program.name, .interval = 100};
 };
 
 void add_options(CLI::App& app, StripOptions& options) {
-    const Limits eta{.unit = "Pa", .above = 0.0, .zero = true};
-    add_count(app, "--cells", options.cells, "cells along the bar; two across it", 4)->group("Bar");
-    add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus", eta)->group("Bar");
-    add_time_options(app, options.run, "--steps decides");
-    add_compression_limit(app, options.run);
-    add_output_options(app, options.run);
+    const apps::Limits eta{.unit = "Pa", .above = 0.0, .zero = true};
+    apps::add_count(app, "--cells", options.cells, "cells along the bar; two across it", 4)->group("Bar");
+    apps::add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus", eta)
+        ->group("Bar");
+    apps::add_time_options(app, options.run, "--steps decides");
+    apps::add_compression_limit(app, options.run);
+    apps::add_output_options(app, options.run);
 }
 
 /// Impulses of the wall, one an impact: contacts less than a wave's way through the bar apart belong together.
@@ -66,21 +67,20 @@ private:
     double quiet_ = 0.0;  // since the last contact [s]
 };
 
-std::vector<Finding> findings(const Impacts& impacts, const RunResult<2>& result) {
+std::vector<run::Finding> findings(const Impacts& impacts, const run::RunResult<2>& result) {
     const auto impulses = impacts.complete();
     const double largest =
         result.scale.value + result.ledger.energy_excess();  // H~ is 0: the energy of the fall comes on top
-    const nlohmann::ordered_json first =
-        impulses.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(impulses.front());
-    return {{"impacts", "impacts that are over", impulses.size()},
+    const run::Value first = impulses.empty() ? run::Value() : run::Value(impulses.front());
+    return {{"impacts", "impacts that are over", static_cast<std::int64_t>(impulses.size())},
             {"impulse_first", "impulse of the first one [N s/m]", first},
             {"impulse_exact", "impulse, exact [N s/m]", exact_impulse},
             {"energy_largest", "largest energy, H0 + max (H - H~) [J]", largest},
             {"pseudo_energy_drift_relative", "drift / largest energy", result.ledger.pseudo_energy_drift() / largest}};
 }
 
-Scene<2> bar(const StripOptions& options, Impacts& impacts) {
-    Scene<2> scene =
+run::Scene<2> bar(const StripOptions& options, Impacts& impacts) {
+    run::Scene<2> scene =
         bar_strip<2>({.bar = the_bar,
                       .gap = ExactBounce::height,
                       .gravity = gravity,
@@ -90,22 +90,23 @@ Scene<2> bar(const StripOptions& options, Impacts& impacts) {
     scene.after_step = [&impacts, area = strip_width(the_bar, options.cells)](const solid::Solid<2>& solid, double dt) {
         impacts.add(-solid.obstacle_force(0).y() * dt / area, dt);
     };
-    scene.findings = [&impacts](const RunResult<2>& result) { return findings(impacts, result); };
+    scene.findings = [&impacts](const run::RunResult<2>& result) { return findings(impacts, result); };
     return scene;
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     StripOptions options;
     // An impact at a third of the wave speed: the foot gives way by up to twice its cell, and more when vibration adds up.
     options.run.contact.compression_limit = 10.0;
     // Only the foot of the bar faces the wall: a thick skin costs nothing and lasts long.
     options.run.contact.search.skin = 0.1 * the_bar.length;
     Impacts impacts;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); },
-        [&] { run<2>(program, options.run, [&] { return bar(options, impacts); }); });
+        [&] { apps::run_scene<2>(program, options.run, [&] { return bar(options, impacts); }); });
 }

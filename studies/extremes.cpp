@@ -8,15 +8,15 @@
 #include <algorithm>
 #include <set>
 
+#include "abut/run/files.hpp"
 #include "apps/support/choices.hpp"
-#include "apps/support/files.hpp"
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/report.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
-const Program program{
+const apps::Program program{
     .name = "extremes",
     .purpose = "Units, stiffness, density, speed, meshes, time steps and more, taken to their extremes.",
     .footer = "A run held, was refused with a message, or failed: the head of the source says what is asked."};
@@ -29,19 +29,19 @@ struct Options {
 void add_options(CLI::App& app, Options& options) {
     std::vector<std::string> names;
     for (const Family& family : families()) names.push_back(family.name);
-    app.add_option("--only", options.only, "families to sweep; by default all of " + joined(names))
+    app.add_option("--only", options.only, "families to sweep; by default all of " + apps::joined(names))
         ->delimiter(',')
-        ->check(one_of(names))
+        ->check(apps::one_of(names))
         ->type_name("NAME,...")
         ->group("Sweeps");
-    add_count(app, "--steps", options.sweep.steps, "steps of the families long and rest", 1)->group("Sweeps");
+    apps::add_count(app, "--steps", options.sweep.steps, "steps of the families long and rest", 1)->group("Sweeps");
     app.add_flag("--quick", options.sweep.quick, "fewer values of each family, and at most 2,000 steps of a long run")
         ->default_str("off")
         ->group("Sweeps");
-    add_number(app, "--cfl", options.sweep.run.cfl, "time step over the stable step, where it is not swept",
-               {.above = 0.0, .below = 1.0, .closed = true})
+    apps::add_number(app, "--cfl", options.sweep.run.cfl, "time step over the stable step, where it is not swept",
+                     {.above = 0.0, .below = 1.0, .closed = true})
         ->group("Time");
-    add_contact_options(app, options.sweep.run);
+    apps::add_contact_options(app, options.sweep.run);
     app.add_option("--out", options.sweep.run.out, "folder of all results; made if it is not there")
         ->type_name("DIR")
         ->capture_default_str()
@@ -49,8 +49,8 @@ void add_options(CLI::App& app, Options& options) {
 }
 
 void sweep(const Options& options) {
-    prepare_directory(options.sweep.run.out);
-    remove_files(options.sweep.run.out, {"extremes.csv", "summary.json"});
+    run::prepare_directory(options.sweep.run.out);
+    run::remove_files(options.sweep.run.out, {"extremes.csv", "summary.json"});
     const std::set<std::string> wanted(options.only.begin(), options.only.end());
     std::vector<Row> rows;
     for (const Family& family : families()) {
@@ -65,11 +65,12 @@ void sweep(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     extremes::Options options;
-    return run_program(
+    return apps::run_program(
         extremes::program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { sweep(options); });
 }

@@ -18,17 +18,17 @@
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using Chain = dynamics::Particles<dynamics::LineSpring>;
 
-const Program program{.name = "fpu",
-                      .purpose = "Chain of Fermi, Pasta and Ulam: exchange of fast vibrations, under all integrators.",
-                      .footer = "Six unit masses between two walls; stiff linear and soft quartic springs in turn."};
+const apps::Program program{.name = "fpu",
+                            .purpose = "Chain of Fermi, Pasta and Ulam: exchange of fast vibrations, under all integrators.",
+                            .footer = "Six unit masses between two walls; stiff linear and soft quartic springs in turn."};
 
 struct FpuOptions {
-    SchemeOptions schemes;
+    apps::SchemeOptions schemes;
     double omega = 50.0;  // [1/s]
     double dt = 0.01;     // [s]
     double time = 200.0;  // [s]
@@ -37,18 +37,18 @@ struct FpuOptions {
 };
 
 void add_options(CLI::App& app, FpuOptions& options) {
-    const Limits time{.unit = "s", .above = 0.0};
-    add_number(app, "--omega", options.omega, "circular frequency of the stiff springs", {.unit = "1/s", .above = 0.0})
+    const apps::Limits time{.unit = "s", .above = 0.0};
+    apps::add_number(app, "--omega", options.omega, "circular frequency of the stiff springs", {.unit = "1/s", .above = 0.0})
         ->group("Chain");
-    add_number(app, "--dt", options.dt, "time step", time)->group("Time");
-    add_number(app, "--time", options.time, "end of the run", time)->group("Time");
-    add_integrator(app, options.schemes);
-    add_mean(app, options.schemes);
-    add_gauge(app, options.schemes);
-    add_local_steps(app, options.schemes);
-    add_start(app, options.schemes);
-    add_out_option(app, options.out);
-    add_interval_option(app, options.interval);
+    apps::add_number(app, "--dt", options.dt, "time step", time)->group("Time");
+    apps::add_number(app, "--time", options.time, "end of the run", time)->group("Time");
+    apps::add_integrator(app, options.schemes);
+    apps::add_mean(app, options.schemes);
+    apps::add_gauge(app, options.schemes);
+    apps::add_local_steps(app, options.schemes);
+    apps::add_start(app, options.schemes);
+    apps::add_out_option(app, options.out);
+    apps::add_interval_option(app, options.interval);
 }
 
 Chain chain(double omega) {
@@ -62,11 +62,11 @@ Chain chain(double omega) {
 }
 
 /// The energies of the three stiff springs.
-class Oscillators : public Watcher {
+class Oscillators : public apps::Watcher {
 public:
     explicit Oscillators(double omega) : omega_(omega) {}
 
-    void look(const Node& node) override {
+    void look(const apps::Node& node) override {
         for (std::size_t i = 0; i < 3; ++i) {
             const double y = (node.q[2 * i + 1] - node.q[2 * i]) / std::sqrt(2.0);
             const double speed = (node.momentum(2 * i + 1) - node.momentum(2 * i)) / std::sqrt(2.0);
@@ -79,17 +79,17 @@ public:
     }
     std::vector<std::string> columns() const override { return {"I1", "I2", "I3", "I"}; }
     std::vector<double> row() const override { return {energy_[0], energy_[1], energy_[2], total()}; }
-    std::vector<Finding> findings() const override {
-        return {{"I_start", "oscillatory energy I at the start [J]", start_},
-                {"I_deviation_max", "max |I - I0| [J]", deviation_},
-                {"I2_max", "exchange: largest I2 [J]", largest_[1]},
-                {"I3_max", "exchange: largest I3 [J]", largest_[2]},
-                {"I2_overtakes", "exchange: I2 is first above I1 at [s]", overtaken_ ? Json(*overtaken_) : Json()},
-                {"I_end", "I at the end [J]", total()}};
+    std::vector<run::Finding> findings() const override {
+        return {
+            {"I_start", "oscillatory energy I at the start [J]", start_},
+            {"I_deviation_max", "max |I - I0| [J]", deviation_},
+            {"I2_max", "exchange: largest I2 [J]", largest_[1]},
+            {"I3_max", "exchange: largest I3 [J]", largest_[2]},
+            {"I2_overtakes", "exchange: I2 is first above I1 at [s]", overtaken_ ? run::Value(*overtaken_) : run::Value()},
+            {"I_end", "I at the end [J]", total()}};
     }
 
 private:
-    using Json = nlohmann::ordered_json;
     double total() const { return energy_[0] + energy_[1] + energy_[2]; }
 
     double omega_;
@@ -101,7 +101,7 @@ private:
 };
 
 /// One panel an integrator.
-Picture picture(const std::vector<SchemeRun>& runs, double time) {
+run::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
     const int n = static_cast<int>(runs.size());
     const double height = 100.0 + 210.0 * n;  // [pixels]
     std::string script = fmt::format(
@@ -109,7 +109,7 @@ Picture picture(const std::vector<SchemeRun>& runs, double time) {
         "set key top right horizontal samplen 1.5\nset yrange [0:1.4]\nset ytics 0.5\n"
         "set ylabel \"energy [J]\"\nset xrange [0:{}]\nset format x \"\"\n",
         n, 65.0 / height, 1.0 - 35.0 / height, 30.0 / height, time);
-    for (const SchemeRun& run : runs) {
+    for (const apps::SchemeRun& run : runs) {
         const char* title = &run == &runs.front() ? "title" : "notitle";
         if (&run == &runs.back()) script += "set xlabel \"time [s]\"\nset format x \"%g\"\n";
         script += fmt::format("set title \"{}{}\" noenhanced offset 0,-0.7\n", run.name,
@@ -135,33 +135,35 @@ nlohmann::ordered_json to_json(const FpuOptions& options) {
 }
 
 void run(const FpuOptions& options) {
-    check(options.schemes);
-    prepare_results(program, options.out);
+    apps::check(options.schemes);
+    apps::prepare_results(program, options.out);
     const double omega = options.omega, root = std::sqrt(2.0);
-    const Start start{.q = {(1.0 - 1.0 / omega) / root, (1.0 + 1.0 / omega) / root, 0.0, 0.0, 0.0, 0.0},
-                      .p = {0.0, root, 0.0, 0.0, 0.0, 0.0},
-                      .dt = options.dt,
-                      .local_steps = local_steps_of_first(options.schemes, 6)};
-    Schedule schedule{.steps = steps_until(options.time, options.dt), .energy_scale = chain(omega).potential(start.q) + 1.0};
-    schedule.interval = rows_interval(options.interval, schedule.steps);
-    Comparison comparison{.title = fmt::format("{} steps of {:g} s, omega dt = {:g}, H0 = {:.9g} J", schedule.steps,
-                                               options.dt, omega * options.dt, schedule.energy_scale),
-                          .options = to_json(options)};
-    for (const Scheme scheme : options.schemes.schemes) {
+    const apps::Start start{.q = {(1.0 - 1.0 / omega) / root, (1.0 + 1.0 / omega) / root, 0.0, 0.0, 0.0, 0.0},
+                            .p = {0.0, root, 0.0, 0.0, 0.0, 0.0},
+                            .dt = options.dt,
+                            .local_steps = apps::local_steps_of_first(options.schemes, 6)};
+    apps::Schedule schedule{.steps = apps::steps_until(options.time, options.dt),
+                            .energy_scale = chain(omega).potential(start.q) + 1.0};
+    schedule.interval = apps::rows_interval(options.interval, schedule.steps);
+    apps::Comparison comparison{.title = fmt::format("{} steps of {:g} s, omega dt = {:g}, H0 = {:.9g} J", schedule.steps,
+                                                     options.dt, omega * options.dt, schedule.energy_scale),
+                                .options = to_json(options)};
+    for (const apps::Scheme scheme : options.schemes.schemes) {
         Chain system = chain(omega);
         Oscillators oscillators(omega);
-        comparison.runs.push_back(follow(scheme, system, start, options.schemes, schedule, oscillators));
+        comparison.runs.push_back(apps::follow(scheme, system, start, options.schemes, schedule, oscillators));
     }
     comparison.picture = picture(comparison.runs, options.time);
-    report(program, options.out, comparison);
+    apps::report(program, options.out, comparison);
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     FpuOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
 }

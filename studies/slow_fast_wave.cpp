@@ -15,7 +15,7 @@
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using Chain = dynamics::Particles<dynamics::LineSpring>;
@@ -26,12 +26,12 @@ constexpr double interface = 0.5;                      // [m]
 constexpr int most_refinements = 20;
 constexpr double longest = 0.5;  // [s], the front reaches x = 1 soon after
 
-const Program program{.name = "slow_fast_wave",
-                      .purpose = "Wave in a fast and a slow medium: local steps against fine ones everywhere.",
-                      .footer = "The interval [0, 1] m, wave speeds of 10 m/s left of 1/2 and 1 m/s right of it."};
+const apps::Program program{.name = "slow_fast_wave",
+                            .purpose = "Wave in a fast and a slow medium: local steps against fine ones everywhere.",
+                            .footer = "The interval [0, 1] m, wave speeds of 10 m/s left of 1/2 and 1 m/s right of it."};
 
 struct WaveOptions {
-    SchemeOptions schemes{.schemes = {Scheme::memm, Scheme::memm_async, Scheme::leapfrog}};
+    apps::SchemeOptions schemes{.schemes = {apps::Scheme::memm, apps::Scheme::memm_async, apps::Scheme::leapfrog}};
     int cells = 4000;
     double cfl = 0.5;       // of the fast half [-]
     int ratio = 10;         // steps of the fast half in one of the slow half
@@ -41,21 +41,21 @@ struct WaveOptions {
 };
 
 void add_options(CLI::App& app, WaveOptions& options) {
-    add_count(app, "--cells", options.cells, "cells of the whole interval, an even number", 4)->group("Wave");
-    add_number(app, "--time", options.time, "end of the run: the exact solution holds until 0.5",
-               {.unit = "s", .above = 0.0, .below = longest, .closed = true})
+    apps::add_count(app, "--cells", options.cells, "cells of the whole interval, an even number", 4)->group("Wave");
+    apps::add_number(app, "--time", options.time, "end of the run: the exact solution holds until 0.5",
+                     {.unit = "s", .above = 0.0, .below = longest, .closed = true})
         ->group("Wave");
-    add_number(app, "--cfl", options.cfl, "Courant number c dt/h of the fast half",
-               {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 every scheme here is unstable."})
+    apps::add_number(app, "--cfl", options.cfl, "Courant number c dt/h of the fast half",
+                     {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 every scheme here is unstable."})
         ->group("Time");
-    add_integrator(app, options.schemes);
+    apps::add_integrator(app, options.schemes);
     auto* ratio =
-        add_count(app, "--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
-    restrict_to(ratio->group("Schemes"), options.schemes, {Scheme::memm_async});
-    add_count(app, "--refinements", options.refinements,
-              "how many coarser meshes, each of half the cells, the order is fitted over; 0: none", 0)
+        apps::add_count(app, "--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
+    apps::restrict_to(ratio->group("Schemes"), options.schemes, {apps::Scheme::memm_async});
+    apps::add_count(app, "--refinements", options.refinements,
+                    "how many coarser meshes, each of half the cells, the order is fitted over; 0: none", 0)
         ->group("Wave");
-    add_out_option(app, options.out);
+    apps::add_out_option(app, options.out);
 }
 
 /// The solution by reflections: at the wall the pulse changes its sign, at the interface a part goes back.
@@ -134,20 +134,21 @@ Errors errors(const Mesh& mesh, std::span<const double> q, double time) {
 }
 
 /// One scheme on one mesh, to the very end of the time.
-SchemeRun run_on(const Mesh& mesh, Scheme scheme, const WaveOptions& options) {
+apps::SchemeRun run_on(const Mesh& mesh, apps::Scheme scheme, const WaveOptions& options) {
     const auto long_steps = static_cast<double>(
-        steps_until(options.time, options.ratio * options.cfl * mesh.h / fast_speed));  // as many for all schemes
-    const int parts = scheme == Scheme::memm_async ? 1 : options.ratio;
-    Start start{.dt = options.time / (long_steps * parts), .local_steps = mesh.local_steps(options.ratio)};
+        apps::steps_until(options.time, options.ratio * options.cfl * mesh.h / fast_speed));  // as many for all schemes
+    const int parts = scheme == apps::Scheme::memm_async ? 1 : options.ratio;
+    apps::Start start{.dt = options.time / (long_steps * parts), .local_steps = mesh.local_steps(options.ratio)};
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         start.q.push_back(Exact().displacement(mesh.place(i), 0.0));
         start.p.push_back(mesh.h * Exact().velocity(mesh.place(i), 0.0));
     }
     Chain chain = mesh.chain();
     const double energy = chain.potential(start.q) + 0.5 * dynamics::mass_product(start.p, chain.inverse_mass(), start.p);
-    const Schedule schedule{.steps = static_cast<std::int64_t>(long_steps) * parts, .look = parts, .energy_scale = energy};
-    Watcher watcher;
-    return follow(scheme, chain, start, options.schemes, schedule, watcher);
+    const apps::Schedule schedule{
+        .steps = static_cast<std::int64_t>(long_steps) * parts, .look = parts, .energy_scale = energy};
+    apps::Watcher watcher;
+    return apps::follow(scheme, chain, start, options.schemes, schedule, watcher);
 }
 
 /// Minus the slope of a straight line through (log cells, log error).
@@ -162,9 +163,9 @@ double fitted_order(const std::vector<std::pair<int, double>>& errors) {
 }
 
 /// On all meshes; the run on the finest one, or the first that breaks off.
-SchemeRun run_refined(Scheme scheme, const WaveOptions& options) {
+apps::SchemeRun run_refined(apps::Scheme scheme, const WaveOptions& options) {
     std::vector<std::pair<int, double>> refined;
-    SchemeRun run;
+    apps::SchemeRun run;
     Errors last;
     for (int k = options.refinements; k >= 0 && !run.broken_off; --k) {
         const Mesh mesh(options.cells >> k);
@@ -172,7 +173,7 @@ SchemeRun run_refined(Scheme scheme, const WaveOptions& options) {
         last = errors(mesh, run.q, options.time);
         refined.emplace_back(mesh.cells, last.l2);
     }
-    const auto known = [&](bool is, double value) { return is && !run.broken_off ? Json(value) : Json(); };
+    const auto known = [&](bool is, double value) { return is && !run.broken_off ? run::Value(value) : run::Value(); };
     run.findings = {{"error_l2", "error in L2, relative", known(true, last.l2)},
                     {"error_max", "largest error / largest |u|", known(true, last.largest)},
                     {"order", fmt::format("order in L2 over {} meshes", options.refinements + 1),
@@ -181,36 +182,36 @@ SchemeRun run_refined(Scheme scheme, const WaveOptions& options) {
 }
 
 /// The local steps against the fine ones.
-std::vector<Finding> ratios(const std::vector<SchemeRun>& runs) {
-    const auto find = [&](Scheme scheme) {
-        return std::ranges::find_if(runs, [&](const SchemeRun& run) { return run.name == name_of(scheme); });
+std::vector<run::Finding> ratios(const std::vector<apps::SchemeRun>& runs) {
+    const auto find = [&](apps::Scheme scheme) {
+        return std::ranges::find_if(runs, [&](const apps::SchemeRun& run) { return run.name == name_of(scheme); });
     };
-    const auto fine = find(Scheme::memm), local = find(Scheme::memm_async);
+    const auto fine = find(apps::Scheme::memm), local = find(apps::Scheme::memm_async);
     if (fine == runs.end() || local == runs.end() || fine->broken_off || local->broken_off) return {};
-    const double error = local->findings[0].value.get<double>() / fine->findings[0].value.get<double>();
+    const double error = std::get<double>(local->findings[0].value) / std::get<double>(fine->findings[0].value);
     const double work = static_cast<double>(local->evaluations) / static_cast<double>(fine->evaluations);
     return {{"error_ratio", "memm_async / memm: error in L2", error},
             {"evaluation_ratio", "memm_async / memm: bonds evaluated", work},
             {"seconds_ratio", "memm_async / memm: time of the steps", local->seconds / fine->seconds}};
 }
 
-std::vector<SchemeRun> complete(std::vector<SchemeRun> runs) {
-    std::erase_if(runs, [](const SchemeRun& run) { return run.broken_off.has_value(); });
+std::vector<apps::SchemeRun> complete(std::vector<apps::SchemeRun> runs) {
+    std::erase_if(runs, [](const apps::SchemeRun& run) { return run.broken_off.has_value(); });
     return runs;
 }
 
-Table profile(const Mesh& mesh, const std::vector<SchemeRun>& runs, double time) {
-    Table table{.columns = {"x", "exact"}};
-    for (const SchemeRun& run : runs) table.columns.push_back(run.name);
+apps::Table profile(const Mesh& mesh, const std::vector<apps::SchemeRun>& runs, double time) {
+    apps::Table table{.columns = {"x", "exact"}};
+    for (const apps::SchemeRun& run : runs) table.columns.push_back(run.name);
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         table.rows.push_back({mesh.place(i), Exact().displacement(mesh.place(i), time)});
-        for (const SchemeRun& run : runs) table.rows.back().push_back(run.q[i]);
+        for (const apps::SchemeRun& run : runs) table.rows.back().push_back(run.q[i]);
     }
     return table;
 }
 
 /// The profiles, and what is wrong with them.
-Picture picture(const std::vector<SchemeRun>& runs, double time) {
+run::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
     constexpr std::array styles = {"lw 3 lc rgb \"#2a78d6\"", "lw 1.8 lc rgb \"#eb6834\"", "lw 1.8 dt 3 lc rgb \"#1b1b1a\""};
     std::string above = "\"profile.csv\" using \"x\":\"exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\"",
                 below = "0 with lines lc rgb \"#b9b8b4\" notitle";
@@ -232,7 +233,7 @@ Picture picture(const std::vector<SchemeRun>& runs, double time) {
 }
 
 void check(const WaveOptions& options) {
-    check(options.schemes);
+    apps::check(options.schemes);
     if (options.refinements > most_refinements)
         throw BadInput(
             fmt::format("--refinements: {}, at most {} are allowed. Take fewer.", options.refinements, most_refinements));
@@ -263,26 +264,27 @@ Json to_json(const WaveOptions& options) {
 
 void run(const WaveOptions& options) {
     check(options);
-    prepare_results(program, options.out, {"profile.csv"});
-    Comparison comparison{.options = to_json(options)};
-    for (const Scheme scheme : options.schemes.schemes) comparison.runs.push_back(run_refined(scheme, options));
+    apps::prepare_results(program, options.out, {"profile.csv"});
+    apps::Comparison comparison{.options = to_json(options)};
+    for (const apps::Scheme scheme : options.schemes.schemes) comparison.runs.push_back(run_refined(scheme, options));
     const double fine =
-        comparison.runs.front().dt / (options.schemes.schemes.front() == Scheme::memm_async ? options.ratio : 1);
+        comparison.runs.front().dt / (options.schemes.schemes.front() == apps::Scheme::memm_async ? options.ratio : 1);
     comparison.title = fmt::format("{} cells, fine steps of {:.4g} s (c dt/h = {:.4g} and {:.4g})", options.cells, fine,
                                    fine * fast_speed * options.cells, fine * slow_speed * options.cells);
     comparison.findings = ratios(comparison.runs);
     const auto shown = complete(comparison.runs);
-    write_csv(options.out / "profile.csv", profile(Mesh(options.cells), shown, options.time));
+    apps::write_csv(options.out / "profile.csv", profile(Mesh(options.cells), shown, options.time));
     comparison.picture = picture(shown, options.time);
-    report(program, options.out, comparison);
+    apps::report(program, options.out, comparison);
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     WaveOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
 }

@@ -9,15 +9,15 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
+#include "abut/run/files.hpp"
 #include "apps/support/choices.hpp"
-#include "apps/support/files.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/trade/report.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 namespace {
 
-const Program program{
+const apps::Program program{
     .name = "trade",
     .purpose = "Error against seconds, for all choices that trade one for the other.",
     .footer =
@@ -37,8 +37,8 @@ struct Options {
 /// Why no program would take a setting; empty if one would.
 std::string refusal(const Setting& setting) {
     try {
-        RunOptions run;
-        apply_words(setting, run);
+        run::RunOptions run;
+        apps::apply_words(setting, run);
         return "";
     } catch (const BadInput& error) {
         return error.what();
@@ -48,13 +48,13 @@ std::string refusal(const Setting& setting) {
 void add_options(CLI::App& app, Options& options) {
     std::vector<std::string> names;
     for (const Problem& problem : problems()) names.push_back(problem.name);
-    app.add_option("--only", options.only, "problems to run; by default all of " + joined(names))
+    app.add_option("--only", options.only, "problems to run; by default all of " + apps::joined(names))
         ->delimiter(',')
-        ->check(one_of(names))
+        ->check(apps::one_of(names))
         ->type_name("NAME,...")
         ->group("Ladder");
-    add_choice(app, "--settings", options.extent, "each choice by itself, or products of those that act together, too",
-               Choices<Extent>{{"each", Extent::each}, {"products", Extent::products}})
+    apps::add_choice(app, "--settings", options.extent, "each choice by itself, or products of those that act together, too",
+                     apps::Choices<Extent>{{"each", Extent::each}, {"products", Extent::products}})
         ->group("Ladder");
     app.add_option("--also", options.settings,
                    "a setting of your own, in quotation marks: \"--cfl 0.5 --events off\"; may come again; by default none")
@@ -63,11 +63,12 @@ void add_options(CLI::App& app, Options& options) {
         ->take_all()
         ->check(CLI::Validator(refusal, "", ""))
         ->group("Ladder");
-    add_count(app, "--levels", options.levels, "coarsest meshes of each problem; 0: all", 0)->group("Ladder");
-    add_count(app, "--repetitions", options.repetitions, "of each run, in turn; the least time counts", 1)->group("Ladder");
-    add_number(app, "--limit", options.limit,
-               "of a run in time; one that takes longer is stopped, and said to be. Not of the references",
-               {.unit = "s", .above = 0.0})
+    apps::add_count(app, "--levels", options.levels, "coarsest meshes of each problem; 0: all", 0)->group("Ladder");
+    apps::add_count(app, "--repetitions", options.repetitions, "of each run, in turn; the least time counts", 1)
+        ->group("Ladder");
+    apps::add_number(app, "--limit", options.limit,
+                     "of a run in time; one that takes longer is stopped, and said to be. Not of the references",
+                     {.unit = "s", .above = 0.0})
         ->group("Ladder");
     app.add_option("--out", options.out, "folder of all results; made if it is not there")
         ->type_name("DIR")
@@ -85,8 +86,8 @@ nlohmann::ordered_json to_json(const Options& options) {
 Row attempt(const Problem& problem, int level, const Setting& setting, double reference, double limit) {
     Row row{.problem = problem.name, .level = level, .setting = setting};
     try {
-        RunOptions run = problem.base;
-        apply_words(setting, run);
+        run::RunOptions run = problem.base;
+        apps::apply_words(setting, run);
         row.outcome = problem.solve(run, level, reference, limit);
     } catch (const std::exception& error) {
         row.refusal = error.what();
@@ -104,9 +105,9 @@ std::vector<Setting> settings_of(const Problem& problem, const Options& options)
 
 /// Restitution of the finest mesh, where there is no exact one.
 double reference_of(const Problem& problem) {
-    if (problem.reference_level == 0) return not_given;
-    RunOptions run = problem.base;
-    apply_words(words_of(Preset::exact), run);
+    if (problem.reference_level == 0) return run::not_given;
+    run::RunOptions run = problem.base;
+    apps::apply_words(apps::words_of(apps::Preset::exact), run);
     const double reference = problem.restitution(run, problem.reference_level);
     fmt::print("  {:>4}  restitution {:.6f}, --preset exact\n", problem.reference_level, reference);
     return reference;
@@ -134,8 +135,8 @@ std::vector<Row> climb(const Problem& problem, const Options& options) {
 }
 
 void run(const Options& options) {
-    prepare_directory(options.out);
-    remove_files(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
+    run::prepare_directory(options.out);
+    run::remove_files(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
     std::vector<Row> rows;
     for (const Problem& problem : problems()) {
         if (!options.only.empty() && std::ranges::find(options.only, problem.name) == options.only.end()) continue;
@@ -146,11 +147,12 @@ void run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     trade::Options options;
-    return run_program(
+    return apps::run_program(
         trade::program, argc, argv, [&](CLI::App& app) { trade::add_options(app, options); }, [&] { trade::run(options); });
 }

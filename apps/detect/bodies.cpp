@@ -17,7 +17,7 @@
 #include "abut/mesh/quality.hpp"
 #include "apps/detect/shapes.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using mesh::CleanSurface;
@@ -240,4 +240,4 @@ void set_depth(Bodies& bodies, double depth, double distance) {
     bodies.surface.depth.assign(bodies.surface.body.size(), std::max(0.25 * (depth - distance), nothing * depth));
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

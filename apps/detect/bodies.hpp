@@ -7,7 +7,7 @@
 #include "abut/geometry/health/surface_health.hpp"
 #include "apps/detect/options.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// One surface as it came, and what became of it.
 struct InputReport {
@@ -52,4 +52,4 @@ void update_faces(Bodies& bodies, int step);
 /// side.
 void set_depth(Bodies& bodies, double depth, double distance);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -9,7 +9,7 @@
 
 #include "abut/base/stopwatch.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 constexpr double default_distance = 0.5;  // mean face sizes
@@ -48,7 +48,7 @@ const StepResult& Detection::find(int step, bool turned) {
     result_ = {.step = step};
     {
         const Stopwatch watch(seconds_search_);
-        result_.searched = turned || !search_.covers(motion_since());
+        result_.searched = turned || !search_.is_valid_for(motion_since());
         if (result_.searched) search();
     }
     result_.box_pairs = search_.report().box_pairs;
@@ -96,4 +96,4 @@ void Detection::keep_near_ones() {
     }
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -6,7 +6,7 @@
 #include "abut/contact/search/candidate_search.hpp"
 #include "apps/detect/motion.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// What counts as near, once every default is known.
 struct Nearness {
@@ -63,4 +63,4 @@ private:
     double seconds_narrow_ = 0.0;
 };
 
-}  // namespace abut::examples
+}  // namespace abut::apps

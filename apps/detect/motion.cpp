@@ -15,7 +15,7 @@
 
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 constexpr int default_steps = 10;
@@ -230,4 +230,4 @@ void Motion::move(Bodies& bodies, int step) const {
     update_faces(bodies, step);
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -5,7 +5,7 @@
 
 #include "apps/detect/bodies.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Where a body is: x -> centre + turn (x - centre) + shift. Without a turn just x + shift.
 struct Pose {
@@ -57,4 +57,4 @@ private:
     int steps_ = 0;
 };
 
-}  // namespace abut::examples
+}  // namespace abut::apps

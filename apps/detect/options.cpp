@@ -6,7 +6,7 @@
 #include "apps/detect/shapes.hpp"
 #include "apps/support/contact_choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using mesh::UnusableFaces;
@@ -160,4 +160,4 @@ nlohmann::ordered_json to_json(const DetectOptions& options) {
             {"write_every", options.write_every}};
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -10,7 +10,7 @@
 #include "abut/mesh/surface_mesh.hpp"
 #include "apps/support/program.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 extern const Program detect_program;
 
@@ -49,4 +49,4 @@ struct DetectOptions {
 void add_options(CLI::App& app, DetectOptions& options);
 [[nodiscard]] nlohmann::ordered_json to_json(const DetectOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

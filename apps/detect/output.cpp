@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "abut/mesh/io/write_vtp.hpp"
-#include "apps/support/files.hpp"
+#include "abut/run/files.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -142,12 +142,12 @@ std::vector<double> problems_of(const Bodies& bodies) {
 }  // namespace
 
 void prepare_output(const fs::path& out) {
-    prepare_directory(out);
-    remove_files(out, {"summary.json", "candidates.csv", "overlaps.csv", "steps.csv"});
+    run::prepare_directory(out);
+    run::remove_files(out, {"summary.json", "candidates.csv", "overlaps.csv", "steps.csv"});
     std::vector<std::string> pictures;
     for (const auto& entry : fs::directory_iterator(out))
         if (is_picture(entry.path().filename().string())) pictures.push_back(entry.path().filename().string());
-    remove_files(out, pictures);
+    run::remove_files(out, pictures);
 }
 
 Output::Output(const Bodies& bodies, const fs::path& out, int every)
@@ -223,9 +223,9 @@ void Output::write_surface(const StepResult& result) const {
 }
 
 void Output::finish() const {
-    write_whole(out_ / "candidates.csv", candidates_);
-    write_whole(out_ / "overlaps.csv", overlaps_);
-    write_whole(out_ / "steps.csv", steps_);
+    run::write_whole(out_ / "candidates.csv", candidates_);
+    run::write_whole(out_ / "overlaps.csv", overlaps_);
+    run::write_whole(out_ / "steps.csv", steps_);
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -4,7 +4,7 @@
 
 #include "apps/detect/detection.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Makes the folder and removes what an earlier run left. Throws std::runtime_error naming folder or file.
 void prepare_output(const std::filesystem::path& out);
@@ -38,4 +38,4 @@ private:
     std::string steps_, candidates_, overlaps_;
 };
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -7,7 +7,7 @@
 
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -247,4 +247,4 @@ void print(const DetectReport& report, const DetectOptions& options) {
     if (!options.no_files) print_line("files in", options.out.string());
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -4,7 +4,7 @@
 #include "apps/detect/detection.hpp"
 #include "apps/detect/verification.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Times of the parts of a run [s].
 struct DetectTimes {
@@ -30,4 +30,4 @@ struct DetectReport {
 [[nodiscard]] nlohmann::ordered_json summary(const DetectReport& report, const DetectOptions& options);
 void print(const DetectReport& report, const DetectOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -14,7 +14,7 @@
 #include "abut/mesh/shapes/surface_shapes.hpp"
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using mesh::SurfaceMesh;
@@ -236,4 +236,4 @@ std::string shapes_help() {
     return text;
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

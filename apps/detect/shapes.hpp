@@ -3,7 +3,7 @@
 
 #include "abut/mesh/surface_mesh.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Whether a text names a generated shape rather than a file: "torus", "gear:n=4000", ...
 [[nodiscard]] bool is_shape(const std::string& text);
@@ -16,4 +16,4 @@ namespace abut::examples {
 /// Shapes and their keys for --help, a shape a line.
 [[nodiscard]] std::string shapes_help();
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -13,7 +13,7 @@
 #include "abut/geometry/places.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using contact::Overlap;
@@ -249,4 +249,4 @@ Verification verify(const SurfaceView<3>& surface, std::span<const Vector<3>> st
     return verifier.check(sample(surface.size(), n_faces, limits.seed), all);
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -7,7 +7,7 @@
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/surface.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Which pairs must be found.
 struct Requirement {
@@ -49,4 +49,4 @@ struct Verification {
                                   std::span<const geometry::IndexPair> candidates,
                                   std::span<const contact::Overlap<3>> overlaps);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 std::string with_unit(double value, const Limits& limits) {
@@ -158,4 +158,4 @@ CLI::Option* add_counts(CLI::App& app, const std::string& option, std::vector<in
         ->default_str(fmt::format("{}", fmt::join(values, ",")));
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

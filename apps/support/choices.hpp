@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "abut/run/options.hpp"
+
 /// Options that say by themselves what they take: unit, default and limits in --help, and one clear message for a value
 /// that will not do. All throw CLI::ValidationError from App::parse.
-namespace abut::examples {
+namespace abut::apps {
 
 /// The values that a number may take.
 struct Limits {
@@ -57,6 +59,14 @@ public:
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
+/// A table of words as choices.
+template <class Value, std::size_t N>
+[[nodiscard]] Choices<Value> choices_of(const std::array<run::Word<Value>, N>& words) {
+    Choices<Value> choices;
+    for (const auto& [word, value] : words) choices.emplace_back(word, value);
+    return choices;
+}
+
 template <class Value>
 [[nodiscard]] std::string name_of(const Choices<Value>& choices, const Value& value) {
     for (const auto& [name, choice] : choices)
@@ -78,4 +88,4 @@ CLI::Option* add_choice(CLI::App& app, const std::string& option, Value& value, 
     return added->type_name(joined(names))->default_str(name_of(choices, value));
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

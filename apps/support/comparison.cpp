@@ -4,10 +4,11 @@
 #include <fmt/ranges.h>
 
 #include "abut/base/error.hpp"
+#include "abut/run/files.hpp"
 #include "apps/support/choices.hpp"
-#include "apps/support/files.hpp"
+#include "apps/support/run_options.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,15 +19,16 @@ constexpr double most_steps = 1e15;  // all of them are counted exactly
 constexpr double rounding = 1e-12;   // of an end that is a whole number of steps
 
 /// What is known of every run, then what its scene has found.
-std::vector<Finding> all_findings(const SchemeRun& run) {
+std::vector<run::Finding> all_findings(const SchemeRun& run) {
     const double scale = run.energy_scale;
-    std::vector<Finding> findings = {
-        {"broken_off_time", "breaks off at [s]", run.broken_off ? Json(run.broken_off->time) : Json()},
+    std::vector<run::Finding> findings = {
+        {"broken_off_time", "breaks off at [s]", run.broken_off ? run::Value(run.broken_off->time) : run::Value()},
         {"energy_error_relative", "true energy, max |H - H0| / H0", run.energy_error / scale},
         {"drift_relative", "drift of its own energy / H0", run.drift / scale},
         {"excess_relative", "max (H - H~) / H0", run.excess / scale},
         {"parasitic_max", "parasitic mode, max |e|/m [m/s]", run.parasitic},
-        {"gauge_defect_max", "max |psi - sqrt(2 (V + c))| [J^1/2]", run.gauge_defect ? Json(*run.gauge_defect) : Json()}};
+        {"gauge_defect_max", "max |psi - sqrt(2 (V + c))| [J^1/2]",
+         run.gauge_defect ? run::Value(*run.gauge_defect) : run::Value()}};
     findings.insert(findings.end(), run.findings.begin(), run.findings.end());
     findings.push_back({"force_evaluations", "bonds evaluated", run.evaluations});
     findings.push_back({"seconds", "time of the steps [s]", run.seconds});
@@ -36,14 +38,15 @@ std::vector<Finding> all_findings(const SchemeRun& run) {
 Json run_json(const SchemeRun& run) {
     Json json = {
         {"steps", run.steps}, {"dt", run.dt}, {"energy_initial", run.energy_start}, {"energy_scale", run.energy_scale}};
-    for (const Finding& finding : all_findings(run)) json[finding.key] = finding.value;
+    for (const run::Finding& finding : all_findings(run)) json[finding.key] = to_json(finding.value);
     if (run.broken_off) json["broken_off_why"] = run.broken_off->why;
     return json;
 }
 
-std::string value_text(const Json& value) {
-    if (value.is_null()) return "-";
-    return value.is_number_float() ? fmt::format("{:.5g}", value.get<double>()) : value.dump();
+std::string value_text(const run::Value& value) {
+    if (std::holds_alternative<std::monostate>(value)) return "-";
+    const double* number = std::get_if<double>(&value);
+    return number ? fmt::format("{:.5g}", *number) : to_json(value).dump();
 }
 
 void print_line(const std::string& name, const std::vector<std::string>& values) {
@@ -54,7 +57,7 @@ void print_line(const std::string& name, const std::vector<std::string>& values)
 
 void print_runs(const std::vector<SchemeRun>& runs) {
     std::vector<std::string> names;
-    std::vector<std::vector<Finding>> findings;
+    std::vector<std::vector<run::Finding>> findings;
     for (const SchemeRun& run : runs) names.push_back(run.name);
     for (const SchemeRun& run : runs) findings.push_back(all_findings(run));
     print_line("", names);
@@ -68,7 +71,7 @@ void print_runs(const std::vector<SchemeRun>& runs) {
 
 Json summary(const Program& program, const Comparison& comparison) {
     Json json = {{"program", program.name}, {"version", ABUT_VERSION}};
-    for (const Finding& finding : comparison.findings) json[finding.key] = finding.value;
+    for (const run::Finding& finding : comparison.findings) json[finding.key] = to_json(finding.value);
     for (const SchemeRun& run : comparison.runs) json["schemes"][run.name] = run_json(run);
     json["options"] = comparison.options;
     return json;
@@ -123,8 +126,8 @@ std::int64_t rows_interval(int given, std::int64_t steps) {
 void prepare_results(const Program& program, const fs::path& out, std::vector<std::string> more) {
     for (const Scheme scheme : all_schemes) more.push_back(name_of(scheme) + ".csv");
     more.insert(more.end(), {"summary.json", program.name + ".gp", program.name + ".png"});
-    prepare_directory(out);
-    remove_files(out, more);
+    run::prepare_directory(out);
+    run::remove_files(out, more);
 }
 
 void report(const Program& program, const fs::path& out, const Comparison& comparison) {
@@ -135,10 +138,10 @@ void report(const Program& program, const fs::path& out, const Comparison& compa
             write_csv(files.back(), run.series);
         }
     const std::string without_picture = draw(out, comparison.picture);
-    write_whole(out / "summary.json", summary(program, comparison).dump(2) + "\n");
+    run::write_whole(out / "summary.json", summary(program, comparison).dump(2) + "\n");
     fmt::print("{}: {}\n", program.name, comparison.title);
     print_runs(comparison.runs);
-    for (const Finding& finding : comparison.findings) print_line(finding.text, {value_text(finding.value)});
+    for (const run::Finding& finding : comparison.findings) print_line(finding.text, {value_text(finding.value)});
     fmt::print("Files\n");
     fmt::print("  {:<12}{}\n", "summary", (out / "summary.json").string());
     if (!files.empty()) fmt::print("  {:<12}{}\n", "series", fmt::join(files, ", "));
@@ -147,4 +150,4 @@ void report(const Program& program, const fs::path& out, const Comparison& compa
     throw_if_broken_off(comparison.runs);
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

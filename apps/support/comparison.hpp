@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "abut/base/stopwatch.hpp"
+#include "abut/run/gnuplot.hpp"
+#include "abut/run/value.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/finding.hpp"
-#include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/schemes.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// A run at a node, as its scene sees it.
 struct Node {
@@ -37,7 +37,7 @@ public:
     virtual void look(const Node&) {}  ///< at the start and then at each node that is looked at
     [[nodiscard]] virtual std::vector<std::string> columns() const { return {}; }
     [[nodiscard]] virtual std::vector<double> row() const { return {}; }  ///< of the last look, for the file
-    [[nodiscard]] virtual std::vector<Finding> findings() const { return {}; }
+    [[nodiscard]] virtual std::vector<run::Finding> findings() const { return {}; }
 };
 
 /// How long a run is and how often it is looked at.
@@ -72,7 +72,7 @@ struct SchemeRun {
     std::optional<BreakOff> broken_off;
     std::vector<double> q;  ///< at the end
     Table series;           ///< empty if the schedule asks for none
-    std::vector<Finding> findings;
+    std::vector<run::Finding> findings;
 };
 
 namespace detail {
@@ -200,13 +200,13 @@ void prepare_results(const Program& program, const std::filesystem::path& out, s
 struct Comparison {
     std::string title;  ///< of the table
     std::vector<SchemeRun> runs;
-    std::vector<Finding> findings;  ///< of all of them together
+    std::vector<run::Finding> findings;  ///< of all of them together
     nlohmann::ordered_json options;
-    Picture picture;
+    run::Picture picture;
 };
 
 /// Leaves <scheme>.csv, the picture and summary.json, and prints the table: a line a figure, a column a scheme. Then throws
 /// std::runtime_error if a run broke off, with its scheme, step, time and reason.
 void report(const Program& program, const std::filesystem::path& out, const Comparison& comparison);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

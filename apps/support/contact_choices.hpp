@@ -1,9 +1,8 @@
 #pragma once
 #include "abut/geometry/broad_phase/broad_phase.hpp"
-#include "abut/geometry/overlap/overlap.hpp"
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// What `--broad-phase` and `--area` may be in every program.
 inline const Choices<geometry::BroadPhase> broad_phases = [] {
@@ -11,7 +10,6 @@ inline const Choices<geometry::BroadPhase> broad_phases = [] {
     for (const geometry::BroadPhase method : geometry::broad_phases) choices.emplace_back(geometry::name(method), method);
     return choices;
 }();
-inline const Choices<geometry::AreaMethod> areas = {{"fast", geometry::AreaMethod::fast},
-                                                    {"exact", geometry::AreaMethod::exact}};
+inline const Choices<geometry::AreaMethod> areas = choices_of(run::area_words);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <iterator>
 
-#include "apps/support/files.hpp"
+#include "abut/run/files.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 void write_csv(const std::filesystem::path& path, const Table& table) {
     fmt::memory_buffer text;
     fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(table.columns, ","));
     for (const auto& row : table.rows) fmt::format_to(std::back_inserter(text), "{:.17g}\n", fmt::join(row, ","));
-    write_whole(path, fmt::to_string(text));
+    run::write_whole(path, fmt::to_string(text));
 }
 
 std::string all_digits(double number) { return std::isnan(number) ? "" : fmt::format("{:.17g}", number); }
@@ -29,4 +29,4 @@ std::string quoted(const std::string& text) {
     return result + "\"";
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

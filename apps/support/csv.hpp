@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Rows of numbers under the names of their columns.
 struct Table {
@@ -25,4 +25,4 @@ void write_csv(const std::filesystem::path& path, const Table& table);
 /// Text as a field: in quotation marks, those inside doubled.
 [[nodiscard]] std::string quoted(const std::string& text);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -4,7 +4,7 @@
 
 #include "abut/base/error.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 std::string words_of(Preset preset) {
     switch (preset) {
@@ -18,7 +18,7 @@ std::string words_of(Preset preset) {
     throw BadInput("not a Preset");
 }
 
-void apply_words(const std::string& words, RunOptions& options) {
+void apply_words(const std::string& words, run::RunOptions& options) {
     CLI::App app;
     app.set_help_flag();
     add_preset_option(app, options);
@@ -33,7 +33,7 @@ void apply_words(const std::string& words, RunOptions& options) {
     }
 }
 
-void add_preset_option(CLI::App& app, RunOptions& options) {
+void add_preset_option(CLI::App& app, run::RunOptions& options) {
     std::vector<std::string> names;
     for (const auto& [name, preset] : presets) names.push_back(name);
     const auto choose = [&options](const std::string& text) {
@@ -49,4 +49,4 @@ void add_preset_option(CLI::App& app, RunOptions& options) {
         ->group("Preset");
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -4,7 +4,7 @@
 #include "apps/support/choices.hpp"
 #include "apps/support/run_options.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// Settings of all that trades speed for accuracy, under a name. What each costs and gives is in docs/trade.md.
 enum class Preset {
@@ -20,9 +20,9 @@ inline const Choices<Preset> presets = {{"fast", Preset::fast}, {"balanced", Pre
 
 /// Takes options of time and contact as they would be typed, a preset among them; all else stays. Throws
 /// BadInput naming the words that no program would take.
-void apply_words(const std::string& words, RunOptions& options);
+void apply_words(const std::string& words, run::RunOptions& options);
 
 /// --preset. To be added before the options that a preset chooses: those on the command line then win, wherever they stand.
-void add_preset_option(CLI::App& app, RunOptions& options);
+void add_preset_option(CLI::App& app, run::RunOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -10,7 +10,7 @@
 
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 std::string message_of(const CLI::App* app, const CLI::Error& error) {
@@ -46,4 +46,4 @@ int run_program(const Program& program, int argc, char** argv, const std::functi
     return report_errors(program.name, body);
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

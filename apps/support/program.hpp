@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// What a program is called and what it leaves behind.
 struct Program {
@@ -19,4 +19,4 @@ struct Program {
 int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
                 const std::function<void()>& body);
 
-}  // namespace abut::examples
+}  // namespace abut::apps

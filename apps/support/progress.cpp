@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 constexpr std::chrono::milliseconds between_lines{100};
@@ -54,4 +54,22 @@ void Progress::show(std::int64_t step, double time, double drift) {
     std::fflush(stdout);
 }
 
-}  // namespace abut::examples
+template <int Dim>
+void ShowProgress<Dim>::begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) {
+    progress_.emplace(result.steps);
+}
+
+template <int Dim>
+void ShowProgress<Dim>::record(const dynamics::LedgerEntry<Dim>&, const run::RunResult<Dim>& result) {
+    drift_ = result.ledger.pseudo_energy_drift() / result.scale.value;
+}
+
+template <int Dim>
+void ShowProgress<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&) {
+    if (run.steps > 0) progress_->show(run.steps, run.time, drift_);
+}
+
+template class ShowProgress<2>;
+template class ShowProgress<3>;
+
+}  // namespace abut::apps

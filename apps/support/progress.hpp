@@ -1,8 +1,11 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
-namespace abut::examples {
+#include "abut/run/observer.hpp"
+
+namespace abut::apps {
 
 /// How far a run has come: one line that rewrites itself on a terminal, otherwise a line of the log every tenth of the way.
 class Progress {
@@ -26,4 +29,17 @@ private:
     Clock::time_point last_;
 };
 
-}  // namespace abut::examples
+/// Shows the progress of a run.
+template <int Dim>
+class ShowProgress : public run::Observer<Dim> {
+public:
+    void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override;
+    void record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>& result) override;
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+
+private:
+    std::optional<Progress> progress_;
+    double drift_ = 0.0;  // of H~ so far, over the energy scale
+};
+
+}  // namespace abut::apps

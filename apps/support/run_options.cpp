@@ -1,35 +1,30 @@
 #include "apps/support/run_options.hpp"
 
-#include <cmath>
-#include <string>
+#include <type_traits>
+#include <variant>
 
 #include "apps/support/contact_choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
-using contact::OverlapMode;
-using contact::Weights;
-using solid::FreeFaceRule;
-
-const Choices<OverlapMode> overlap_modes = {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}};
-const Choices<Weights> weights = {{"half", Weights::half}, {"stiffness", Weights::stiffness}};
-const Choices<SolidIntegrator> integrators = {{"memm", SolidIntegrator::memm},
-                                              {"memm_async", SolidIntegrator::memm_async},
-                                              {"leapfrog", SolidIntegrator::leapfrog},
-                                              {"bilbao", SolidIntegrator::bilbao}};
-const Choices<bool> switches = {{"on", true}, {"off", false}};
-const Choices<bool> filters = {{"none", false}, {"neutral", true}};
+const auto overlap_modes = choices_of(run::overlap_words);
+const auto weights = choices_of(run::weighting_words);
+const auto integrators = choices_of(run::integrator_words);
+const auto switches = choices_of(run::event_words);
+const auto filters = choices_of(run::filter_words);
+const auto free_face_rules = choices_of(run::free_face_words);
 const Choices<int> quadratures = {{"1", 1}, {"2", 2}, {"3", 3}};
-const Choices<FreeFaceRule> neumanns = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
-                                   {"extrapolate", FreeFaceRule::extrapolate},
-                                   {"adjacent", FreeFaceRule::adjacent}};
+
+nlohmann::ordered_json to_json(const run::NamedValues& values) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const run::NamedValue& value : values) json[value.name] = apps::to_json(value.value);
+    return json;
+}
 
 }  // namespace
 
-std::string name_of(SolidIntegrator integrator) { return name_of(integrators, integrator); }
-
-void add_time_options(CLI::App& app, RunOptions& options, const std::string& default_of_time) {
+void add_time_options(CLI::App& app, run::RunOptions& options, const std::string& default_of_time) {
     const Limits positive{.unit = "s", .above = 0.0};
     auto* time = add_number(app, "--time", options.time, "end of the run; by default " + default_of_time, positive);
     time->group("Time");
@@ -68,18 +63,18 @@ void add_time_options(CLI::App& app, RunOptions& options, const std::string& def
         ->group("Time");
 }
 
-void add_model_options(CLI::App& app, RunOptions& options) {
+void add_model_options(CLI::App& app, run::RunOptions& options) {
     auto& contact = options.contact;
     const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
-    grouped(add_choice(app, "--weights", contact.weights,
+    grouped(add_choice(app, "--weights", contact.weighting,
                        "share of a correction between two faces: halves or by their stiffness", weights));
     grouped(add_choice(app, "--area", contact.area, "arithmetic of overlap areas: filtered doubles or CGAL's exact numbers",
                        areas));
     grouped(add_choice(app, "--neumann", options.neumann,
-                       "displacement of free faces; extrapolate and adjacent are there for comparison", neumanns));
+                       "displacement of free faces; extrapolate and adjacent are there for comparison", free_face_rules));
 }
 
-void add_contact_options(CLI::App& app, RunOptions& options) {
+void add_contact_options(CLI::App& app, run::RunOptions& options) {
     add_model_options(app, options);
     auto& contact = options.contact;
     const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
@@ -102,13 +97,13 @@ void add_contact_options(CLI::App& app, RunOptions& options) {
     add_compression_limit(app, options);
 }
 
-void add_compression_limit(CLI::App& app, RunOptions& options) {
+void add_compression_limit(CLI::App& app, run::RunOptions& options) {
     const char* help =
         "how deep faces may be pressed into each other, over D, the depth of their cells, before the run stops";
     add_number(app, "--compression-limit", options.contact.compression_limit, help, {.above = 0.0})->group("Contact");
 }
 
-void add_output_options(CLI::App& app, RunOptions& options) {
+void add_output_options(CLI::App& app, run::RunOptions& options) {
     app.add_option("--out", options.out, "folder of all results; made if it is not there")
         ->type_name("DIR")
         ->capture_default_str()
@@ -120,39 +115,18 @@ void add_output_options(CLI::App& app, RunOptions& options) {
     grouped(add_count(app, "--threads", options.threads, "threads; 0: all. The results do not depend on it", 0));
 }
 
-nlohmann::ordered_json model_json(const RunOptions& options) {
-    return {{"weights", name_of(weights, options.contact.weights)},
-            {"area", name_of(areas, options.contact.area)},
-            {"neumann", name_of(neumanns, options.neumann)}};
+nlohmann::ordered_json to_json(const run::Value& value) {
+    return std::visit(
+        [](const auto& held) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(held)>, std::monostate>)
+                return nlohmann::ordered_json();
+            else
+                return nlohmann::ordered_json(held);
+        },
+        value);
 }
 
-nlohmann::ordered_json to_json(const RunOptions& options) {
-    const auto& contact = options.contact;
-    nlohmann::ordered_json json;
-    if (std::isnan(options.dt))
-        json = {{"cfl", options.cfl}};
-    else
-        json = {{"dt", options.dt}, {"allow_unstable", options.allow_unstable}};
-    json["integrator"] = name_of(options.integrator);
-    if (options.integrator == SolidIntegrator::memm_async)
-        json.update({{"levels", options.levels},
-                     {"contact_margin", options.contact_margin},
-                     {"contact_levels", options.contact_levels}});
-    if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge)) json["gauge"] = options.gauge;
-    json.update({{"filter", name_of(filters, options.filter)},
-                 {"broad_phase", name_of(broad_phases, contact.search.broad_phase)},
-                 {"overlap", name_of(overlap_modes, contact.overlap)},
-                 {"weights", name_of(weights, contact.weights)},
-                 {"area", name_of(areas, contact.area)},
-                 {"events", name_of(switches, contact.events)},
-                 {"quadrature", contact.quadrature},
-                 {"facing_cosine", contact.search.facing_cosine},
-                 {"compression_limit", contact.compression_limit},
-                 {"neumann", name_of(neumanns, options.neumann)},
-                 {"out", options.out.string()},
-                 {"interval", options.interval},
-                 {"frames", options.frames}});
-    return json;
-}
+nlohmann::ordered_json to_json(const run::RunOptions& options) { return to_json(run::named_values(options)); }
+nlohmann::ordered_json model_json(const run::RunOptions& options) { return to_json(run::model_values(options)); }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -8,7 +8,7 @@
 #include "abut/base/error.hpp"
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 namespace {
 
 using dynamics::PathMean;
@@ -102,4 +102,4 @@ dynamics::LocalSteps local_steps_of_first(const SchemeOptions& options, std::siz
     return steps;
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

@@ -13,7 +13,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/memm_async.hpp"
 
-namespace abut::examples {
+namespace abut::apps {
 
 /// The schemes that small systems run under. docs/integrators.md says which to choose.
 enum class Scheme { memm, leapfrog, bilbao, energy_momentum, memm_async };
@@ -83,4 +83,4 @@ void with_integrator(Scheme scheme, S& system, const Start& start, const SchemeO
     }
 }
 
-}  // namespace abut::examples
+}  // namespace abut::apps

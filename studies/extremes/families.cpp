@@ -1,6 +1,6 @@
 #include "studies/extremes/families.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 
 const std::vector<Family>& families() {
     static const std::vector<Family> all = {
@@ -23,4 +23,4 @@ const std::vector<Family>& families() {
     return all;
 }
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

@@ -5,13 +5,13 @@
 
 #include "studies/extremes/trial.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 
 /// What a user chooses about the sweeps.
 struct SweepOptions {
     int steps = 100'000;  ///< of the long runs
     bool quick = false;   ///< fewer values a family, and no more than 2,000 steps in a long run
-    RunOptions run;       ///< cfl and choices of contact of all runs that do not sweep them
+    run::RunOptions run;  ///< cfl and choices of contact of all runs that do not sweep them
 };
 
 using Sink = std::function<void(const Row&)>;
@@ -41,4 +41,4 @@ void sweep_crowd(const SweepOptions& options, const Sink& sink);
 void sweep_long(const SweepOptions& options, const Sink& sink);
 void sweep_rest(const SweepOptions& options, const Sink& sink);
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

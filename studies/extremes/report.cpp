@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "abut/run/files.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/files.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -20,12 +20,12 @@ std::string csv_text(const std::vector<Row>& rows) {
         "lost_contacts,compression_max,sliding_ratio_max,slipped_compression_max,deviation,cells,steps,active_pairs_max,"
         "blind_corners,message\n";
     for (const Row& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, quoted(row.value),
-                            name_of(row.verdict), row.is_finite ? 1 : 0, all_digits(row.drift), all_digits(row.excess),
-                            all_digits(row.parasitic), row.events, all_digits(row.momentum), row.lost_contacts,
-                            all_digits(row.compression), all_digits(row.sliding), all_digits(row.slipped),
-                            all_digits(row.deviation), row.cells, row.steps, row.active_pairs_max, row.blind_corners,
-                            quoted(row.message));
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family,
+                            apps::quoted(row.value), name_of(row.verdict), row.is_finite ? 1 : 0,
+                            apps::all_digits(row.drift), apps::all_digits(row.excess), apps::all_digits(row.parasitic),
+                            row.events, apps::all_digits(row.momentum), row.lost_contacts, apps::all_digits(row.compression),
+                            apps::all_digits(row.sliding), apps::all_digits(row.slipped), apps::all_digits(row.deviation),
+                            row.cells, row.steps, row.active_pairs_max, row.blind_corners, apps::quoted(row.message));
     return text;
 }
 
@@ -34,16 +34,16 @@ Json to_json(const Row& row) {
             {"value", row.value},
             {"outcome", name_of(row.verdict)},
             {"finite", row.is_finite},
-            {"pseudo_energy_drift", json_number(row.drift)},
-            {"energy_excess_max", json_number(row.excess)},
-            {"parasitic_max", json_number(row.parasitic)},
+            {"pseudo_energy_drift", apps::json_number(row.drift)},
+            {"energy_excess_max", apps::json_number(row.excess)},
+            {"parasitic_max", apps::json_number(row.parasitic)},
             {"events", row.events},
-            {"momentum_drift", json_number(row.momentum)},
+            {"momentum_drift", apps::json_number(row.momentum)},
             {"lost_contacts", row.lost_contacts},
-            {"compression_max", json_number(row.compression)},
-            {"sliding_ratio_max", json_number(row.sliding)},
-            {"slipped_compression_max", json_number(row.slipped)},
-            {"deviation", json_number(row.deviation)},
+            {"compression_max", apps::json_number(row.compression)},
+            {"sliding_ratio_max", apps::json_number(row.sliding)},
+            {"slipped_compression_max", apps::json_number(row.slipped)},
+            {"deviation", apps::json_number(row.deviation)},
             {"cells", row.cells},
             {"steps", row.steps},
             {"active_pairs_max", row.active_pairs_max},
@@ -53,9 +53,9 @@ Json to_json(const Row& row) {
 
 /// The largest of a number over all rows that have one.
 Json worst(const std::vector<Row>& rows, double Row::*number) {
-    double largest = not_given;
+    double largest = run::not_given;
     for (const Row& row : rows) largest = std::fmax(largest, row.*number);
-    return json_number(largest);
+    return apps::json_number(largest);
 }
 
 Json family_json(const Family& family, const std::vector<Row>& rows) {
@@ -70,8 +70,8 @@ Json family_json(const Family& family, const std::vector<Row>& rows) {
     return json;
 }
 
-Json summary(const Program& program, const SweepOptions& options, const std::vector<Row>& rows) {
-    Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"options", to_json(options.run)}};
+Json summary(const apps::Program& program, const SweepOptions& options, const std::vector<Row>& rows) {
+    Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"options", apps::to_json(options.run)}};
     json["options"].update({{"steps", options.steps}, {"quick", options.quick}});
     json["asked"] = {{"pseudo_energy_drift", largest_drift},
                      {"momentum_drift", largest_momentum_drift},
@@ -99,22 +99,23 @@ void print_head(const Family& family) {
 void print(const Row& row) {
     fmt::print("  {:<38}{:<9}", row.value, name_of(row.verdict));
     if (row.verdict != Verdict::refused)
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}{:>9}", two_digits(row.drift), two_digits(row.excess),
-                   two_digits(row.parasitic), row.events, two_digits(row.momentum), row.lost_contacts,
-                   two_digits(row.compression), two_digits(row.sliding), two_digits(row.slipped), two_digits(row.deviation));
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}{:>9}", apps::two_digits(row.drift),
+                   apps::two_digits(row.excess), apps::two_digits(row.parasitic), row.events, apps::two_digits(row.momentum),
+                   row.lost_contacts, apps::two_digits(row.compression), apps::two_digits(row.sliding),
+                   apps::two_digits(row.slipped), apps::two_digits(row.deviation));
     fmt::print("\n");
     if (!row.message.empty()) fmt::print("      {}\n", row.message);
     std::fflush(stdout);
 }
 
-void write_report(const Program& program, const std::filesystem::path& out, const SweepOptions& options,
+void write_report(const apps::Program& program, const std::filesystem::path& out, const SweepOptions& options,
                   const std::vector<Row>& rows) {
-    write_whole(out / "extremes.csv", csv_text(rows));
-    write_whole(out / "summary.json", summary(program, options, rows).dump(2) + "\n");
+    run::write_whole(out / "extremes.csv", csv_text(rows));
+    run::write_whole(out / "summary.json", summary(program, options, rows).dump(2) + "\n");
     const auto count = [&](Verdict verdict) { return std::ranges::count(rows, verdict, &Row::verdict); };
     fmt::print("{} runs: {} held, {} refused, {} failed\n", rows.size(), count(Verdict::held), count(Verdict::refused),
                count(Verdict::failed));
     fmt::print("files: {}\n", out.string());
 }
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

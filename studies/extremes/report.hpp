@@ -5,7 +5,7 @@
 #include "apps/support/program.hpp"
 #include "studies/extremes/families.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 
 /// The head of a table, then a line a row as they come.
 void print_head(const Family& family);
@@ -13,7 +13,7 @@ void print(const Row& row);
 
 /// Leaves extremes.csv, a line a row, and summary.json: of each family how many held, were refused and failed, the worst
 /// numbers of those that ran, and all rows.
-void write_report(const Program& program, const std::filesystem::path& out, const SweepOptions& options,
+void write_report(const apps::Program& program, const std::filesystem::path& out, const SweepOptions& options,
                   const std::vector<Row>& rows);
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

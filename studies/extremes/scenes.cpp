@@ -8,11 +8,11 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 template <int Dim>
-void set_materials(Scene<Dim>& scene, const Meeting<Dim>& meeting) {
+void set_materials(run::Scene<Dim>& scene, const Meeting<Dim>& meeting) {
     for (std::size_t body = 0; body < 2; ++body)
         scene.solid.materials.push_back({.young = meeting.young[body] * meeting.units.stress,
                                          .poisson = meeting.poisson,
@@ -21,7 +21,7 @@ void set_materials(Scene<Dim>& scene, const Meeting<Dim>& meeting) {
 
 /// All that does not depend on the shape of the bodies, which run into each other along an axis.
 template <int Dim>
-void set_in_motion(Scene<Dim>& scene, const Meeting<Dim>& meeting, int axis) {
+void set_in_motion(run::Scene<Dim>& scene, const Meeting<Dim>& meeting, int axis) {
     set_materials(scene, meeting);
     const double speed = meeting.speed * meeting.units.speed();
     scene.velocity = {speed * Vector<Dim>::Unit(axis), -speed * Vector<Dim>::Unit(axis)};
@@ -59,7 +59,7 @@ mesh::Mesh<2> triangle(const Vector<2>& tip, double angle, double unit) {
 double Units::speed() const { return std::sqrt(stress / density); }
 double Units::time() const { return length / speed(); }
 
-Scene<2> discs(const Meeting<2>& meeting, std::array<double, 2> size) {
+run::Scene<2> discs(const Meeting<2>& meeting, std::array<double, 2> size) {
     const double unit = meeting.units.length;
     const double along = std::sqrt(4.0 - meeting.aside * meeting.aside) + meeting.gap;
     const Vector<2> half(0.5 * along, 0.5 * meeting.aside);
@@ -70,14 +70,14 @@ Scene<2> discs(const Meeting<2>& meeting, std::array<double, 2> size) {
                            .variant = variant,
                            .name = name});
     };
-    Scene<2> scene;
+    run::Scene<2> scene;
     scene.mesh = mesh::combine<2>(std::vector{disc(-1.0, 0, "left"), disc(1.0, 1, "right")});
     set_in_motion(scene, meeting, 0);
     return scene;
 }
 
 template <int Dim>
-Scene<Dim> blocks(const Meeting<Dim>& meeting, const std::array<Block<Dim>, 2>& blocks) {
+run::Scene<Dim> blocks(const Meeting<Dim>& meeting, const std::array<Block<Dim>, 2>& blocks) {
     std::vector<mesh::Mesh<Dim>> meshes;
     for (std::size_t body = 0; body < 2; ++body) {
         const Block<Dim>& block = blocks[body];
@@ -88,16 +88,16 @@ Scene<Dim> blocks(const Meeting<Dim>& meeting, const std::array<Block<Dim>, 2>& 
         meshes.push_back(mesh::structured_box<Dim>(unit * lower, unit * (lower + block.sides), block.cells, block.shape,
                                                    body == 0 ? "lower" : "upper"));
     }
-    Scene<Dim> scene;
+    run::Scene<Dim> scene;
     scene.mesh = mesh::combine<Dim>(meshes);
     set_in_motion(scene, meeting, Dim - 1);
     return scene;
 }
 
-Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane) {
+run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane) {
     const double unit = meeting.units.length;
     const Vector<2> tip = unit * (meeting.place + meeting.gap * Vector<2>::UnitY());
-    Scene<2> scene;
+    run::Scene<2> scene;
     if (on_plane) {
         scene.mesh = triangle(tip, angle, unit);
         set_in_motion(scene, meeting, 1);
@@ -114,8 +114,8 @@ Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane) {
     return scene;
 }
 
-Scene<2> crowd(int n, double speed, double gap) {
-    Scene<2> scene;
+run::Scene<2> crowd(int n, double speed, double gap) {
+    run::Scene<2> scene;
     std::vector<mesh::Mesh<2>> meshes;
     const double middle = 0.5 * (n - 1);
     for (int i = 0; i < n; ++i)
@@ -135,8 +135,8 @@ Scene<2> crowd(int n, double speed, double gap) {
     return scene;
 }
 
-Scene<2> resting(double load) {
-    Scene<2> scene;
+run::Scene<2> resting(double load) {
+    run::Scene<2> scene;
     scene.mesh = mesh::structured_box<2>({-0.5, 0.0}, {0.5, 1.0}, {6, 6}, mesh::CellShape::triangle, "block");
     scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
     scene.solid.acceleration = {Vector<2>(0.0, -load)};
@@ -148,8 +148,8 @@ Scene<2> resting(double load) {
     return scene;
 }
 
-Scene<2> between_walls(double speed) {
-    Scene<2> scene;
+run::Scene<2> between_walls(double speed) {
+    run::Scene<2> scene;
     scene.mesh = mesh::disc({.radius = 1.0, .size = 0.4});
     scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
     for (const double side : {-1.0, 1.0})
@@ -161,9 +161,9 @@ Scene<2> between_walls(double speed) {
     return scene;
 }
 
-Scene<2> falling_strip(int cells) {
+run::Scene<2> falling_strip(int cells) {
     const double width = 2.0 / cells, gravity = 0.01;
-    Scene<2> scene;
+    run::Scene<2> scene;
     scene.mesh =
         mesh::structured_box<2>({-0.5 * width, 0.5}, {0.5 * width, 1.5}, {2, cells}, mesh::CellShape::quadrangle, "strip");
     scene.solid.materials = {{.young = 1.0, .poisson = 0.0, .density = 1.0}};
@@ -178,7 +178,7 @@ Scene<2> falling_strip(int cells) {
     return scene;
 }
 
-template Scene<2> blocks<2>(const Meeting<2>&, const std::array<Block<2>, 2>&);
-template Scene<3> blocks<3>(const Meeting<3>&, const std::array<Block<3>, 2>&);
+template run::Scene<2> blocks<2>(const Meeting<2>&, const std::array<Block<2>, 2>&);
+template run::Scene<3> blocks<3>(const Meeting<3>&, const std::array<Block<3>, 2>&);
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

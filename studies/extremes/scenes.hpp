@@ -1,10 +1,10 @@
 #pragma once
 #include <array>
 
-#include "apps/support/run.hpp"
+#include "abut/run/scene.hpp"
 
 /// Small scenes whose every number can be taken to extremes.
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 
 /// What lengths, stresses and densities of a scene are multiples of, SI.
 struct Units {
@@ -32,7 +32,7 @@ struct Meeting {
 };
 
 /// Two discs of radius 1, cells of the given sizes; they meet along x.
-[[nodiscard]] Scene<2> discs(const Meeting<2>& meeting, std::array<double, 2> size = {0.3, 0.3});
+[[nodiscard]] run::Scene<2> discs(const Meeting<2>& meeting, std::array<double, 2> size = {0.3, 0.3});
 
 /// A structured box: sides, and cells along them.
 template <int Dim>
@@ -43,22 +43,22 @@ struct Block {
 };
 /// Two blocks, one above the other along the last axis, with their middles in line.
 template <int Dim>
-[[nodiscard]] Scene<Dim> blocks(const Meeting<Dim>& meeting, const std::array<Block<Dim>, 2>& blocks);
+[[nodiscard]] run::Scene<Dim> blocks(const Meeting<Dim>& meeting, const std::array<Block<Dim>, 2>& blocks);
 
 /// A triangle whose tip, of this angle [rad], comes down on the middle of a block, or on a rigid plane.
-[[nodiscard]] Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane);
+[[nodiscard]] run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane);
 
 /// n x n discs of diameter 1 - gap that all fly towards the middle, each as fast as it is far from it.
-[[nodiscard]] Scene<2> crowd(int n, double speed, double gap);
+[[nodiscard]] run::Scene<2> crowd(int n, double speed, double gap);
 
 /// A block that rests on a rigid plane under gravity from the start on, without having been loaded before: it settles and
 /// vibrates for ever. `load`: its weight over its foot, over Young's modulus.
-[[nodiscard]] Scene<2> resting(double load);
+[[nodiscard]] run::Scene<2> resting(double load);
 
 /// A disc that flies to and fro between two rigid walls, off-centre by nothing and without gravity.
-[[nodiscard]] Scene<2> between_walls(double speed);
+[[nodiscard]] run::Scene<2> between_walls(double speed);
 
 /// A strip of squares, two across, nu = 0, that falls on a rigid plane from as high as half its length, again and again.
-[[nodiscard]] Scene<2> falling_strip(int cells);
+[[nodiscard]] run::Scene<2> falling_strip(int cells);
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

@@ -6,7 +6,7 @@
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/scenes.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 constexpr int steps_of_ratios = 3000;  // of the stiffer or lighter body: enough for many of its crossings in contact
@@ -17,7 +17,8 @@ std::vector<double> thinned(const std::vector<double>& values, bool quick) {
     return {values.front(), values[values.size() / 2], values.back()};
 }
 
-Trial<2> meeting_of_discs(const char* family, const std::string& value, const Meeting<2>& meeting, const RunOptions& run) {
+Trial<2> meeting_of_discs(const char* family, const std::string& value, const Meeting<2>& meeting,
+                          const run::RunOptions& run) {
     return {
         .family = family, .value = value, .speed = meeting.speed, .make = [meeting] { return discs(meeting); }, .run = run};
 }
@@ -27,9 +28,9 @@ Trial<2> meeting_of_discs(const char* family, const std::string& value, const Me
 const std::array<Block<2>, 2> squares{{{.cells = {7, 7}}, {.cells = {5, 5}}}};
 
 /// The gap is closed within a few steps of the faster body, whose wave speed is `ratio` times that of the other.
-RunOptions short_run(Meeting<2>& meeting, double ratio, const RunOptions& run) {
+run::RunOptions short_run(Meeting<2>& meeting, double ratio, const run::RunOptions& run) {
     meeting.gap /= std::max(ratio, 1.0);
-    RunOptions options = run;
+    run::RunOptions options = run;
     options.steps = steps_of_ratios;
     return options;
 }
@@ -39,7 +40,7 @@ RunOptions short_run(Meeting<2>& meeting, double ratio, const RunOptions& run) {
 void sweep_stiffness(const SweepOptions& options, const Sink& sink) {
     for (const double ratio : thinned({1.0, 1e2, 1e4, 1e6, 1e9, 1e12}, options.quick)) {
         Meeting<2> meeting{.young = {1.0, ratio}, .aside = 0.3};
-        const RunOptions run = short_run(meeting, std::sqrt(ratio), options.run);
+        const run::RunOptions run = short_run(meeting, std::sqrt(ratio), options.run);
         sink(attempt(meeting_of_blocks<2>("stiffness", fmt::format("E_2/E_1 = {:g}", ratio), meeting, squares, run)));
         // The denser the stiffer: waves are equally fast in both, and the run sees the whole impact.
         Meeting<2> matched{.young = {1.0, ratio}, .density = {1.0, ratio}, .aside = 0.3};
@@ -53,7 +54,7 @@ void sweep_density(const SweepOptions& options, const Sink& sink) {
         Meeting<2> meeting{.density = {1.0, ratio}, .aside = 0.3};
         sink(attempt(meeting_of_discs("density", fmt::format("rho_2/rho_1 = {:g}", ratio), meeting, options.run)));
         Meeting<2> light{.density = {1.0, 1.0 / ratio}, .aside = 0.3};
-        const RunOptions run = short_run(light, std::sqrt(ratio), options.run);
+        const run::RunOptions run = short_run(light, std::sqrt(ratio), options.run);
         sink(attempt(meeting_of_blocks<2>("density", fmt::format("rho_2/rho_1 = {:g}", 1.0 / ratio), light, squares, run)));
     }
 }
@@ -76,7 +77,7 @@ void sweep_speed(const SweepOptions& options, const Sink& sink) {
 void sweep_cfl(const SweepOptions& options, const Sink& sink) {
     for (const bool filter : {false, true})
         for (const double cfl : thinned({0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.999}, options.quick)) {
-            RunOptions run = options.run;
+            run::RunOptions run = options.run;
             run.cfl = cfl;
             run.filter = filter;
             const std::string value = fmt::format("{:g}{}", cfl, filter ? ", with the filter" : "");
@@ -84,4 +85,4 @@ void sweep_cfl(const SweepOptions& options, const Sink& sink) {
         }
 }
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

@@ -6,7 +6,7 @@
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/scenes.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 using mesh::CellShape;
@@ -21,7 +21,7 @@ constexpr int steps_of_thin_cells = 2000;
 /// Cells are 1/6 wide at most; the thin way is 1/6 over the aspect. The gap closes within a few steps.
 void sweep_aspect(const SweepOptions& options, const Sink& sink) {
     const std::vector<double> aspects = options.quick ? std::vector{1.0, 1e4} : std::vector{1.0, 10.0, 1e2, 1e3, 1e4};
-    RunOptions run = options.run;
+    run::RunOptions run = options.run;
     run.steps = steps_of_thin_cells;
     for (const CellShape shape : plane_shapes)
         for (const double aspect : aspects)
@@ -34,7 +34,7 @@ void sweep_aspect(const SweepOptions& options, const Sink& sink) {
                 const std::array<Block<2>, 2> pair{{{sides, {6, 6}, shape}, {sides, {5, 5}, shape}}};
                 sink(attempt(meeting_of_blocks<2>("aspect", value, meeting, pair, run)));
                 if (thin == 1) continue;
-                RunOptions filtered = run;
+                run::RunOptions filtered = run;
                 filtered.filter = true;
                 sink(attempt(meeting_of_blocks<2>("aspect", value + ", filter", meeting, pair, filtered)));
             }
@@ -43,7 +43,7 @@ void sweep_aspect(const SweepOptions& options, const Sink& sink) {
             if (aspect != aspects.front() && aspect != aspects.back()) continue;
             const Vector<3> sides(1.0, 1.0, 1.0 / aspect);
             const Meeting<3> meeting{.gap = 0.02 / aspect, .aside = 0.3};
-            RunOptions few = run;
+            run::RunOptions few = run;
             few.steps = 300;
             const std::array<Block<3>, 2> pair{{{sides, {3, 3, 3}, shape}, {sides, {2, 2, 2}, shape}}};
             const auto value = fmt::format("{} {:g} across the normal", mesh::name(shape), aspect);
@@ -60,7 +60,7 @@ void sweep_refinement(const SweepOptions& options, const Sink& sink) {
             const Block<2> coarse{.sides = {1.0, 1.0}, .cells = {3, 3}, .shape = shape};
             const Block<2> upper{.sides = {along * fine, across * fine}, .cells = {along, across}, .shape = shape};
             const Meeting<2> meeting{.gap = 0.02 / ratio, .slide = 0.02};
-            RunOptions run = options.run;
+            run::RunOptions run = options.run;
             run.steps = steps_of_thin_cells;
             sink(attempt(meeting_of_blocks<2>("refinement", fmt::format("{} 1:{}", mesh::name(shape), ratio), meeting,
                                               {coarse, upper}, run)));
@@ -92,7 +92,7 @@ void sweep_wedge(const SweepOptions& options, const Sink& sink) {
         for (const double facing : {options.run.contact.search.facing_cosine, -0.02})
             for (const bool on_plane : {true, false}) {
                 const Meeting<2> meeting{.aside = 0.03, .time = 6.0};
-                RunOptions run = options.run;
+                run::RunOptions run = options.run;
                 run.contact.search.facing_cosine = facing;
                 sink(attempt<2>(
                     {.family = "wedge",
@@ -117,4 +117,4 @@ void sweep_edge(const SweepOptions& options, const Sink& sink) {
     }
 }
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

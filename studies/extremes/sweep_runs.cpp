@@ -5,12 +5,12 @@
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/scenes.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 /// --steps of them, energies every hundredth.
-RunOptions long_run(const SweepOptions& options) {
-    RunOptions run = options.run;
+run::RunOptions long_run(const SweepOptions& options) {
+    run::RunOptions run = options.run;
     run.steps = options.quick ? std::min(options.steps, 2000) : options.steps;
     run.interval = 100;
     run.filter = true;
@@ -31,7 +31,7 @@ void sweep_crowd(const SweepOptions& options, const Sink& sink) {
 
 void sweep_long(const SweepOptions& options, const Sink& sink) {
     for (const double cfl : {0.5, 0.9}) {
-        RunOptions run = long_run(options);
+        run::RunOptions run = long_run(options);
         run.cfl = cfl;
         sink(attempt<2>({.family = "long",
                          .value = fmt::format("disc between walls, CFL {:g}", cfl),
@@ -59,4 +59,4 @@ void sweep_rest(const SweepOptions& options, const Sink& sink) {
                          .run = long_run(options)}));
 }
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

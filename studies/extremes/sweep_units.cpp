@@ -7,7 +7,7 @@
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/scenes.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 /// No edge of one lies on an edge of the other: how often edges cross that lie on each other, rounding decides.
@@ -17,10 +17,10 @@ std::array<Block<3>, 2> small_blocks(mesh::CellShape shape = mesh::CellShape::te
 }
 
 template <int Dim>
-Trial<Dim> trial_in(const Units& units, const std::string& value, const RunOptions& run) {
+Trial<Dim> trial_in(const Units& units, const std::string& value, const run::RunOptions& run) {
     Meeting<Dim> meeting{.units = units, .aside = 0.3, .slide = 0.01};
     if constexpr (Dim == 3) meeting.time = 5.0;
-    const auto scene = [meeting]() -> Scene<Dim> {
+    const auto scene = [meeting]() -> run::Scene<Dim> {
         if constexpr (Dim == 2)
             return discs(meeting, {0.3, 0.27});  // equal faces pass each other with both ends at once: one event or two
         else
@@ -114,4 +114,4 @@ void sweep_offset(const SweepOptions& options, const Sink& sink) {
             sink);
 }
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

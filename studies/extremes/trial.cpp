@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/support/simulation.hpp"
+#include "abut/run/simulation.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 namespace {
 
 template <int Dim>
-double impulse_scale(const RunResult<Dim>& result) {
+double impulse_scale(const run::RunResult<Dim>& result) {
     double sum = 0.0;
     for (const auto& body : result.start) sum += body.mass * body.velocity.norm();
     return sum;
 }
 
 template <int Dim>
-bool all_finite(const RunResult<Dim>& result) {
+bool all_finite(const run::RunResult<Dim>& result) {
     const auto is_finite = [](const dynamics::LedgerEntry<Dim>& entry) {
         return std::isfinite(entry.energy) && std::isfinite(entry.pseudo_energy) && std::isfinite(entry.parasitic) &&
                entry.linear_momentum.allFinite();
@@ -28,7 +28,7 @@ bool all_finite(const RunResult<Dim>& result) {
 }
 
 template <int Dim>
-std::vector<Number> speeds_at_end(const RunResult<Dim>& result, double speed) {
+std::vector<Number> speeds_at_end(const run::RunResult<Dim>& result, double speed) {
     std::vector<Number> numbers;
     for (std::size_t body = 0; body < result.end.size(); ++body)
         for (int i = 0; i < Dim; ++i)
@@ -38,7 +38,7 @@ std::vector<Number> speeds_at_end(const RunResult<Dim>& result, double speed) {
 }
 
 template <int Dim>
-void append_dimensionless(Row& row, const RunResult<Dim>& result) {
+void append_dimensionless(Row& row, const run::RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
     const double scale = result.scale.value;
     const auto count = [](std::int64_t n) { return static_cast<double>(n); };
@@ -54,7 +54,7 @@ void append_dimensionless(Row& row, const RunResult<Dim>& result) {
                                                    {"active pairs", count(row.active_pairs_max)},
                                                    {"lists of candidates", count(result.contact.rebuilds)},
                                                    {"candidates", count(result.contact.candidates_max)},
-                                                   {"pairs not admitted", count(result.not_admitted_max)}};
+                                                   {"pairs not admitted", count(result.inadmissible_overlaps_max)}};
     row.numbers.insert(row.numbers.end(), numbers);
 }
 
@@ -77,7 +77,7 @@ std::string defect(const Row& row, bool keeps_momentum) {
 }
 
 template <int Dim>
-void measure(Row& row, const Trial<Dim>& trial, const RunResult<Dim>& result) {
+void measure(Row& row, const Trial<Dim>& trial, const run::RunResult<Dim>& result) {
     row.is_finite = all_finite(result);
     row.drift = result.ledger.pseudo_energy_drift() / result.scale.value;
     row.excess = result.ledger.energy_excess() / result.scale.value;
@@ -88,7 +88,7 @@ void measure(Row& row, const Trial<Dim>& trial, const RunResult<Dim>& result) {
     row.slipped = result.contact.slipped_compression_max;
     row.steps = result.steps;
     row.events = result.contact.events;
-    row.lost_contacts = result.contact.lost_contacts;
+    row.lost_contacts = result.contact.missed_contacts;
     row.active_pairs_max = result.contact.active_pairs_max;
     row.blind_corners = static_cast<std::int64_t>(result.blind_corners.size());
     row.numbers = speeds_at_end(result, trial.speed);
@@ -113,7 +113,7 @@ std::string name_of(Verdict verdict) {
 
 template <int Dim>
 Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
-                             const std::array<Block<Dim>, 2>& pair, const RunOptions& run) {
+                             const std::array<Block<Dim>, 2>& pair, const run::RunOptions& run) {
     return {.family = family,
             .value = value,
             .speed = meeting.speed,
@@ -125,9 +125,9 @@ template <int Dim>
 Row attempt(const Trial<Dim>& trial) {
     Row row{.family = trial.family, .value = trial.value};
     try {
-        const Scene<Dim> scene = trial.make();
+        const run::Scene<Dim> scene = trial.make();
         row.cells = scene.mesh.n_cells();
-        measure(row, trial, simulate<Dim>(scene, trial.run));
+        measure(row, trial, run::simulate<Dim>(scene, trial.run));
     } catch (const std::exception& error) {
         row.message = error.what();
     }
@@ -158,10 +158,10 @@ void compare(Row& row, const Row& reference, std::size_t how_many, double allowe
 }
 
 template Trial<2> meeting_of_blocks(const std::string&, const std::string&, const Meeting<2>&,
-                                    const std::array<Block<2>, 2>&, const RunOptions&);
+                                    const std::array<Block<2>, 2>&, const run::RunOptions&);
 template Row attempt<2>(const Trial<2>&);
 template Trial<3> meeting_of_blocks(const std::string&, const std::string&, const Meeting<3>&,
-                                    const std::array<Block<3>, 2>&, const RunOptions&);
+                                    const std::array<Block<3>, 2>&, const run::RunOptions&);
 template Row attempt<3>(const Trial<3>&);
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/support/run.hpp"
+#include "abut/run/scene.hpp"
 #include "studies/extremes/scenes.hpp"
 
-namespace abut::examples::extremes {
+namespace abut::studies::extremes {
 
 /// What became of a run at an extreme.
 enum class Verdict {
@@ -31,14 +31,14 @@ struct Trial {
     std::string value;           ///< "E_2/E_1 = 1e+06"
     double speed = 1.0;          ///< |e|/m is given over it [m/s]
     bool keeps_momentum = true;  ///< false: walls or gravity act
-    std::function<Scene<Dim>()> make;
-    RunOptions run;
+    std::function<run::Scene<Dim>()> make;
+    run::RunOptions run;
 };
 
 /// Two blocks that run into each other.
 template <int Dim>
 [[nodiscard]] Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
-                                           const std::array<Block<Dim>, 2>& pair, const RunOptions& run);
+                                           const std::array<Block<Dim>, 2>& pair, const run::RunOptions& run);
 
 /// A number without a unit.
 struct Number {
@@ -50,16 +50,16 @@ struct Number {
 struct Row {
     std::string family, value;
     Verdict verdict = Verdict::refused;
-    std::string message;             ///< of a refusal; what is not so of a failure
-    bool is_finite = false;          ///< all energies, momenta and speeds are
-    double drift = not_given;        ///< max |H~ - H~0 - work| over the scale of the scene
-    double excess = not_given;       ///< max (H - H~) over the scale
-    double parasitic = not_given;    ///< max |e|/m over the speed of the trial
-    double momentum = not_given;     ///< drift over the sum of m |v| at the start
-    double compression = not_given;  ///< largest |g|/D
-    double sliding = not_given;      ///< largest |g| |dA/ds| over the smaller face
-    double slipped = not_given;      ///< largest |g|/D of pairs that slid off each other
-    double deviation = not_given;    ///< from the same run in other units or at another place
+    std::string message;                  ///< of a refusal; what is not so of a failure
+    bool is_finite = false;               ///< all energies, momenta and speeds are
+    double drift = run::not_given;        ///< max |H~ - H~0 - work| over the scale of the scene
+    double excess = run::not_given;       ///< max (H - H~) over the scale
+    double parasitic = run::not_given;    ///< max |e|/m over the speed of the trial
+    double momentum = run::not_given;     ///< drift over the sum of m |v| at the start
+    double compression = run::not_given;  ///< largest |g|/D
+    double sliding = run::not_given;      ///< largest |g| |dA/ds| over the smaller face
+    double slipped = run::not_given;      ///< largest |g|/D of pairs that slid off each other
+    double deviation = run::not_given;    ///< from the same run in other units or at another place
     std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
     std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts
 };
@@ -72,4 +72,4 @@ template <int Dim>
 /// whichever is larger; and `failed` where it is more than `allowed`.
 void compare(Row& row, const Row& reference, std::size_t how_many, double allowed);
 
-}  // namespace abut::examples::extremes
+}  // namespace abut::studies::extremes

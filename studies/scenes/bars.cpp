@@ -10,17 +10,18 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/run/simulation.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
-#include "apps/support/simulation.hpp"
-#include "apps/support/warnings.hpp"
+#include "apps/support/log.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const Choices<BarBody> bodies = {{"chain", BarBody::chain}, {"strip2d", BarBody::strip2d}, {"strip3d", BarBody::strip3d}};
+const apps::Choices<BarBody> bodies = {
+    {"chain", BarBody::chain}, {"strip2d", BarBody::strip2d}, {"strip3d", BarBody::strip3d}};
 
 template <int Dim>
 constexpr int axis = Dim - 1;
@@ -83,12 +84,12 @@ double root_after(const ContactHistory& history, std::size_t node) {
 }
 
 /// Keeps what a run of the chain shows.
-class ChainKeeper : public Watcher {
+class ChainKeeper : public apps::Watcher {
 public:
     ChainKeeper(const BarOnWall& scene, int cells, std::vector<std::int64_t> nodes, BarRun& run)
         : scene_(scene), cells_(cells), nodes_(std::move(nodes)), run_(run) {}
 
-    void look(const Node& node) override {
+    void look(const apps::Node& node) override {
         double momentum = 0.0;
         for (std::size_t i = 0; i < node.q.size(); ++i) momentum += node.momentum(i);
         ContactHistory& history = run_.history;
@@ -105,7 +106,7 @@ private:
     [[nodiscard]] dynamics::LineSpring foot() const {
         return {.stiffness = 2.0 * scene_.bar.young * cells_ / scene_.bar.length, .one_sided = true};
     }
-    void keep_profile(const Node& node) {
+    void keep_profile(const apps::Node& node) {
         const double h = scene_.bar.length / cells_, share = 1.0 / cells_;
         run_.profiles.push_back({node.time, {}});
         for (int i = 0; i < cells_; ++i)
@@ -121,7 +122,7 @@ private:
 
 /// Keeps what a run of strips shows.
 template <int Dim>
-class StripKeeper : public Observer<Dim> {
+class StripKeeper : public run::Observer<Dim> {
 public:
     StripKeeper(double area, std::vector<std::int64_t> nodes, BarRun& run)
         : area_(area), nodes_(std::move(nodes)), run_(run) {}
@@ -175,15 +176,15 @@ std::int64_t count_roots(const ContactHistory& history) {
 BarRun run_chain(const BarOnWall& scene, int cells, double dt, int steps, const std::vector<double>& profile_times) {
     const auto n = static_cast<std::size_t>(cells);
     const double h = scene.bar.length / cells;
-    Start start{
+    apps::Start start{
         .q = std::vector<double>(n, 0.0), .p = std::vector<double>(n, -scene.bar.density * h * scene.speed), .dt = dt};
     if (scene.displacement)
         for (int i = 0; i < cells; ++i) start.q[static_cast<std::size_t>(i)] = scene.displacement(scene.gap + (i + 0.5) * h);
     BarRun run;
     ChainKeeper keeper(scene, cells, nodes_at(profile_times, dt), run);
     BarChain chain = bar_chain(scene, cells);
-    const Schedule schedule{.steps = steps, .interval = 1, .energy_scale = scene.energy};
-    const SchemeRun result = follow(Scheme::memm, chain, start, SchemeOptions{}, schedule, keeper);
+    const apps::Schedule schedule{.steps = steps, .interval = 1, .energy_scale = scene.energy};
+    const apps::SchemeRun result = apps::follow(apps::Scheme::memm, chain, start, apps::SchemeOptions{}, schedule, keeper);
     if (result.broken_off)
         throw std::runtime_error(fmt::format("chain of {} masses, step {}, t = {:.4g} s: {}", cells, result.broken_off->step,
                                              result.broken_off->time, result.broken_off->why));
@@ -199,23 +200,25 @@ BarRun run_chain(const BarOnWall& scene, int cells, double dt, int steps, const 
 }
 
 template <int Dim>
-BarRun run_strips(const Scene<Dim>& scene, const BarOptions& options, double area, double dt, int steps,
+BarRun run_strips(const run::Scene<Dim>& scene, const BarOptions& options, double area, double dt, int steps,
                   const std::vector<double>& profile_times = {}) {
-    RunOptions run_options = options.run;
+    run::RunOptions run_options = options.run;
     run_options.dt = dt;
     run_options.steps = steps;
     run_options.interval = 1;
     BarRun run;
     StripKeeper<Dim> keeper(area, nodes_at(profile_times, dt), run);
-    const RunResult<Dim> result = [&] {
+    const run::RunResult<Dim> result = [&] {
         try {
-            return simulate<Dim>(scene, run_options, keeper);
+            return run::simulate<Dim>(scene, run_options, keeper);
         } catch (const std::exception& error) {
             throw std::runtime_error(fmt::format("{}: {} Here the time step is --cfl h/c, --cfl is {:g}.",
                                                  with_body(options, scene.mesh.n_cells()), error.what(), options.cfl));
         }
     }();
-    warn_of_contact(result, with_body(options, scene.mesh.n_cells()));
+    apps::log_warnings(apps::only(run::warnings_after(result), {run::WarningKind::stiff_sliding, run::WarningKind::deep_slip,
+                                                                run::WarningKind::missed_contacts}),
+                       with_body(options, scene.mesh.n_cells()));
     run.energies = energy_figures(result);
     run.energies.scale /= area;
     run.energy_start = result.ledger.entries().front().energy / area;
@@ -223,7 +226,7 @@ BarRun run_strips(const Scene<Dim>& scene, const BarOptions& options, double are
     return run;
 }
 
-void append_history(Table& table, const ContactHistory& history, int cells) {
+void append_history(apps::Table& table, const ContactHistory& history, int cells) {
     for (std::size_t n = 0; n < history.pressure.size(); ++n)
         table.rows.push_back({static_cast<double>(cells), history.time[n + 1], history.gap[n + 1], history.speed[n + 1][0],
                               history.speed[n + 1][1], 0.5 * (history.time[n] + history.time[n + 1]), history.pressure[n]});
@@ -244,11 +247,11 @@ BarChain bar_chain(const BarOnWall& scene, int cells) {
 double strip_width(const Bar& bar, int cells) { return 2.0 * bar.length / cells; }
 
 template <int Dim>
-Scene<Dim> bar_strip(const BarOnWall& scene, int cells) {
+run::Scene<Dim> bar_strip(const BarOnWall& scene, int cells) {
     const Bar& bar = scene.bar;
     const Vector<Dim> up = Vector<Dim>::Unit(axis<Dim>);
     const double width = strip_width(bar, cells), eta = scene.eta == 0.0 ? bar.young : scene.eta;
-    Scene<Dim> result;
+    run::Scene<Dim> result;
     result.mesh = strip<Dim>(scene.gap, scene.gap + bar.length, width, 2, cells, "bar");
     result.solid.materials = {{.young = bar.young, .poisson = 0.0, .density = bar.density, .eta = eta}};
     if (scene.gravity != 0.0) result.solid.acceleration = {Vector<Dim>(-scene.gravity * up)};
@@ -268,11 +271,11 @@ Scene<Dim> bar_strip(const BarOnWall& scene, int cells) {
 double two_strips_width(const Bar& bar, std::array<int, 2> cells) { return strip_width(bar, std::ranges::min(cells)); }
 
 template <int Dim>
-Scene<Dim> two_bar_strips(const TwoBars& scene, std::array<int, 2> cells) {
+run::Scene<Dim> two_bar_strips(const TwoBars& scene, std::array<int, 2> cells) {
     const Bar& bar = scene.bar;
     const double width = two_strips_width(bar, cells), near = 0.5 * scene.gap;
     const auto across = [&](int along) { return static_cast<int>(std::lround(width * along / bar.length)); };
-    Scene<Dim> result;
+    run::Scene<Dim> result;
     const std::vector<mesh::Mesh<Dim>> strips = {
         strip<Dim>(-near - bar.length, -near, width, across(cells[0]), cells[0], "lower"),
         strip<Dim>(near, near + bar.length, width, across(cells[1]), cells[1], "upper")};
@@ -376,7 +379,7 @@ MiddlePressure middle_pressure(const ContactHistory& history, double begin, doub
     return {.mean = mean, .rms = std::sqrt(square / whole), .at_begin = mean - rise, .at_end = mean + rise};
 }
 
-std::string BarOptions::body_name() const { return name_of(bodies, body); }
+std::string BarOptions::body_name() const { return apps::name_of(bodies, body); }
 
 void BarOptions::check() const {
     if (body != BarBody::chain) return;
@@ -386,7 +389,7 @@ void BarOptions::check() const {
                                        option->get_name()));
 }
 
-BarOptions default_bar_options(const Program& program, std::vector<int> cells, double length) {
+BarOptions default_bar_options(const apps::Program& program, std::vector<int> cells, double length) {
     BarOptions options{.cells = std::move(cells), .run = {.out = "out/" + program.name}, .of_solver = {}};
     options.run.contact.compression_limit = 10.0;
     options.run.contact.search.skin = 0.1 * length;  // few faces face a wall: a thick skin costs nothing and lasts long
@@ -394,20 +397,21 @@ BarOptions default_bar_options(const Program& program, std::vector<int> cells, d
 }
 
 void add_bar_options(CLI::App& app, BarOptions& options, const std::vector<BarBody>& offered) {
-    Choices<BarBody> choices;
-    for (const BarBody body : offered) choices.emplace_back(name_of(bodies, body), body);
-    add_choice(app, "--body", options.body, "masses and springs, or the full solver: strips two cells wide on rollers",
-               choices)
+    apps::Choices<BarBody> choices;
+    for (const BarBody body : offered) choices.emplace_back(apps::name_of(bodies, body), body);
+    apps::add_choice(app, "--body", options.body, "masses and springs, or the full solver: strips two cells wide on rollers",
+                     choices)
         ->group("Bar");
-    add_counts(app, "--cells", options.cells, "cells along the bar, a run for each number", 8)->group("Bar");
-    add_number(app, "--cfl", options.cfl, "Courant number c dt/h; strips are stable below about 0.6 in 2D and 0.5 in 3D",
-               {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the scheme is unstable."})
+    apps::add_counts(app, "--cells", options.cells, "cells along the bar, a run for each number", 8)->group("Bar");
+    apps::add_number(app, "--cfl", options.cfl,
+                     "Courant number c dt/h; strips are stable below about 0.6 in 2D and 0.5 in 3D",
+                     {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the scheme is unstable."})
         ->group("Time");
-    options.of_solver = {add_choice(app, "--filter", options.run.filter,
-                                    "energy-neutral filter of the parasitic mode, after each step in contact",
-                                    Choices<bool>{{"none", false}, {"neutral", true}})
+    options.of_solver = {apps::add_choice(app, "--filter", options.run.filter,
+                                          "energy-neutral filter of the parasitic mode, after each step in contact",
+                                          apps::Choices<bool>{{"none", false}, {"neutral", true}})
                              ->group("Time")};
-    add_contact_options(app, options.run);
+    apps::add_contact_options(app, options.run);
     for (CLI::Option* option : app.get_options())
         if (option->get_group() == "Contact") options.of_solver.push_back(option);
     app.add_option("--out", options.run.out, "folder of all results; made if it is not there")
@@ -419,7 +423,7 @@ void add_bar_options(CLI::App& app, BarOptions& options, const std::vector<BarBo
 nlohmann::ordered_json to_json(const BarOptions& options) {
     Json json = {{"body", options.body_name()}, {"cells", options.cells}};
     if (options.body != BarBody::chain) {
-        json.update(to_json(options.run));
+        json.update(apps::to_json(options.run));
         for (const char* name : {"interval", "frames"}) json.erase(name);
     }
     json["cfl"] = options.cfl;
@@ -481,13 +485,13 @@ std::string history_lines(const std::vector<int>& cells, const std::string& time
     return fmt::format("{}", fmt::join(lines, ", \\\n     "));
 }
 
-void run_study(const Program& program, const BarOptions& options, const BarStudy& bars) {
+void run_study(const apps::Program& program, const BarOptions& options, const BarStudy& bars) {
     options.check();
     std::vector<std::string> curves{"history", "exact"};
     curves.insert(curves.end(), bars.more_curves.begin(), bars.more_curves.end());
     prepare_study(options.run.out, curves, {bars.picture.name});
     Study study{.title = bars.title, .reference = bars.reference};
-    Table history{.columns = {"cells", "time", "gap", "speed_1", "speed_2", "middle", "pressure"}, .rows = {}};
+    apps::Table history{.columns = {"cells", "time", "gap", "speed_1", "speed_2", "middle", "pressure"}, .rows = {}};
     for (std::size_t i = 0; i < options.cells.size(); ++i) {
         const BarRun run = bars.run(i);
         study.levels.push_back(bars.level(run, i));
@@ -500,9 +504,9 @@ void run_study(const Program& program, const BarOptions& options, const BarStudy
     report(program, options.run.out, study);
 }
 
-template Scene<2> bar_strip<2>(const BarOnWall&, int);
-template Scene<3> bar_strip<3>(const BarOnWall&, int);
-template Scene<2> two_bar_strips<2>(const TwoBars&, std::array<int, 2>);
-template Scene<3> two_bar_strips<3>(const TwoBars&, std::array<int, 2>);
+template run::Scene<2> bar_strip<2>(const BarOnWall&, int);
+template run::Scene<3> bar_strip<3>(const BarOnWall&, int);
+template run::Scene<2> two_bar_strips<2>(const TwoBars&, std::array<int, 2>);
+template run::Scene<3> two_bar_strips<3>(const TwoBars&, std::array<int, 2>);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

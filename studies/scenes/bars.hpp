@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "abut/dynamics/particles.hpp"
-#include "apps/support/run.hpp"
+#include "abut/run/scene.hpp"
 #include "studies/validation/study.hpp"
 
 /// Straight elastic bars that hit a rigid wall or each other. With nu = 0 and rollers at their sides their waves are those of
 /// one dimension, so that closed forms exist. All quantities are per area of the cross-section: momentum [N s/m^2], energy
 /// [J/m^2]. Heights are measured from the wall, or from the middle between two bars.
-namespace abut::examples {
+namespace abut::studies {
 
 /// A bar of one material; by default the one that most reference cases take.
 struct Bar {
@@ -50,7 +50,7 @@ using BarChain = dynamics::Particles<dynamics::LineSpring>;
 /// A strip of squares along y, or of cubes along z, two across, on rollers at its sides: with nu = 0 they carry nothing.
 /// Energies are measured with H0 = `energy` times the area of the strip.
 template <int Dim>
-[[nodiscard]] Scene<Dim> bar_strip(const BarOnWall& scene, int cells);
+[[nodiscard]] run::Scene<Dim> bar_strip(const BarOnWall& scene, int cells);
 /// Width of that strip, two cells [m].
 [[nodiscard]] double strip_width(const Bar& bar, int cells);
 
@@ -63,7 +63,7 @@ struct TwoBars {
 };
 /// As `bar_strip`, each bar with its own number of cells along it; their cells are about square.
 template <int Dim>
-[[nodiscard]] Scene<Dim> two_bar_strips(const TwoBars& scene, std::array<int, 2> cells);
+[[nodiscard]] run::Scene<Dim> two_bar_strips(const TwoBars& scene, std::array<int, 2> cells);
 [[nodiscard]] double two_strips_width(const Bar& bar, std::array<int, 2> cells);
 
 /// The exact motion of the default bar that comes from 5 m above the wall at 10 m/s: thrown without gravity, or falling from
@@ -151,8 +151,8 @@ struct BarRun {
 struct BarOptions {
     BarBody body = BarBody::strip2d;
     std::vector<int> cells;
-    double cfl = 0.4;  ///< Courant number c dt/h [-]
-    RunOptions run;    ///< of the strips; `out` is that of all
+    double cfl = 0.4;     ///< Courant number c dt/h [-]
+    run::RunOptions run;  ///< of the strips; `out` is that of all
 
     [[nodiscard]] std::string body_name() const;
     /// Throws BadInput where options of the full solver were given for a chain.
@@ -163,7 +163,8 @@ struct BarOptions {
 
 /// With what an impact at a third of the wave speed needs: the foot gives way by up to twice its cell, and more when vibration
 /// adds up; `length` is that of the bar [m].
-[[nodiscard]] BarOptions default_bar_options(const Program& program, std::vector<int> cells, double length = Bar{}.length);
+[[nodiscard]] BarOptions default_bar_options(const apps::Program& program, std::vector<int> cells,
+                                             double length = Bar{}.length);
 /// --body, --cells, --cfl, --filter, --out and the options of contact; `bodies` are those on offer.
 void add_bar_options(CLI::App& app, BarOptions& options,
                      const std::vector<BarBody>& bodies = {BarBody::chain, BarBody::strip2d, BarBody::strip3d});
@@ -185,13 +186,13 @@ struct BarStudy {
     std::string reference;
     std::function<BarRun(std::size_t level)> run;
     std::function<Level(const BarRun& run, std::size_t level)> level;
-    Table exact;                             ///< left as exact.csv
-    Picture picture;                         ///< of history.csv and exact.csv
+    apps::Table exact;                       ///< left as exact.csv
+    run::Picture picture;                    ///< of history.csv and exact.csv
     std::vector<std::string> more_curves{};  ///< names of those that `complete` adds
     std::function<void(Study&)> complete{};  ///< adds what else there is, after the last run; may be empty
 };
 /// Runs a study and reports it. history.csv has a row a step, with the number of cells in front: time, gap, speed_1 and
 /// speed_2 at its end; pressure, its mean, belongs to its middle. Throws as the runs do, and as BarOptions::check.
-void run_study(const Program& program, const BarOptions& options, const BarStudy& bars);
+void run_study(const apps::Program& program, const BarOptions& options, const BarStudy& bars);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -11,18 +11,18 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "apps/support/choices.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using mesh::CellShape;
 
-const Choices<BoxCells> names = {{"quadrangles", BoxCells::quadrangles},
-                                 {"triangles", BoxCells::triangles},
-                                 {"hexahedra", BoxCells::hexahedra},
-                                 {"tetrahedra", BoxCells::tetrahedra},
-                                 {"prisms", BoxCells::prisms},
-                                 {"pyramids", BoxCells::pyramids},
-                                 {"gmsh", BoxCells::gmsh}};
+const apps::Choices<BoxCells> names = {{"quadrangles", BoxCells::quadrangles},
+                                       {"triangles", BoxCells::triangles},
+                                       {"hexahedra", BoxCells::hexahedra},
+                                       {"tetrahedra", BoxCells::tetrahedra},
+                                       {"prisms", BoxCells::prisms},
+                                       {"pyramids", BoxCells::pyramids},
+                                       {"gmsh", BoxCells::gmsh}};
 
 CellShape shape_of(BoxCells cells) {
     switch (cells) {
@@ -43,7 +43,7 @@ CellShape shape_of(BoxCells cells) {
 
 }  // namespace
 
-std::string name_of(BoxCells cells) { return name_of(names, cells); }
+std::string name_of(BoxCells cells) { return apps::name_of(names, cells); }
 
 template <int Dim>
 std::vector<BoxCells> all_box_cells() {
@@ -98,4 +98,4 @@ template std::vector<std::string> box_sides<3>();
 template std::vector<solid::DirichletCondition<2>> whole_boundary<2>(const solid::Field<2>&);
 template std::vector<solid::DirichletCondition<3>> whole_boundary<3>(const solid::Field<3>&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

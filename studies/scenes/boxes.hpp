@@ -6,7 +6,7 @@
 #include "abut/solid/boundary_conditions.hpp"
 
 /// Boxes for the cases of a single body: every cell shape, structured and from Gmsh.
-namespace abut::examples {
+namespace abut::studies {
 
 /// What a box is cut into: the shapes of mesh::structured_box, and unstructured triangles or tetrahedra from Gmsh.
 enum class BoxCells { quadrangles, triangles, hexahedra, tetrahedra, prisms, pyramids, gmsh };
@@ -35,4 +35,4 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<solid::DirichletCondition<Dim>> whole_boundary(const solid::Field<Dim>& field);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

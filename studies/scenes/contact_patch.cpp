@@ -8,7 +8,7 @@
 
 #include "abut/mesh/shapes/shapes.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr std::array<int, 2> layers{4, 3};  // of cells in the lower and in the upper block
@@ -116,4 +116,4 @@ PatchErrors solve_patch(const PatchOptions& options) {
 template PatchErrors solve_patch<2>(const PatchOptions&);
 template PatchErrors solve_patch<3>(const PatchOptions&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -7,7 +7,7 @@
 
 /// Two blocks of unit width and height, one on the other, under a uniform pressure from above: the exact solution is one
 /// uniform stress in both, whatever their materials and meshes, since contact is free of friction.
-namespace abut::examples {
+namespace abut::studies {
 
 enum class PatchMesh {
     matching,      ///< bricks, node on node across the contact
@@ -39,4 +39,4 @@ struct PatchErrors {
 template <int Dim>
 [[nodiscard]] PatchErrors solve_patch(const PatchOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace abut::examples {
+namespace abut::studies {
 
 template <int Dim>
 Eigen::MatrixXd dense_stiffness(solid::Solid<Dim>& solid) {
@@ -21,4 +21,4 @@ Eigen::MatrixXd dense_stiffness(solid::Solid<Dim>& solid) {
 template Eigen::MatrixXd dense_stiffness(solid::Solid<2>&);
 template Eigen::MatrixXd dense_stiffness(solid::Solid<3>&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -3,11 +3,11 @@
 
 #include "abut/solid/solid.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 
 /// K [N/m], column by column, as the solver applies it: symmetric but for rounding. For small meshes, up to some thousand
 /// unknowns; the eigenvalues of K ask for its symmetric part.
 template <int Dim>
 [[nodiscard]] Eigen::MatrixXd dense_stiffness(solid::Solid<Dim>& solid);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

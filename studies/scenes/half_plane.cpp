@@ -4,7 +4,7 @@
 
 #include "studies/scenes/plane_wave.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 // In Rayleigh wavelengths, and periods of the source. In that time P runs 1.88 x 10.5 = 19.8 wavelengths: from the force to
@@ -44,10 +44,10 @@ double rayleigh_speed(const solid::Material& material) {
 
 double rayleigh_wavelength() { return rayleigh_speed(rock()) / source_frequency; }
 
-Scene<2> half_plane(const HalfPlaneOptions& options) {
+run::Scene<2> half_plane(const HalfPlaneOptions& options) {
     const double wavelength = rayleigh_wavelength();
     const bool across = options.force == LineForce::across;
-    Scene<2> scene;
+    run::Scene<2> scene;
     scene.mesh = box_of<2>(options.cells, Vector<2>(0.0, -depth * wavelength), Vector<2>(width * wavelength, 0.0),
                            wavelength / options.per_wavelength);
     scene.solid.materials = {rock()};
@@ -75,4 +75,4 @@ std::vector<Receiver<2>> receivers_on_surface() {
     return receivers;
 }
 
-}  // namespace abut::examples
+}  // namespace abut::studies

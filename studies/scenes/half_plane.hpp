@@ -4,7 +4,7 @@
 
 /// A line force on the surface of an elastic half plane (Lamb's problem), of the rock of plane_wave.hpp: P straight down
 /// under a force across the surface, S straight down under one along it, and the Rayleigh wave on the surface.
-namespace abut::examples {
+namespace abut::studies {
 
 /// Speed of the Rayleigh wave [m/s]: with xi = (c_R/c_S)^2 and k = (c_S/c_P)^2 the root in (0, 1) of
 /// xi^3 - 8 xi^2 + (24 - 16 k) xi - 16 (1 - k) = 0.
@@ -23,11 +23,11 @@ struct HalfPlaneOptions {
 
 /// The half x >= 0, y <= 0 of the medium, the rest follows by (anti)symmetry; the surface y = 0 has the force as a traction
 /// ricker(t) exp(-(8 x / wavelength)^2). Nothing comes back from the far sides before the end of the run.
-[[nodiscard]] Scene<2> half_plane(const HalfPlaneOptions& options);
+[[nodiscard]] run::Scene<2> half_plane(const HalfPlaneOptions& options);
 
 /// Below the force at 4 and 7 Rayleigh wavelengths, displacement along the force.
 [[nodiscard]] std::vector<Receiver<2>> receivers_below(LineForce force);
 /// On the surface at 1, 2, ..., 8 Rayleigh wavelengths, displacement across it.
 [[nodiscard]] std::vector<Receiver<2>> receivers_on_surface();
 
-}  // namespace abut::examples
+}  // namespace abut::studies

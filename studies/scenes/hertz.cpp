@@ -12,7 +12,7 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using std::numbers::pi;
@@ -256,4 +256,4 @@ template HertzSolution hertz_solution<3>(const HertzOptions&);
 template HertzResult<2> solve_hertz<2>(const HertzOptions&);
 template HertzResult<3> solve_hertz<3>(const HertzOptions&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

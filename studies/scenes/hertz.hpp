@@ -9,7 +9,7 @@
 
 /// Two elastic bodies pressed onto each other at rest: a cylinder (disc, plane strain) or a sphere onto a block, onto its
 /// equal, or onto a rigid plane. The contact point is the origin; the weight of the upper body, along the last axis, presses.
-namespace abut::examples {
+namespace abut::studies {
 
 /// What is under the round body.
 enum class HertzSupport { block, equal, rigid_plane };
@@ -70,4 +70,4 @@ struct HertzResult {
 template <int Dim>
 [[nodiscard]] HertzResult<Dim> solve_hertz(const HertzOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

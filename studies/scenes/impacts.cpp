@@ -5,15 +5,14 @@
 
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
-#include "apps/support/warnings.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double crossings = 6.0;            // of a disc by a wave, that a collision of discs is given
@@ -65,35 +64,10 @@ double spin(const dynamics::RunView<2>& run, const solid::Solid<2>& solid) {
     return momentum / inertia;
 }
 
-/// Lets another observer look on, and shows how far the run has come.
-template <int Dim>
-class WithProgress : public Observer<Dim> {
-public:
-    explicit WithProgress(Observer<Dim>& other) : other_(other) {}
-
-    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override {
-        other_.begin(scene, result);
-        progress_.emplace(result.steps);
-    }
-    void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override {
-        other_.record(entry, result);
-        drift_ = result.ledger.pseudo_energy_drift() / result.scale.value;
-    }
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
-        other_.look(run, solid);
-        if (run.steps > 0) progress_->show(run.steps, run.time, drift_);
-    }
-
-private:
-    Observer<Dim>& other_;
-    std::optional<Progress> progress_;
-    double drift_ = 0.0;  // of H~ so far, over the energy scale
-};
-
 }  // namespace
 
-Scene<2> dropped_disc(const DroppedDisc& options) {
-    Scene<2> scene;
+run::Scene<2> dropped_disc(const DroppedDisc& options) {
+    run::Scene<2> scene;
     scene.mesh =
         mesh::disc({.centre = {0.0, options.radius + options.height}, .radius = options.radius, .size = options.size});
     scene.solid.materials = {{.young = options.young, .poisson = options.poisson, .density = options.density}};
@@ -107,7 +81,7 @@ Scene<2> dropped_disc(const DroppedDisc& options) {
     return scene;
 }
 
-Scene<2> two_discs(const TwoDiscs& options) {
+run::Scene<2> two_discs(const TwoDiscs& options) {
     const double distance = 2.0 * options.radius;
     const double along = std::sqrt(distance * distance - options.offset * options.offset) + options.gap;
     const Vector<2> half(0.5 * along, 0.5 * options.offset);
@@ -115,7 +89,7 @@ Scene<2> two_discs(const TwoDiscs& options) {
         return mesh::disc(
             {.centre = centre, .radius = options.radius, .size = options.size, .variant = variant, .name = name});
     };
-    Scene<2> scene;
+    run::Scene<2> scene;
     scene.mesh = mesh::combine<2>(std::vector{disc(-half, 0, "left"), disc(half, 1, "right")});
     scene.solid.materials.assign(2, {.young = options.young, .poisson = options.poisson, .density = options.density});
     scene.velocity = {options.speed * Vector<2>::UnitX(), -options.speed * Vector<2>::UnitX()};
@@ -137,7 +111,7 @@ HertzImpact hertz_impact(const TwoSpheres& options) {
             .contact_radius = std::sqrt(radius * approach)};
 }
 
-Scene<3> two_spheres(const TwoSpheres& options) {
+run::Scene<3> two_spheres(const TwoSpheres& options) {
     const HertzImpact hertz = hertz_impact(options);
     const double size = hertz.contact_radius / options.faces;
     const double gap = options.gap * hertz.approach;
@@ -150,7 +124,7 @@ Scene<3> two_spheres(const TwoSpheres& options) {
                              .variant = variant,
                              .name = name});
     };
-    Scene<3> scene;
+    run::Scene<3> scene;
     scene.mesh = mesh::combine<3>(std::vector{sphere(-1.0, 0, "left"), sphere(1.0, 1, "right")});
     scene.solid.materials.assign(2, {.young = options.young, .poisson = options.poisson, .density = options.density});
     const double speed = 0.5 * options.speed;
@@ -161,9 +135,9 @@ Scene<3> two_spheres(const TwoSpheres& options) {
 }
 
 template <int Dim>
-void ImpactObserver<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+void ImpactObserver<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     spdlog::info("{} cells; {} steps of {:.4g} s", scene.mesh.n_cells(), result.steps, result.dt);
-    warn_of_corners(result);
+    apps::log_warnings(apps::only(run::warnings_before(scene, result), {run::WarningKind::blind_corners}));
 }
 
 template <int Dim>
@@ -185,24 +159,23 @@ void ImpactObserver<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<D
 }
 
 template <int Dim>
-ImpactRun<Dim> run_impact(const Scene<Dim>& scene, const RunOptions& options) {
+ImpactRun<Dim> run_impact(const run::Scene<Dim>& scene, const run::RunOptions& options) {
     ImpactRun<Dim> run;
     double seconds = 0.0;
     {
         const Stopwatch watch(seconds);
-        WithProgress<Dim> observer(run.observer);
-        run.result = simulate<Dim>(scene, options, observer);
+        apps::ShowProgress<Dim> progress;
+        run::Observers<Dim> observers{run.observer, progress};
+        run.result = run::simulate<Dim>(scene, options, observers);
     }
     run.seconds = seconds;
-    const std::string name = fmt::format("{} cells", scene.mesh.n_cells());
-    warn_of_compression(run.result, name);
-    warn_of_contact(run.result, name);
+    apps::log_warnings(run::without_notes(run::warnings_after(run.result)), fmt::format("{} cells", scene.mesh.n_cells()));
     return run;
 }
 
 template class ImpactObserver<2>;
 template class ImpactObserver<3>;
-template ImpactRun<2> run_impact(const Scene<2>&, const RunOptions&);
-template ImpactRun<3> run_impact(const Scene<3>&, const RunOptions&);
+template ImpactRun<2> run_impact(const run::Scene<2>&, const run::RunOptions&);
+template ImpactRun<3> run_impact(const run::Scene<3>&, const run::RunOptions&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

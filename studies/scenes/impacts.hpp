@@ -2,10 +2,10 @@
 #include <array>
 #include <vector>
 
-#include "apps/support/simulation.hpp"
+#include "abut/run/simulation.hpp"
 
 /// Round bodies that fall on a plane or run into each other.
-namespace abut::examples {
+namespace abut::studies {
 
 /// A disc that falls on a rigid plane at y = 0 under a body force.
 struct DroppedDisc {
@@ -17,7 +17,7 @@ struct DroppedDisc {
     double height = 5.0;   ///< of the lowest point [m]
     double size = 2.0;     ///< of cells [m]
 };
-[[nodiscard]] Scene<2> dropped_disc(const DroppedDisc& options);
+[[nodiscard]] run::Scene<2> dropped_disc(const DroppedDisc& options);
 
 /// Two equal discs that run into each other along x.
 struct TwoDiscs {
@@ -27,7 +27,7 @@ struct TwoDiscs {
     double offset = 0.0;                                             ///< of their centres along y [m]
     double size = 0.25;                                              ///< of cells [m]
 };
-[[nodiscard]] Scene<2> two_discs(const TwoDiscs& options);
+[[nodiscard]] run::Scene<2> two_discs(const TwoDiscs& options);
 
 /// Two equal spheres that run into each other along x, with small cells where they meet.
 struct TwoSpheres {
@@ -37,7 +37,7 @@ struct TwoSpheres {
     double coarse = 0.15;                                                ///< cells far from the contact over the radius [-]
     double gap = 1e-3;                                                   ///< over the largest approach of Hertz [-]
 };
-[[nodiscard]] Scene<3> two_spheres(const TwoSpheres& options);
+[[nodiscard]] run::Scene<3> two_spheres(const TwoSpheres& options);
 
 /// Hertz's quasi-static impact of two equal spheres.
 struct HertzImpact {
@@ -50,10 +50,10 @@ struct HertzImpact {
 
 /// What a run of one or two bodies shows of their contact. The force is the mean of a step of the scheme on body 0.
 template <int Dim>
-class ImpactObserver : public Observer<Dim> {
+class ImpactObserver : public run::Observer<Dim> {
 public:
-    void begin(const Scene<Dim>& scene,
-               const RunResult<Dim>& result) override;  ///< logs how much there is to do, warns of corners
+    void begin(const run::Scene<Dim>& scene,
+               const run::RunResult<Dim>& result) override;  ///< logs how much there is to do, warns of corners
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
 
     struct Sample {
@@ -71,19 +71,19 @@ public:
 
 private:
     std::vector<Sample> samples_;
-    double first_ = not_given;
-    double last_ = not_given;
+    double first_ = run::not_given;
+    double last_ = run::not_given;
 };
 
 /// A scene that was run, with what was seen of its contact.
 template <int Dim>
 struct ImpactRun {
-    RunResult<Dim> result;
+    run::RunResult<Dim> result;
     ImpactObserver<Dim> observer;
     double seconds = 0.0;  ///< of the run with its set-up, without the mesh
 };
 /// Shows how far it has come, and warns of what contact did. Throws as `simulate`.
 template <int Dim>
-[[nodiscard]] ImpactRun<Dim> run_impact(const Scene<Dim>& scene, const RunOptions& options);
+[[nodiscard]] ImpactRun<Dim> run_impact(const run::Scene<Dim>& scene, const run::RunOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -8,7 +8,7 @@
 #include "abut/geometry/quadrature.hpp"
 #include "studies/scenes/boxes.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double amplitude = 0.8, young = 70e3, poisson = 0.3;
@@ -162,4 +162,4 @@ template struct Manufactured<3>;
 template StaticErrors solve_manufactured(const Manufactured<2>&, const mesh::Mesh<2>&, const solid::StaticOptions&);
 template StaticErrors solve_manufactured(const Manufactured<3>&, const mesh::Mesh<3>&, const solid::StaticOptions&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -6,7 +6,7 @@
 #include "abut/solid/statics.hpp"
 
 /// Solutions of statics that are chosen first: the body load that belongs to them follows by hand.
-namespace abut::examples {
+namespace abut::studies {
 
 /// u = a phi(x) d in an isotropic body. With H the second derivatives of phi,
 ///     div sigma = a ((lambda + mu) H d + mu tr(H) d),    and the body load is its opposite.
@@ -49,4 +49,4 @@ template <int Dim>
 [[nodiscard]] StaticErrors solve_manufactured(const Manufactured<Dim>& exact, const mesh::Mesh<Dim>& box,
                                               const solid::StaticOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -8,7 +8,7 @@
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/dense_stiffness.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double zero_limit = 1e-11;  // of the highest eigenvalue: far above rounding, far below any real mode
@@ -108,4 +108,4 @@ template PatchErrors patch_test(const mesh::Mesh<3>&, PatchBoundary, solid::Free
 template ZeroModes zero_modes(const mesh::Mesh<2>&, solid::FreeFaceRule);
 template ZeroModes zero_modes(const mesh::Mesh<3>&, solid::FreeFaceRule);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

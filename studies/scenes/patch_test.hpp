@@ -4,7 +4,7 @@
 #include "abut/solid/statics.hpp"
 
 /// What every discretisation of elasticity must keep: constant strain, and no energy of rigid motions.
-namespace abut::examples {
+namespace abut::studies {
 
 /// Where the affine displacement of the patch test comes from.
 enum class PatchBoundary {
@@ -36,4 +36,4 @@ struct ZeroModes {
 template <int Dim>
 [[nodiscard]] ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using solid::Constraint;
@@ -73,11 +73,11 @@ double ChainDispersion::speed(double omega, double dt) const {
 double cell_size(const PlaneWaveOptions& options) { return wavelength(options.wave) / options.per_wavelength; }
 
 template <int Dim>
-Scene<Dim> plane_wave(const PlaneWaveOptions& options) {
+run::Scene<Dim> plane_wave(const PlaneWaveOptions& options) {
     const double size = cell_size(options);
     Vector<Dim> upper = Vector<Dim>::Constant(across * size);
     upper[0] = length * wavelength(options.wave);
-    Scene<Dim> scene;
+    run::Scene<Dim> scene;
     scene.mesh = box_of<Dim>(options.cells, Vector<Dim>::Zero(), upper, size);
     scene.solid.materials = {rock()};
     scene.solid.boundary.dirichlet = plane_wave_sides<Dim>(options.wave);
@@ -107,9 +107,9 @@ template Vector<2> polarisation<2>(PlaneWave);
 template Vector<3> polarisation<3>(PlaneWave);
 template std::vector<solid::DirichletCondition<2>> plane_wave_sides<2>(PlaneWave);
 template std::vector<solid::DirichletCondition<3>> plane_wave_sides<3>(PlaneWave);
-template Scene<2> plane_wave<2>(const PlaneWaveOptions&);
-template Scene<3> plane_wave<3>(const PlaneWaveOptions&);
+template run::Scene<2> plane_wave<2>(const PlaneWaveOptions&);
+template run::Scene<3> plane_wave<3>(const PlaneWaveOptions&);
 template std::vector<Receiver<2>> plane_wave_receivers<2>(const PlaneWaveOptions&);
 template std::vector<Receiver<3>> plane_wave_receivers<3>(const PlaneWaveOptions&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -3,7 +3,7 @@
 #include "studies/scenes/seismogram.hpp"
 
 /// Plane waves along the first axis: what a strip or bar cannot tell from an unbounded medium, and how fast they are.
-namespace abut::examples {
+namespace abut::studies {
 
 enum class PlaneWave { compression, shear };
 [[nodiscard]] std::string name_of(PlaneWave wave);  ///< "P", "S"
@@ -54,10 +54,10 @@ inline constexpr double source_delay = 1.5 / source_frequency;  ///< [s], of the
 /// A strip or bar, 9 wavelengths long and 3 cells across, with a Ricker wavelet as the traction of its end x = 0; the other
 /// end is so far away that nothing comes back to `plane_wave_receivers` in time.
 template <int Dim>
-[[nodiscard]] Scene<Dim> plane_wave(const PlaneWaveOptions& options);
+[[nodiscard]] run::Scene<Dim> plane_wave(const PlaneWaveOptions& options);
 
 /// At 3 and 6 wavelengths.
 template <int Dim>
 [[nodiscard]] std::vector<Receiver<Dim>> plane_wave_receivers(const PlaneWaveOptions& options);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

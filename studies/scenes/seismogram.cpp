@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using std::numbers::pi;
@@ -69,7 +69,7 @@ double ricker(double t, double frequency) {
 }
 
 template <int Dim>
-void Seismograph<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+void Seismograph<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     const auto& centres = scene.mesh.cell_centroid;
     for (const Receiver<Dim>& receiver : receivers_) {
         const auto nearer = [&](const Vector<Dim>& a, const Vector<Dim>& b) {
@@ -92,4 +92,4 @@ void Seismograph<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
 template class Seismograph<2>;
 template class Seismograph<3>;
 
-}  // namespace abut::examples
+}  // namespace abut::studies

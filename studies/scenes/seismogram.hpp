@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "apps/support/simulation.hpp"
+#include "abut/run/simulation.hpp"
 
 /// Records of waves at some places, and the speed of a wave between two of them.
-namespace abut::examples {
+namespace abut::studies {
 
 /// Values at equal steps of time, from t = 0 on.
 struct Trace {
@@ -33,11 +33,11 @@ struct Receiver {
 
 /// Looks on and keeps one component of the displacement of the cells that are nearest to the receivers, at every step.
 template <int Dim>
-class Seismograph : public Observer<Dim> {
+class Seismograph : public run::Observer<Dim> {
 public:
     explicit Seismograph(std::vector<Receiver<Dim>> receivers) : receivers_(std::move(receivers)) {}
 
-    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
+    void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&) override;
 
     [[nodiscard]] std::size_t size() const { return receivers_.size(); }
@@ -52,4 +52,4 @@ private:
     std::vector<Trace> traces_;
 };
 
-}  // namespace abut::examples
+}  // namespace abut::studies

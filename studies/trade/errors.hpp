@@ -5,14 +5,14 @@
 
 #include "apps/support/run_options.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 
 /// How far a run is from what it should be, without units; NaN: the problem does not ask for it.
 struct Errors {
-    double drift = not_given;        ///< max |H~ - H~0| over the energy scale
-    double energy = not_given;       ///< max |H - H0| over the energy scale: the true energy
-    double restitution = not_given;  ///< of the speed of separation over that of approach
-    double pressure = not_given;     ///< of the contact pressure, relative in L2
+    double drift = run::not_given;        ///< max |H~ - H~0| over the energy scale
+    double energy = run::not_given;       ///< max |H - H0| over the energy scale: the true energy
+    double restitution = run::not_given;  ///< of the speed of separation over that of approach
+    double pressure = run::not_given;     ///< of the contact pressure, relative in L2
 };
 
 /// One of them, for tables and pictures.
@@ -29,8 +29,8 @@ inline const std::array<Measure, 4> measures = {{{"drift", "drift of H~ / scale"
 /// What a run gave and what it took.
 struct Outcome {
     Errors errors;
-    double excess = not_given;     ///< max (H - H~) over the energy scale
-    double parasitic = not_given;  ///< max |e|/m over the speed of impact
+    double excess = run::not_given;     ///< max (H - H~) over the energy scale
+    double parasitic = run::not_given;  ///< max |e|/m over the speed of impact
     std::int64_t events = 0;
     std::int64_t lost_contacts = 0;
     std::int64_t cells = 0;
@@ -38,4 +38,4 @@ struct Outcome {
     double seconds = 0.0;    ///< of the steps, without set-up and without what measures energies
 };
 
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade

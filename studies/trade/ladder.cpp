@@ -5,7 +5,7 @@
 #include "apps/support/contact_choices.hpp"
 #include "apps/support/preset.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 namespace {
 
 /// An option and its values but for the default.
@@ -17,8 +17,8 @@ struct Axis {
 
 std::vector<std::string> other_broad_phases() {
     std::vector<std::string> names;
-    for (const auto& [name, method] : broad_phases)
-        if (method != RunOptions{}.contact.search.broad_phase) names.push_back(name);
+    for (const auto& [name, method] : apps::broad_phases)
+        if (method != run::RunOptions{}.contact.search.broad_phase) names.push_back(name);
     return names;
 }
 
@@ -64,7 +64,7 @@ std::vector<Setting> ladder(Extent extent, bool at_rest) {
         for (const std::string& value : axis.values)
             if (axis.at_rest || !at_rest) settings.push_back(axis.option + " " + value);
     if (at_rest) return settings;
-    for (const auto& [name, preset] : presets) append_new(settings, {words_of(preset)});
+    for (const auto& [name, preset] : apps::presets) append_new(settings, {apps::words_of(preset)});
     if (extent == Extent::each) return settings;
     const Factor cfl = {"", "--cfl 0.3", "--cfl 0.6"};
     append_new(settings, product({{"", "--overlap frozen"}, {"", "--events off"}, {"", "--quadrature 1"}, cfl}));
@@ -72,4 +72,4 @@ std::vector<Setting> ladder(Extent extent, bool at_rest) {
     return settings;
 }
 
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade

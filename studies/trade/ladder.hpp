@@ -4,7 +4,7 @@
 
 #include "apps/support/run_options.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 
 /// A point of the ladder, as it would be typed: "--overlap frozen --events off"; "" for the defaults.
 using Setting = std::string;
@@ -18,4 +18,4 @@ enum class Extent {
 /// All different, the defaults first. Of a problem at rest only what matters at rest.
 [[nodiscard]] std::vector<Setting> ladder(Extent extent, bool at_rest);
 
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade

@@ -9,17 +9,17 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/simulation.hpp"
+#include "abut/run/simulation.hpp"
 #include "apps/two_cylinders.hpp"
 #include "studies/scenes/bars.hpp"
 #include "studies/scenes/hertz.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 namespace {
 
 /// Ends a run that takes too long.
 template <int Dim>
-class Impatience : public Observer<Dim> {
+class Impatience : public run::Observer<Dim> {
 public:
     explicit Impatience(double limit) : limit_(limit) {}
 
@@ -40,13 +40,13 @@ private:
 constexpr int interval = 10;
 
 template <int Dim>
-RunResult<Dim> run_for(const Scene<Dim>& scene, RunOptions run, double limit, double& seconds) {
+run::RunResult<Dim> run_for(const run::Scene<Dim>& scene, run::RunOptions run, double limit, double& seconds) {
     run.interval = interval;
     Impatience<Dim> impatience(limit);
     double all = 0.0;
     auto result = [&] {
         const Stopwatch watch(all);
-        return simulate<Dim>(scene, run, impatience);
+        return run::simulate<Dim>(scene, run, impatience);
     }();
     seconds = all - result.seconds.setup - result.seconds.ledger;
     return result;
@@ -54,7 +54,7 @@ RunResult<Dim> run_for(const Scene<Dim>& scene, RunOptions run, double limit, do
 
 /// All but the errors of what the problem is about.
 template <int Dim>
-Outcome outcome_of(const Scene<Dim>& scene, const RunResult<Dim>& result, double speed, double seconds) {
+Outcome outcome_of(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result, double speed, double seconds) {
     const auto& entries = result.ledger.entries();
     double energy = 0.0;
     for (const auto& entry : entries)
@@ -64,31 +64,31 @@ Outcome outcome_of(const Scene<Dim>& scene, const RunResult<Dim>& result, double
             .excess = result.ledger.energy_excess() / scale,
             .parasitic = result.ledger.parasitic() / speed,
             .events = result.contact.events,
-            .lost_contacts = result.contact.lost_contacts,
+            .lost_contacts = result.contact.missed_contacts,
             .cells = scene.mesh.n_cells(),
             .steps = result.steps,
             .seconds = seconds};
 }
 
 /// Two cylinders of `cells` cells in the radius that slip over each other.
-CylinderOptions slip(int dim, int cells) {
-    CylinderOptions options{.dim = dim};
+apps::CylinderOptions slip(int dim, int cells) {
+    apps::CylinderOptions options{.dim = dim};
     options.size = {options.radius[0] / cells, options.radius[1] / cells};
-    fill_defaults(options, slipping_offset);
+    apps::fill_defaults(options, apps::slipping_offset);
     return options;
 }
 
 template <int Dim>
-double restitution_of(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    for (const Finding& finding : scene.findings(result))
-        if (finding.key == "restitution") return finding.value.template get<double>();
+double restitution_of(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
+    for (const run::Finding& finding : scene.findings(result))
+        if (finding.key == "restitution") return std::get<double>(finding.value);
     throw Misuse("two_cylinders has no restitution");
 }
 
 template <int Dim>
-Outcome solve_slip(const RunOptions& run, int cells, double reference, double limit) {
-    const CylinderOptions options = slip(Dim, cells);
-    const Scene<Dim> scene = two_cylinders<Dim>(options);
+Outcome solve_slip(const run::RunOptions& run, int cells, double reference, double limit) {
+    const apps::CylinderOptions options = slip(Dim, cells);
+    const run::Scene<Dim> scene = apps::two_cylinders<Dim>(options);
     double seconds = 0.0;
     const auto result = run_for<Dim>(scene, run, limit, seconds);
     Outcome outcome = outcome_of<Dim>(scene, result, options.speed[0], seconds);
@@ -97,9 +97,9 @@ Outcome solve_slip(const RunOptions& run, int cells, double reference, double li
 }
 
 template <int Dim>
-double slip_restitution(const RunOptions& run, int cells) {
-    const Scene<Dim> scene = two_cylinders<Dim>(slip(Dim, cells));
-    return restitution_of<Dim>(scene, simulate<Dim>(scene, run));
+double slip_restitution(const run::RunOptions& run, int cells) {
+    const run::Scene<Dim> scene = apps::two_cylinders<Dim>(slip(Dim, cells));
+    return restitution_of<Dim>(scene, run::simulate<Dim>(scene, run));
 }
 
 Problem slip_problem(int dim, std::vector<int> levels, int reference_level) {
@@ -112,15 +112,15 @@ Problem slip_problem(int dim, std::vector<int> levels, int reference_level) {
             .restitution = dim == 2 ? slip_restitution<2> : slip_restitution<3>};
 }
 
-Outcome solve_bar(const RunOptions& run, int cells, double, double limit) {
+Outcome solve_bar(const run::RunOptions& run, int cells, double, double limit) {
     const Bar bar;
     const ExactBounce exact(0.0);
-    Scene<2> scene = bar_strip<2>({.bar = bar,
-                                   .gap = ExactBounce::height,
-                                   .speed = ExactBounce::speed,
-                                   .energy = 0.5 * bar.mass() * ExactBounce::speed * ExactBounce::speed,
-                                   .time = exact.hit() + 2.0 * bar.contact_time()},
-                                  cells);
+    run::Scene<2> scene = bar_strip<2>({.bar = bar,
+                                        .gap = ExactBounce::height,
+                                        .speed = ExactBounce::speed,
+                                        .energy = 0.5 * bar.mass() * ExactBounce::speed * ExactBounce::speed,
+                                        .time = exact.hit() + 2.0 * bar.contact_time()},
+                                       cells);
     ContactHistory history{.time = {0.0}, .gap = {}, .speed = {}, .pressure = {}};
     scene.after_step = [&history, width = strip_width(bar, cells)](const solid::Solid<2>& solid, double dt) {
         history.time.push_back(history.time.back() + dt);
@@ -136,7 +136,7 @@ Outcome solve_bar(const RunOptions& run, int cells, double, double limit) {
     return outcome;
 }
 
-Outcome solve_cylinder_on_block(const RunOptions& run, int faces, double, double) {
+Outcome solve_cylinder_on_block(const run::RunOptions& run, int faces, double, double) {
     const auto result =
         solve_hertz<2>({.faces = static_cast<double>(faces), .contact = run.contact, .neumann = run.neumann});
     return {.errors = {.pressure = result.pressure_error},
@@ -163,4 +163,4 @@ const std::vector<Problem>& problems() {
     return all;
 }
 
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade

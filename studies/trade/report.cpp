@@ -8,12 +8,12 @@
 #include <cstdio>
 #include <utility>
 
+#include "abut/run/files.hpp"
+#include "abut/run/gnuplot.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/files.hpp"
-#include "apps/support/gnuplot.hpp"
 #include "apps/support/preset.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 constexpr double least_shown = 1e-17;  // zero has no place on a logarithmic axis
 
 std::string preset_of(const Setting& setting) {
-    for (const auto& [name, preset] : presets)
-        if (words_of(preset) == setting) return name;
+    for (const auto& [name, preset] : apps::presets)
+        if (apps::words_of(preset) == setting) return name;
     return "";
 }
 
@@ -45,13 +45,13 @@ std::string csv_text(const std::vector<Row>& rows) {
     text += ",energy_excess_max,parasitic_max,events,lost_contacts,message\n";
     for (const Row& row : rows) {
         const Outcome& outcome = row.outcome;
-        text += fmt::format("{},{},{},{},{},{},{},{},{}", row.problem, row.level, quoted(row.setting),
+        text += fmt::format("{},{},{},{},{},{},{},{},{}", row.problem, row.level, apps::quoted(row.setting),
                             preset_of(row.setting), row.finished() ? 1 : 0, outcome.cells, outcome.steps,
-                            row.finished() ? all_digits(outcome.seconds) : "", all_digits(row.ratio));
+                            row.finished() ? apps::all_digits(outcome.seconds) : "", apps::all_digits(row.ratio));
         for (std::size_t i = 0; i < measures.size(); ++i)
-            text += fmt::format(",{},{}", all_digits(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
-        text += fmt::format(",{},{},{},{},{}\n", all_digits(outcome.excess), all_digits(outcome.parasitic), outcome.events,
-                            outcome.lost_contacts, quoted(row.refusal));
+            text += fmt::format(",{},{}", apps::all_digits(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
+        text += fmt::format(",{},{},{},{},{}\n", apps::all_digits(outcome.excess), apps::all_digits(outcome.parasitic),
+                            outcome.events, outcome.lost_contacts, apps::quoted(row.refusal));
     }
     return text;
 }
@@ -66,15 +66,15 @@ Json to_json(const Row& row) {
     json.update({{"cells", outcome.cells},
                  {"steps", outcome.steps},
                  {"seconds", outcome.seconds},
-                 {"seconds_over_balanced", json_number(row.ratio)},
+                 {"seconds_over_balanced", apps::json_number(row.ratio)},
                  {"errors", Json::object()},
                  {"on_front", Json::array()},
-                 {"energy_excess_max", json_number(outcome.excess)},
-                 {"parasitic_max", json_number(outcome.parasitic)},
+                 {"energy_excess_max", apps::json_number(outcome.excess)},
+                 {"parasitic_max", apps::json_number(outcome.parasitic)},
                  {"events", outcome.events},
                  {"lost_contacts", outcome.lost_contacts}});
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        json["errors"][measures[i].key] = json_number(outcome.errors.*measures[i].error);
+        json["errors"][measures[i].key] = apps::json_number(outcome.errors.*measures[i].error);
         if (row.on_front[i]) json["on_front"].push_back(measures[i].key);
     }
     return json;
@@ -131,9 +131,9 @@ std::vector<std::string> key(const std::vector<Row>& rows) {
         if (std::ranges::find(rows, problem.name, &Row::problem) != rows.end())
             lines.push_back(fmt::format("keyentry with points pt 7 ps 0.9 lc rgb \"{}\" title \"{}\"",
                                         colour_of(problem.name), problem.name));
-    for (std::size_t p = 0; p < presets.size(); ++p)
+    for (std::size_t p = 0; p < apps::presets.size(); ++p)
         lines.push_back(fmt::format("keyentry with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" title \"{}\"", shapes[p],
-                                    presets[p].first));
+                                    apps::presets[p].first));
     return lines;
 }
 
@@ -157,15 +157,15 @@ std::string panel(std::size_t i, const std::vector<Row>& rows) {
                                     points(fmt::format("strcol(\"problem\") eq \"{}\"", name)), colour));
         lines.push_back(fmt::format("{} using 1:2 with lines lw 1.5 lc rgb \"{}\" notitle", front, colour));
     }
-    for (std::size_t p = 0; p < presets.size(); ++p)
+    for (std::size_t p = 0; p < apps::presets.size(); ++p)
         lines.push_back(fmt::format("{} with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" notitle",
-                                    points(fmt::format("strcol(\"preset\") eq \"{}\"", presets[p].first)), shapes[p]));
+                                    points(fmt::format("strcol(\"preset\") eq \"{}\"", apps::presets[p].first)), shapes[p]));
     for (const std::string& line : key(rows)) lines.push_back(line);
     return fmt::format("{}set origin {},{}\nset size 0.5,0.47\nset ylabel \"{}\" noenhanced\nplot {}\nset key off\n", data,
                        i % 2 == 0 ? 0.0 : 0.5, i < 2 ? 0.48 : 0.0, measure.label, fmt::join(lines, ", \\\n     "));
 }
 
-Picture picture(const std::vector<Row>& rows) {
+run::Picture picture(const std::vector<Row>& rows) {
     std::string script =
         "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n"
         "set key center right\n";
@@ -198,29 +198,29 @@ void print(const Row& row) {
     const Outcome& outcome = row.outcome;
     if (row.finished()) {
         fmt::print("{:>8.2g}", outcome.seconds);
-        for (const Measure& measure : measures) fmt::print("{:>12}", two_digits(outcome.errors.*measure.error));
-        fmt::print("{:>9}{:>9}{:>8}{:>5}\n", two_digits(outcome.excess), two_digits(outcome.parasitic), outcome.events,
-                   outcome.lost_contacts);
+        for (const Measure& measure : measures) fmt::print("{:>12}", apps::two_digits(outcome.errors.*measure.error));
+        fmt::print("{:>9}{:>9}{:>8}{:>5}\n", apps::two_digits(outcome.excess), apps::two_digits(outcome.parasitic),
+                   outcome.events, outcome.lost_contacts);
     } else {
         fmt::print("\n        {}\n", row.refusal);
     }
     std::fflush(stdout);
 }
 
-void write_report(const Program& program, const std::filesystem::path& out, const Json& options,
+void write_report(const apps::Program& program, const std::filesystem::path& out, const Json& options,
                   const std::vector<Row>& rows) {
-    write_whole(out / "trade.csv", csv_text(rows));
+    run::write_whole(out / "trade.csv", csv_text(rows));
     Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"options", options}};
     const std::string without_picture = draw(out, picture(rows));
     if (!without_picture.empty()) json["without_picture"] = without_picture;
     json["never_on_a_front"] = never_on_a_front(rows);
     json["rows"] = Json::array();
     for (const Row& row : rows) json["rows"].push_back(to_json(row));
-    write_whole(out / "summary.json", json.dump(2) + "\n");
+    run::write_whole(out / "summary.json", json.dump(2) + "\n");
     fmt::print("on no front of any problem: {}\n", fmt::join(never_on_a_front(rows), " | "));
     if (!without_picture.empty()) fmt::print("no picture: {}\n", without_picture);
     fmt::print("{} runs, {} of them not finished\nfiles: {}\n", rows.size(),
                std::ranges::count_if(rows, [](const Row& row) { return !row.finished(); }), out.string());
 }
 
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade

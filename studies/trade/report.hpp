@@ -7,7 +7,7 @@
 #include "studies/trade/ladder.hpp"
 #include "studies/trade/problems.hpp"
 
-namespace abut::examples::trade {
+namespace abut::studies::trade {
 
 /// A line of the table.
 struct Row {
@@ -16,7 +16,7 @@ struct Row {
     Setting setting;
     Outcome outcome;
     std::string refusal;                           ///< why it did not come to its end; empty: it did
-    double ratio = not_given;                      ///< seconds over those of the defaults on the same mesh
+    double ratio = run::not_given;                 ///< seconds over those of the defaults on the same mesh
     std::array<bool, measures.size()> on_front{};  ///< no run of the problem is faster and not worse by this error
 
     [[nodiscard]] bool finished() const { return refusal.empty(); }
@@ -29,7 +29,7 @@ void print_head(const Problem& problem);
 void print(const Row& row);
 
 /// Leaves trade.csv, summary.json and the picture pareto.png with its script.
-void write_report(const Program& program, const std::filesystem::path& out, const nlohmann::ordered_json& options,
+void write_report(const apps::Program& program, const std::filesystem::path& out, const nlohmann::ordered_json& options,
                   const std::vector<Row>& rows);
 
-}  // namespace abut::examples::trade
+}  // namespace abut::studies::trade

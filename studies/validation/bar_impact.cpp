@@ -11,13 +11,13 @@
 #include "apps/support/choices.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double end = 1.75;      // of the run [s]
 constexpr int least_cells = 100;  // from which on the targets hold that do not scale with h
 
-const Program program{
+const apps::Program program{
     .name = "bar_impact",
     .purpose = "Bar that hits a rigid wall once: pressure, release and rebound against closed forms.",
     .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it hits the wall, 5 m away, at 10 m/s."};
@@ -58,7 +58,7 @@ Level level(const BarRun& run, const BarOptions& options, int cells) {
 }
 
 /// Corners of the exact pressure and velocity; jumps are two rows at one time.
-Table exact_table() {
+apps::Table exact_table() {
     const ExactBounce exact(0.0);
     const double hit = exact.hit(), release = hit + Bar{}.contact_time(), pressure = exact.pressure(0.0);
     const double v = ExactBounce::speed;
@@ -68,7 +68,7 @@ Table exact_table() {
             {0.0, 0.0, -v}, {hit, 0.0, -v}, {hit, pressure, -v}, {release, pressure, v}, {release, 0.0, v}, {end, 0.0, v}}};
 }
 
-Picture picture(const BarOptions& options) {
+run::Picture picture(const BarOptions& options) {
     const std::string script = fmt::format(
         "set multiplot\nset xrange [0.4:1.3]\nset key bottom center\n"
         "set origin 0,0.45\nset size 1,0.55\nset ylabel \"contact pressure [Pa]\"\nset yrange [-20:480]\n"
@@ -95,11 +95,12 @@ void run(const BarOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     BarOptions options = default_bar_options(program, {50, 100, 200, 400});
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run(options); });
 }

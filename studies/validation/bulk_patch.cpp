@@ -15,21 +15,22 @@
 #include "studies/scenes/patch_test.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using solid::FreeFaceRule;
 
-const Program program{.name = "bulk_patch",
-                      .purpose = "Affine displacements and rigid motions: patch test and zero modes on all kinds of mesh.",
-                      .footer = "The box is 1.4 x 1.1 (x 1.1) m; errors are the largest of all cells, relative."};
+const apps::Program program{
+    .name = "bulk_patch",
+    .purpose = "Affine displacements and rigid motions: patch test and zero modes on all kinds of mesh.",
+    .footer = "The box is 1.4 x 1.1 (x 1.1) m; errors are the largest of all cells, relative."};
 
 constexpr double allowed_error = 1e-12;
 constexpr double allowed_zero = 1e-8;  // the largest zero over the next eigenvalue
 
-const Choices<FreeFaceRule> neumann_choices = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
-                                          {"extrapolate", FreeFaceRule::extrapolate},
-                                          {"adjacent", FreeFaceRule::adjacent}};
+const apps::Choices<FreeFaceRule> neumann_choices = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
+                                                {"extrapolate", FreeFaceRule::extrapolate},
+                                                {"adjacent", FreeFaceRule::adjacent}};
 
 struct PatchOptions {
     int cells = 5;
@@ -38,11 +39,11 @@ struct PatchOptions {
 };
 
 void add_options(CLI::App& app, PatchOptions& options) {
-    add_count(app, "--cells", options.cells, "along an edge of the box of the patch test", 2)->group("Mesh");
-    add_count(app, "--mode-cells", options.mode_cells, "along an edge of the box whose eigenvalues are taken (dense matrix)",
-              2)
+    apps::add_count(app, "--cells", options.cells, "along an edge of the box of the patch test", 2)->group("Mesh");
+    apps::add_count(app, "--mode-cells", options.mode_cells,
+                    "along an edge of the box whose eigenvalues are taken (dense matrix)", 2)
         ->group("Mesh");
-    add_out_option(app, options.out);
+    apps::add_out_option(app, options.out);
 }
 
 template <int Dim>
@@ -94,8 +95,8 @@ Level level(const PatchOptions& options, BoxCells cells) {
 }
 
 /// A row a mesh: errors of the stress, imposed and with tractions by Neumann choice, and zeros over next eigenvalues.
-Table curve(const Study& study) {
-    Table table{.columns = {"mesh", "imposed"}, .rows = {}};
+apps::Table curve(const Study& study) {
+    apps::Table table{.columns = {"mesh", "imposed"}, .rows = {}};
     for (const char* what : {"stress", "zero"})
         for (const auto& [name, neumann] : neumann_choices) table.columns.push_back(fmt::format("{}_{}", what, name));
     for (const Level& level : study.levels) {
@@ -109,7 +110,7 @@ Table curve(const Study& study) {
 }
 
 /// Errors of the stress on each mesh, on a logarithmic axis with the limit.
-Picture picture(const Study& study) {
+run::Picture picture(const Study& study) {
     std::string tics;
     for (std::size_t i = 0; i < study.levels.size(); ++i) {
         const std::string& name = study.levels[i].name;
@@ -150,11 +151,12 @@ void run_study(const PatchOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     PatchOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

@@ -13,10 +13,10 @@
 #include "studies/scenes/contact_patch.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{
+const apps::Program program{
     .name = "contact_patch",
     .purpose = "Contact patch test: errors of stress and displacement for each mesh, weight and Neumann choice.",
     .footer = "Blocks: unit squares or cubes, E = 1 and 7 Pa, nu = 0.3 and 0.2 unless nu is 0."};
@@ -28,12 +28,13 @@ struct Options {
     std::filesystem::path out = "out/" + program.name;
 };
 
-const Choices<PatchMesh> meshes = {
+const apps::Choices<PatchMesh> meshes = {
     {"matching", PatchMesh::matching}, {"non-matching", PatchMesh::non_matching}, {"unstructured", PatchMesh::unstructured}};
-const Choices<contact::Weights> weights = {{"stiffness", contact::Weights::stiffness}, {"half", contact::Weights::half}};
-const Choices<solid::FreeFaceRule> neumanns = {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
-                                          {"extrapolate", solid::FreeFaceRule::extrapolate},
-                                          {"adjacent", solid::FreeFaceRule::adjacent}};
+const apps::Choices<contact::InterfaceWeighting> weights = {{"stiffness", contact::InterfaceWeighting::stiffness},
+                                                 {"half", contact::InterfaceWeighting::half}};
+const apps::Choices<solid::FreeFaceRule> neumanns = {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
+                                                {"extrapolate", solid::FreeFaceRule::extrapolate},
+                                                {"adjacent", solid::FreeFaceRule::adjacent}};
 struct Sides {
     std::string name;
     bool free;
@@ -45,7 +46,7 @@ constexpr double exact = 1e-10;
 
 /// Where the method is exact.
 double target(const PatchOptions& options, const Sides& sides) {
-    const bool is_exact = options.mesh == PatchMesh::matching && options.contact.weights == contact::Weights::stiffness &&
+    const bool is_exact = options.mesh == PatchMesh::matching && options.contact.weighting == contact::InterfaceWeighting::stiffness &&
                           options.neumann == solid::FreeFaceRule::local_equilibrium && (!sides.free || sides.zero_poisson);
     return is_exact ? exact : std::numeric_limits<double>::infinity();
 }
@@ -59,9 +60,9 @@ Level level(const PatchOptions& options, const Sides& sides) {
         errors = solve_patch<Dim>(options);
     }
     const double allowed = target(options, sides);
-    return {.name = fmt::format("{}, {}, {}, sides {} ({:.1g} out of balance)", name_of(meshes, options.mesh),
-                                name_of(weights, options.contact.weights), name_of(neumanns, options.neumann), sides.name,
-                                errors.report.residual),
+    return {.name = fmt::format("{}, {}, {}, sides {} ({:.1g} out of balance)", apps::name_of(meshes, options.mesh),
+                                apps::name_of(weights, options.contact.weighting), apps::name_of(neumanns, options.neumann),
+                                sides.name, errors.report.residual),
             .quantities = {{"stress, largest error", "", errors.stress, 0.0, 1.0, allowed},
                            {"displacement, largest error", "", errors.displacement, 0.0, 1.0, allowed},
                            {"contact pressure, largest error", "", errors.pressure, 0.0, 1.0, allowed}},
@@ -70,7 +71,7 @@ Level level(const PatchOptions& options, const Sides& sides) {
 
 /// Levels of one choice of mesh, weights and Neumann, one for all kinds of sides, and a row with their errors of the stress.
 template <int Dim>
-void add_levels(Study& study, Table& stress, PatchOptions options) {
+void add_levels(Study& study, apps::Table& stress, PatchOptions options) {
     std::vector<double> row{static_cast<double>(stress.rows.size())};
     for (const Sides& sides : all_sides) {
         options.free_sides = sides.free;
@@ -98,7 +99,7 @@ std::string axis(const std::vector<std::string>& mesh_names) {
     return script + fmt::format("set xtics ({}) rotate by -40 noenhanced\nset xrange [-0.5:{}]\n", tics, place - 0.5);
 }
 
-Picture picture(const std::string& title, const std::vector<std::string>& mesh_names) {
+run::Picture picture(const std::string& title, const std::vector<std::string>& mesh_names) {
     static constexpr std::array<const char*, 3> points{"pt 7 ps 1.5 lc rgb \"#2a78d6\"", "pt 5 ps 1.4 lc rgb \"#2f9e57\"",
                                                        "pt 9 ps 1.7 lc rgb \"#eb6834\""};
     std::string script = fmt::format(
@@ -124,7 +125,7 @@ Study solve(const Options& options) {
     Study study{.title = fmt::format("two blocks under uniform pressure, {}D, strain {:g}", Dim, options.strain),
                 .reference = "uniform stress",
                 .options = {{"dim", Dim}, {"strain", options.strain}}};
-    Table stress{.columns = {"choice", "rollers", "free_zero_poisson", "free"}, .rows = {}};
+    apps::Table stress{.columns = {"choice", "rollers", "free_zero_poisson", "free"}, .rows = {}};
     std::vector<std::string> mesh_names;
     for (const auto& [mesh_name, mesh] : meshes) {
         if (!options.meshes.empty() && std::ranges::find(options.meshes, mesh_name) == options.meshes.end()) continue;
@@ -132,7 +133,7 @@ Study solve(const Options& options) {
         for (const auto& [weight_name, weight] : weights)
             for (const auto& [neumann_name, neumann] : neumanns) {
                 PatchOptions patch{.mesh = mesh, .strain = options.strain, .neumann = neumann};
-                patch.contact.weights = weight;
+                patch.contact.weighting = weight;
                 add_levels<Dim>(study, stress, patch);
             }
     }
@@ -142,24 +143,27 @@ Study solve(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        add_choice(app, "--dim", options.dim, "squares in plane strain, or cubes", Choices<int>{{"2", 2}, {"3", 3}})
+        apps::add_choice(app, "--dim", options.dim, "squares in plane strain, or cubes",
+                         apps::Choices<int>{{"2", 2}, {"3", 3}})
             ->group("Scene");
         app.add_option("--mesh", options.meshes, "meshes of the two blocks; by default all")
             ->delimiter(',')
-            ->check(one_of({"matching", "non-matching", "unstructured"}))
+            ->check(apps::one_of({"matching", "non-matching", "unstructured"}))
             ->type_name("NAME[,NAME...]")
             ->group("Scene");
-        add_number(app, "--strain", options.strain, "pressure over the wave modulus of the lower block", {.above = 0.0})
+        apps::add_number(app, "--strain", options.strain, "pressure over the wave modulus of the lower block",
+                         {.above = 0.0})
             ->group("Scene");
-        add_out_option(app, options.out);
+        apps::add_out_option(app, options.out);
     };
-    return run_program(program, argc, argv, add_options, [&] {
+    return apps::run_program(program, argc, argv, add_options, [&] {
         prepare_study(options.out, {"stress"}, {"stress"});
         report(program, options.out, options.dim == 2 ? solve<2>(options) : solve<3>(options));
     });

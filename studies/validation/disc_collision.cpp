@@ -14,18 +14,18 @@
 #include "studies/scenes/impacts.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{.name = "disc_collision",
-                      .purpose = "Two discs that collide head-on and off-centre: momentum, energies, speeds and spin.",
-                      .footer = "The discs: R = 1 m, E = 1 Pa, nu = 0.3, rho = 1 kg/m^3, 0.05 m/s each."};
+const apps::Program program{.name = "disc_collision",
+                            .purpose = "Two discs that collide head-on and off-centre: momentum, energies, speeds and spin.",
+                            .footer = "The discs: R = 1 m, E = 1 Pa, nu = 0.3, rho = 1 kg/m^3, 0.05 m/s each."};
 
 constexpr std::array offsets{0.0, 0.8};  // of the centres [m]
 
 struct Options {
     std::vector<double> sizes{0.25, 0.125, 0.0625};
-    RunOptions run{.out = "out/" + program.name};
+    run::RunOptions run{.out = "out/" + program.name};
 };
 
 /// What a prototype of the method gave for the disc on the left [m/s].
@@ -38,11 +38,11 @@ std::string curve_name(double offset, double size) {
 
 struct Collision {
     Level level;
-    Table curve;
+    apps::Table curve;
 };
 
-Table curve(const ImpactObserver<2>& observer) {
-    Table table{.columns = {"time", "left_x", "left_y", "right_x", "right_y"}, .rows = {}};
+apps::Table curve(const ImpactObserver<2>& observer) {
+    apps::Table table{.columns = {"time", "left_x", "left_y", "right_x", "right_y"}, .rows = {}};
     for (const auto& sample : observer.samples()) {
         const auto& [left, right] = sample.velocity;
         table.rows.push_back({sample.time, left.x(), left.y(), right.x(), right.y()});
@@ -50,8 +50,8 @@ Table curve(const ImpactObserver<2>& observer) {
     return table;
 }
 
-Collision collide(const TwoDiscs& discs, const RunOptions& options) {
-    const Scene<2> scene = two_discs(discs);
+Collision collide(const TwoDiscs& discs, const run::RunOptions& options) {
+    const run::Scene<2> scene = two_discs(discs);
     const auto [result, observer, seconds] = run_impact(scene, options);
     const double momentum = discs.density * std::numbers::pi * discs.radius * discs.radius * discs.speed;
     const auto& last = observer.samples().back();
@@ -91,7 +91,7 @@ std::string panel(const std::vector<double>& sizes, double offset, int axis) {
 }
 
 /// Head-on on the left, off-centre on the right; x above, y below. One legend is enough.
-Picture picture(const std::vector<double>& sizes) {
+run::Picture picture(const std::vector<double>& sizes) {
     std::string script =
         "set multiplot\nset size 0.5,0.5\nset xlabel \"time [s]\"\nset autoscale xfix\nset yrange [-0.06:0.06]\n"
         "set key center right samplen 2 opaque\n";
@@ -119,24 +119,26 @@ void run_study(const Options& options) {
             study.curves.emplace_back(curve_name(offset, size), std::move(collision.curve));
         }
     study.pictures = {picture(options.sizes)};
-    study.options = to_json(options.run);
+    study.options = apps::to_json(options.run);
     study.options["size"] = options.sizes;
     report(program, options.run.out, study);
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        add_numbers(app, "--size", options.sizes, "sizes of cells, one a level", {.unit = "m", .above = 0.0, .below = 1.0})
+        apps::add_numbers(app, "--size", options.sizes, "sizes of cells, one a level",
+                          {.unit = "m", .above = 0.0, .below = 1.0})
             ->group("Scene");
-        add_preset_option(app, options.run);
-        add_time_options(app, options.run, "the approach and 6 crossings of a disc by a wave");
-        add_contact_options(app, options.run);
-        add_out_option(app, options.run.out);
+        apps::add_preset_option(app, options.run);
+        apps::add_time_options(app, options.run, "the approach and 6 crossings of a disc by a wave");
+        apps::add_contact_options(app, options.run);
+        apps::add_out_option(app, options.run.out);
     };
-    return run_program(program, argc, argv, add_options, [&] { run_study(options); });
+    return apps::run_program(program, argc, argv, add_options, [&] { run_study(options); });
 }

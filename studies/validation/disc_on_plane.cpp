@@ -14,28 +14,28 @@
 #include "studies/scenes/impacts.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{
+const apps::Program program{
     .name = "disc_on_plane",
     .purpose = "Disc that falls on a rigid plane: time and speed of first contact, energies of the rebound.",
     .footer = "The disc: R = 20 m, lambda = mu = 20 Pa, rho = 1 kg/m^3, 0.1 m/s^2, 5 m above the plane."};
 
 struct Options {
     std::vector<double> cells{5.0, 10.0, 20.0};  // in the radius, one a level
-    RunOptions run{.out = "out/" + program.name};
+    run::RunOptions run{.out = "out/" + program.name};
 };
 
 std::string curve_name(double cells) { return fmt::format("fall_{:g}", cells); }
 
 struct Fall {
     Level level;
-    Table curve;
+    apps::Table curve;
 };
 
-Fall fall(const DroppedDisc& disc, const RunOptions& options) {
-    const Scene<2> scene = dropped_disc(disc);
+Fall fall(const DroppedDisc& disc, const run::RunOptions& options) {
+    const run::Scene<2> scene = dropped_disc(disc);
     const auto [result, observer, seconds] = run_impact(scene, options);
     const double time = std::sqrt(2.0 * disc.height / disc.gravity), speed = disc.gravity * time;
     const double late = disc.size * disc.size / (8.0 * disc.radius) / speed + result.dt;
@@ -68,7 +68,7 @@ std::string lines(const std::vector<double>& cells, const std::string& value, co
 }
 
 /// The whole motion above; below it, from just before the contact, what the velocity has gained over free fall.
-Picture picture(const std::vector<double>& cells) {
+run::Picture picture(const std::vector<double>& cells) {
     const std::string velocity = "column(\"velocity\")";
     const std::string script = fmt::format(
         "set multiplot\nset samples 1000\nset size 1,0.55\nset origin 0,0.45\n"
@@ -83,20 +83,22 @@ Picture picture(const std::vector<double>& cells) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        add_numbers(app, "--cells", options.cells, "cells in the radius, a number a level", {.above = 1.0, .below = 1000.0})
+        apps::add_numbers(app, "--cells", options.cells, "cells in the radius, a number a level",
+                          {.above = 1.0, .below = 1000.0})
             ->group("Scene");
-        add_preset_option(app, options.run);
-        add_time_options(app, options.run, "4 times the fall");
-        add_contact_options(app, options.run);
-        add_out_option(app, options.run.out);
+        apps::add_preset_option(app, options.run);
+        apps::add_time_options(app, options.run, "4 times the fall");
+        apps::add_contact_options(app, options.run);
+        apps::add_out_option(app, options.run.out);
     };
-    return run_program(program, argc, argv, add_options, [&] {
+    return apps::run_program(program, argc, argv, add_options, [&] {
         std::vector<std::string> curves;
         for (const double cells : options.cells) curves.push_back(curve_name(cells));
         prepare_study(options.run.out, curves, {"fall"});
@@ -109,7 +111,7 @@ int main(int argc, char** argv) {
             study.curves.emplace_back(curve_name(cells), std::move(one.curve));
         }
         study.pictures = {picture(options.cells)};
-        study.options = to_json(options.run);
+        study.options = apps::to_json(options.run);
         study.options["cells"] = options.cells;
         report(program, options.run.out, study);
     });

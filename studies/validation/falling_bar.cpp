@@ -15,7 +15,7 @@
 #include "apps/support/choices.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double gravity = 10.0;  // [m/s^2]
@@ -24,9 +24,9 @@ constexpr double round_trip = 16.0 / 3.0;
 constexpr int asked_impacts = 3;
 constexpr int least_cells = 100;  // from which on the targets hold that do not scale with h
 
-const Program program{.name = "falling_bar",
-                      .purpose = "Bar that falls on a rigid wall and bounces: impulses, pressures and period.",
-                      .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2."};
+const apps::Program program{.name = "falling_bar",
+                            .purpose = "Bar that falls on a rigid wall and bounces: impulses, pressures and period.",
+                            .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2."};
 
 BarOnWall scene() {
     const Bar bar;
@@ -73,9 +73,9 @@ Level level(const BarRun& run, const BarOptions& options, int cells) {
 }
 
 /// The exact pressure and velocity, with rows close enough to each side of a jump.
-Table exact_table() {
+apps::Table exact_table() {
     const ExactBounce exact(gravity);
-    Table table{.columns = {"time", "pressure", "speed"}, .rows = {}};
+    apps::Table table{.columns = {"time", "pressure", "speed"}, .rows = {}};
     for (int i = 0; i <= 3000; ++i) {
         const double time = end * i / 3000.0;
         table.rows.push_back({time, exact.pressure_at(time), exact.velocity_at(time)});
@@ -83,7 +83,7 @@ Table exact_table() {
     return table;
 }
 
-Picture picture(const BarOptions& options) {
+run::Picture picture(const BarOptions& options) {
     const std::string script = fmt::format(
         "set multiplot\nset key top right\n"
         "set origin 0,0.68\nset size 1,0.32\nset ylabel \"contact pressure [Pa]\"\nset xrange [0:{0}]\nset yrange "
@@ -116,11 +116,12 @@ void run(const BarOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     BarOptions options = default_bar_options(program, {50, 100, 200});
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run(options); });
 }

@@ -19,7 +19,7 @@
 #include "apps/support/choices.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr double period = 3.0;                                 // [s]
@@ -30,9 +30,10 @@ constexpr double energy = 0.125;                               // [J/m^2]
 constexpr int least_cells = 100;                               // from which on the target of the stress holds
 const Bar unit_bar{.length = 1.0, .young = 1.0, .density = 1.0};
 
-const Program program{.name = "fixed_bar",
-                      .purpose = "Bar, fixed at one end, that vibrates against a rigid wall: contact stress, period, field.",
-                      .footer = "The bar: L = 1 m, E = 1 Pa, rho = 1 kg/m^3, nu = 0; at the start u = (1 - x)/2, at rest."};
+const apps::Program program{
+    .name = "fixed_bar",
+    .purpose = "Bar, fixed at one end, that vibrates against a rigid wall: contact stress, period, field.",
+    .footer = "The bar: L = 1 m, E = 1 Pa, rho = 1 kg/m^3, nu = 0; at the start u = (1 - x)/2, at rest."};
 
 /// u(x, t), x from the wall [m].
 double exact_displacement(double x, double time) {
@@ -97,7 +98,7 @@ Level level(const BarRun& run, const BarOptions& options, int cells) {
 /// Where the profiles are taken [s].
 const std::vector<double> profile_times = {0.5, 1.25, period, 2.0 * period};
 
-void append_profiles(Table& table, const BarRun& run, int cells) {
+void append_profiles(apps::Table& table, const BarRun& run, int cells) {
     for (std::size_t i = 0; i < run.profiles.size(); ++i)
         for (const auto& [x, u, share] : run.profiles[i].cells)
             table.rows.push_back(
@@ -105,8 +106,8 @@ void append_profiles(Table& table, const BarRun& run, int cells) {
 }
 
 /// Corners of the exact stress.
-Table exact_table() {
-    Table table{.columns = {"time", "pressure"}, .rows = {{0.0, 0.0}}};
+apps::Table exact_table() {
+    apps::Table table{.columns = {"time", "pressure"}, .rows = {{0.0, 0.0}}};
     for (const double start : {0.0, period})
         for (const auto& [time, pressure] : std::initializer_list<std::pair<double, double>>{
                  {1.0, 0.0}, {1.0, -stress}, {2.0, -stress}, {2.0, 0.0}, {3.0, 0.0}})
@@ -127,7 +128,7 @@ std::string profile_lines(int cells) {
     return lines;
 }
 
-Picture picture(const BarOptions& options) {
+run::Picture picture(const BarOptions& options) {
     const int finest = std::ranges::max(options.cells);
     const std::string script = fmt::format(
         "set multiplot\nset key top right horizontal\n"
@@ -149,7 +150,7 @@ Picture picture(const BarOptions& options) {
 }
 
 void run(const BarOptions& options) {
-    Table profiles{.columns = {"cells", "time", "x", "u", "exact"}, .rows = {}};
+    apps::Table profiles{.columns = {"cells", "time", "x", "u", "exact"}, .rows = {}};
     const auto run_and_keep_profiles = [&](std::size_t i) {
         BarRun run = run_bar(scene(), options, options.cells[i], profile_times);
         append_profiles(profiles, run, options.cells[i]);
@@ -167,11 +168,12 @@ void run(const BarOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     BarOptions options = default_bar_options(program, {50, 100, 200, 400}, unit_bar.length);
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run(options); });
 }

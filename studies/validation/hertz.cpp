@@ -17,44 +17,45 @@
 #include "apps/support/comparison.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{.name = "hertz",
-                      .purpose = "Hertz contact of cylinders and spheres at rest: pressure against the exact ellipse.",
-                      .footer = "Targets hold for the default bodies with 5 and 10 faces in a."};
+const apps::Program program{.name = "hertz",
+                            .purpose = "Hertz contact of cylinders and spheres at rest: pressure against the exact ellipse.",
+                            .footer = "Targets hold for the default bodies with 5 and 10 faces in a."};
 
-const Choices<HertzSupport> supports = {
+const apps::Choices<HertzSupport> supports = {
     {"block", HertzSupport::block}, {"equal", HertzSupport::equal}, {"rigid_plane", HertzSupport::rigid_plane}};
 
 struct Options {
     int dim = 2;
     HertzOptions hertz;
     std::vector<double> faces;
-    RunOptions run{.out = "out/" + program.name};
+    run::RunOptions run{.out = "out/" + program.name};
 };
 
 void add_options(CLI::App& app, Options& options) {
     const auto grouped = [](CLI::Option* option) { option->group("Scene"); };
-    grouped(add_choice(app, "--dim", options.dim, "cylinder or sphere", Choices<int>{{"2", 2}, {"3", 3}}));
-    grouped(add_choice(app, "--support", options.hertz.support, "what it lies on", supports));
-    grouped(add_number(app, "--load", options.hertz.load, "P, in 3D F", {.unit = "N/m, N", .above = 0.0}));
-    grouped(add_number(app, "--radius", options.hertz.radius, "of each round body", {.unit = "m", .above = 0.0}));
-    grouped(add_body_values(app, "--young", options.hertz.young, "Young's modulus, upper and lower",
-                            {.unit = "Pa", .above = 0.0}));
-    grouped(add_body_values(app, "--poisson", options.hertz.poisson, "Poisson's ratio, upper and lower",
-                            {.above = -1.0, .below = 0.5}));
-    grouped(add_number(app, "--ratio", options.hertz.ratio, "size of the lower faces over that of the upper ones",
-                       {.above = 0.0}));
-    grouped(add_number(app, "--coarse", options.hertz.coarse, "size of cells far from the contact over the radius",
-                       {.above = 0.0, .below = 1.0}));
-    grouped(add_numbers(app, "--faces", options.faces,
-                        "faces in the contact radius, a number a level; by default 2.5,5,10, in 3D 2.5,5", {.above = 0.0}));
-    add_number(app, "--tolerance", options.hertz.statics.tolerance, "largest force left, over the largest stress",
-               {.above = 0.0})
+    grouped(apps::add_choice(app, "--dim", options.dim, "cylinder or sphere", apps::Choices<int>{{"2", 2}, {"3", 3}}));
+    grouped(apps::add_choice(app, "--support", options.hertz.support, "what it lies on", supports));
+    grouped(apps::add_number(app, "--load", options.hertz.load, "P, in 3D F", {.unit = "N/m, N", .above = 0.0}));
+    grouped(apps::add_number(app, "--radius", options.hertz.radius, "of each round body", {.unit = "m", .above = 0.0}));
+    grouped(apps::add_body_values(app, "--young", options.hertz.young, "Young's modulus, upper and lower",
+                                  {.unit = "Pa", .above = 0.0}));
+    grouped(apps::add_body_values(app, "--poisson", options.hertz.poisson, "Poisson's ratio, upper and lower",
+                                  {.above = -1.0, .below = 0.5}));
+    grouped(apps::add_number(app, "--ratio", options.hertz.ratio, "size of the lower faces over that of the upper ones",
+                             {.above = 0.0}));
+    grouped(apps::add_number(app, "--coarse", options.hertz.coarse, "size of cells far from the contact over the radius",
+                             {.above = 0.0, .below = 1.0}));
+    grouped(apps::add_numbers(app, "--faces", options.faces,
+                              "faces in the contact radius, a number a level; by default 2.5,5,10, in 3D 2.5,5",
+                              {.above = 0.0}));
+    apps::add_number(app, "--tolerance", options.hertz.statics.tolerance, "largest force left, over the largest stress",
+                     {.above = 0.0})
         ->group("Statics");
-    add_model_options(app, options.run);
-    add_out_option(app, options.run.out);
+    apps::add_model_options(app, options.run);
+    apps::add_out_option(app, options.run.out);
 }
 
 /// Targets of the reference case, for 5 faces in a and for 10.
@@ -87,8 +88,8 @@ Level level(const HertzOptions& options, const HertzResult<Dim>& result, double 
 }
 
 template <int Dim>
-Table curve(const HertzResult<Dim>& result) {
-    Table table{
+apps::Table curve(const HertzResult<Dim>& result) {
+    apps::Table table{
         .columns = {"distance", "pressure", "traction", "exact", "distance_over_a", "pressure_over_p0", "traction_over_p0"}};
     const auto& [a, p0] = result.exact;
     for (const auto& face : result.faces) {
@@ -101,7 +102,7 @@ Table curve(const HertzResult<Dim>& result) {
 
 std::string curve_name(double faces) { return fmt::format("pressure_{:g}", faces); }
 
-Picture picture(const Options& options, const std::string& title) {
+run::Picture picture(const Options& options, const std::string& title) {
     std::string script = fmt::format(R"gp(set title "{}" font ",15" noenhanced
 set xlabel "{}"
 set ylabel "pressure / p_0"
@@ -164,12 +165,12 @@ Study solve(const Options& options) {
 
 nlohmann::ordered_json to_json(const Options& options) {
     const HertzOptions& hertz = options.hertz;
-    nlohmann::ordered_json json{{"dim", options.dim},     {"support", name_of(supports, hertz.support)},
+    nlohmann::ordered_json json{{"dim", options.dim},     {"support", apps::name_of(supports, hertz.support)},
                                 {"load", hertz.load},     {"radius", hertz.radius},
                                 {"young", hertz.young},   {"poisson", hertz.poisson},
                                 {"faces", options.faces}, {"ratio", hertz.ratio},
                                 {"coarse", hertz.coarse}, {"tolerance", hertz.statics.tolerance}};
-    json.update(model_json(options.run));
+    json.update(apps::model_json(options.run));
     return json;
 }
 
@@ -182,12 +183,13 @@ void check(Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     Options options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); },
         [&] {
             check(options);

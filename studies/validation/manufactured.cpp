@@ -14,12 +14,13 @@
 #include "studies/scenes/manufactured.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{.name = "manufactured",
-                      .purpose = "Manufactured solutions of statics: errors and orders of convergence on all kinds of mesh.",
-                      .footer = "Errors are relative: in L2, and in the energy norm with the stabilisation."};
+const apps::Program program{
+    .name = "manufactured",
+    .purpose = "Manufactured solutions of statics: errors and orders of convergence on all kinds of mesh.",
+    .footer = "Errors are relative: in L2, and in the energy norm with the stabilisation."};
 
 constexpr double least_order_l2 = 1.8, least_order_energy = 0.95;
 
@@ -32,13 +33,16 @@ struct ManufacturedOptions {
 };
 
 void add_options(CLI::App& app, ManufacturedOptions& options) {
-    add_choice(app, "--dim", options.dim, "dimensions", Choices<int>{{"2", 2}, {"3", 3}})->group("Mesh");
-    add_count(app, "--cells", options.cells, "along an edge of the coarsest box; 0: 8 in 2D, 4 in 3D", 0)->group("Mesh");
-    add_count(app, "--levels", options.levels, "meshes, each of half the size of the one before; 0: 4 in 2D, 3 in 3D", 0)
+    apps::add_choice(app, "--dim", options.dim, "dimensions", apps::Choices<int>{{"2", 2}, {"3", 3}})->group("Mesh");
+    apps::add_count(app, "--cells", options.cells, "along an edge of the coarsest box; 0: 8 in 2D, 4 in 3D", 0)
         ->group("Mesh");
-    add_number(app, "--tolerance", options.tolerance, "of the static solution, over the largest stress", {.above = 0.0})
+    apps::add_count(app, "--levels", options.levels, "meshes, each of half the size of the one before; 0: 4 in 2D, 3 in 3D",
+                    0)
+        ->group("Mesh");
+    apps::add_number(app, "--tolerance", options.tolerance, "of the static solution, over the largest stress",
+                     {.above = 0.0})
         ->group("Solution");
-    add_out_option(app, options.out);
+    apps::add_out_option(app, options.out);
 }
 
 void fill_defaults(ManufacturedOptions& options) {
@@ -66,15 +70,15 @@ Level level(const ManufacturedOptions& options, BoxCells cells, int refinement) 
 }
 
 /// Columns size, L2 error, energy error.
-Table curve(std::span<const Level> levels) {
-    Table table{.columns = {"size", "l2", "energy"}, .rows = {}};
+apps::Table curve(std::span<const Level> levels) {
+    apps::Table table{.columns = {"size", "l2", "energy"}, .rows = {}};
     for (const Level& level : levels)
         table.rows.push_back({level.size, level.quantities[0].value, level.quantities[1].value});
     return table;
 }
 
 /// Errors over the size of the cells, with the slopes 2 and 1 through the last points of the first mesh.
-Picture picture(const Study& study, const std::string& title) {
+run::Picture picture(const Study& study, const std::string& title) {
     static constexpr std::array<const char*, 5> colours{"#2a78d6", "#eb6834", "#2f9e57", "#8a4fd3", "#b58900"};
     const auto& last = study.curves.front().second.rows.back();
     double smallest = last[0], largest = last[0];
@@ -131,11 +135,12 @@ void run_study(ManufacturedOptions options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     ManufacturedOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

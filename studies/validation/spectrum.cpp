@@ -21,14 +21,14 @@
 #include "studies/scenes/plane_wave.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using std::numbers::pi;
 
-const Program program{.name = "spectrum",
-                      .purpose = "Frequencies of the discrete operator on a uniform mesh, against their closed form.",
-                      .footer = "Errors of omega^2 h^2 rho are over the largest of the curve."};
+const apps::Program program{.name = "spectrum",
+                            .purpose = "Frequencies of the discrete operator on a uniform mesh, against their closed form.",
+                            .footer = "Errors of omega^2 h^2 rho are over the largest of the curve."};
 
 constexpr double young = 900.0, density = 1.0;  // SI; c = 30 m/s
 constexpr double allowed = 1e-12;
@@ -46,12 +46,12 @@ struct SpectrumOptions {
 };
 
 void add_options(CLI::App& app, SpectrumOptions& options) {
-    add_count(app, "--cells", options.cells, "along the strip, of size 1; two across it", 20)->group("Strip");
-    add_number(app, "--poisson", options.poisson, "Poisson's ratio", {.above = -1.0, .below = 0.5})->group("Strip");
-    add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus",
-               {.unit = "Pa", .above = 0.0, .zero = true})
+    apps::add_count(app, "--cells", options.cells, "along the strip, of size 1; two across it", 20)->group("Strip");
+    apps::add_number(app, "--poisson", options.poisson, "Poisson's ratio", {.above = -1.0, .below = 0.5})->group("Strip");
+    apps::add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus",
+                     {.unit = "Pa", .above = 0.0, .zero = true})
         ->group("Strip");
-    add_out_option(app, options.out);
+    apps::add_out_option(app, options.out);
 }
 
 /// A strip or bar of unit squares or cubes.
@@ -110,10 +110,10 @@ Answer plane_wave_answer(Strip<Dim>& strip, PlaneWave wave, double theta) {
 
 /// The curve of one wave: columns theta, computed and exact omega h/c; its largest errors go into the level.
 template <int Dim>
-Table spectrum(Level& level, const SpectrumOptions& options, PlaneWave wave) {
+apps::Table spectrum(Level& level, const SpectrumOptions& options, PlaneWave wave) {
     Strip<Dim> strip(options, wave, options.cells);
     const ChainDispersion dispersion = exact(strip.solid, wave);
-    Table table{.columns = {"theta", "computed", "exact"}, .rows = {}};
+    apps::Table table{.columns = {"theta", "computed", "exact"}, .rows = {}};
     double highest = 0.0, error = 0.0, residual = 0.0;
     for (int i = 1; i <= points; ++i) {
         const double theta = pi * i / points, square = std::pow(dispersion.frequency(theta), 2);
@@ -180,7 +180,7 @@ void add_level(Study& study, const SpectrumOptions& options) {
     study.levels.push_back(level);
 }
 
-const Picture picture{
+const run::Picture picture{
     .name = "spectrum",
     .purpose = "Frequencies of the discrete operator and their closed form",
     .width = 1100,
@@ -214,11 +214,12 @@ void run_study(const SpectrumOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     SpectrumOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

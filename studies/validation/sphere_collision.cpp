@@ -18,17 +18,17 @@
 #include "studies/scenes/impacts.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{.name = "sphere_collision",
-                      .purpose = "Two spheres of aluminium that collide: approach, force and duration against Hertz.",
-                      .footer = "The spheres: R = 0.1 m, E = 70 GPa, nu = 0.3, rho = 2700 kg/m^3, 0.5 m/s."};
+const apps::Program program{.name = "sphere_collision",
+                            .purpose = "Two spheres of aluminium that collide: approach, force and duration against Hertz.",
+                            .footer = "The spheres: R = 0.1 m, E = 70 GPa, nu = 0.3, rho = 2700 kg/m^3, 0.5 m/s."};
 
 struct Options {
     std::vector<double> faces{2.0, 4.0};
     TwoSpheres spheres;
-    RunOptions run{.out = "out/" + program.name};
+    run::RunOptions run{.out = "out/" + program.name};
 };
 
 constexpr double target = 0.03;
@@ -37,11 +37,11 @@ std::string curve_name(double faces) { return fmt::format("impact_{:g}", faces);
 
 struct Impact {
     Level level;
-    Table curve;
+    apps::Table curve;
 };
 
-Impact collide(const TwoSpheres& spheres, const RunOptions& options) {
-    const Scene<3> scene = two_spheres(spheres);
+Impact collide(const TwoSpheres& spheres, const run::RunOptions& options) {
+    const run::Scene<3> scene = two_spheres(spheres);
     const auto [result, observer, seconds] = run_impact(scene, options);
     const HertzImpact hertz = hertz_impact(spheres);
     Impact impact;
@@ -74,14 +74,14 @@ Impact collide(const TwoSpheres& spheres, const RunOptions& options) {
 }
 
 /// Hertz's law of motion, m* d'' = -k d^1.5, integrated by small steps: time, approach, force.
-Table exact_curve(const TwoSpheres& spheres) {
+apps::Table exact_curve(const TwoSpheres& spheres) {
     constexpr int steps = 4000, rows = 200;
     const HertzImpact hertz = hertz_impact(spheres);
     const double k = hertz.force / std::pow(hertz.approach, 1.5);
     const double mass =
         0.8 * k * std::pow(hertz.approach, 2.5) / (spheres.speed * spheres.speed);  // all energy in d at rest
     const double dt = hertz.duration / steps;
-    Table table{.columns = {"time", "approach", "force"}};
+    apps::Table table{.columns = {"time", "approach", "force"}};
     double d = 0.0, v = spheres.speed;
     for (int i = 0; i <= steps; ++i) {
         const double force = k * std::pow(std::max(0.0, d), 1.5);
@@ -105,7 +105,7 @@ std::string lines(const std::vector<double>& faces, const std::string& of_hertz,
     return script + "\n";
 }
 
-Picture picture(const std::vector<double>& faces) {
+run::Picture picture(const std::vector<double>& faces) {
     const std::string approach = "1e6*column(\"approach\")";
     const std::string script =
         "set multiplot\nset size 1,0.5\nset key top right samplen 2\nset xrange [0:*]\nset autoscale xfixmax\n"
@@ -121,25 +121,26 @@ Picture picture(const std::vector<double>& faces) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        add_numbers(app, "--faces", options.faces,
-                    "faces in the largest contact radius, a number a level; from 6 on there are targets",
-                    {.above = 1.0, .below = 100.0})
+        apps::add_numbers(app, "--faces", options.faces,
+                          "faces in the largest contact radius, a number a level; from 6 on there are targets",
+                          {.above = 1.0, .below = 100.0})
             ->group("Scene");
-        add_number(app, "--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
-                   {.above = 0.0, .below = 1.0})
+        apps::add_number(app, "--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
+                         {.above = 0.0, .below = 1.0})
             ->group("Scene");
-        add_preset_option(app, options.run);
-        add_time_options(app, options.run, "1.2 times Hertz's duration");
-        add_contact_options(app, options.run);
-        add_out_option(app, options.run.out);
+        apps::add_preset_option(app, options.run);
+        apps::add_time_options(app, options.run, "1.2 times Hertz's duration");
+        apps::add_contact_options(app, options.run);
+        apps::add_out_option(app, options.run.out);
     };
-    return run_program(program, argc, argv, add_options, [&] {
+    return apps::run_program(program, argc, argv, add_options, [&] {
         std::vector<std::string> curves{"hertz"};
         for (const double faces : options.faces) curves.push_back(curve_name(faces));
         prepare_study(options.run.out, curves, {"impact"});
@@ -152,7 +153,7 @@ int main(int argc, char** argv) {
             study.curves.emplace_back(curve_name(faces), std::move(impact.curve));
         }
         study.pictures = {picture(options.faces)};
-        study.options = to_json(options.run);
+        study.options = apps::to_json(options.run);
         study.options.update({{"faces", options.faces}, {"coarse", options.spheres.coarse}});
         report(program, options.run.out, study);
     });

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "apps/support/files.hpp"
+#include "abut/run/files.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -85,7 +85,7 @@ Json to_json(const Level& level) {
     return json;
 }
 
-Json summary(const Program& program, const Study& study) {
+Json summary(const apps::Program& program, const Study& study) {
     Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"title", study.title}, {"reference", study.reference}};
     json["options"] = study.options;
     json["levels"] = Json::array();
@@ -113,7 +113,7 @@ std::string values_text(const Study& study) {
 double Quantity::error() const { return std::abs(value - reference) / (scale > 0.0 ? scale : std::abs(reference)); }
 
 template <int Dim>
-EnergyFigures energy_figures(const RunResult<Dim>& result) {
+EnergyFigures energy_figures(const run::RunResult<Dim>& result) {
     return {.drift = result.ledger.pseudo_energy_drift() / result.scale.value,
             .excess = result.ledger.energy_excess() / result.scale.value,
             .parasitic = result.ledger.parasitic(),
@@ -142,23 +142,23 @@ std::optional<double> fitted_order(const Study& study, const std::string& quanti
 
 void prepare_study(const std::filesystem::path& out, const std::vector<std::string>& curves,
                    const std::vector<std::string>& pictures) {
-    prepare_directory(out);
+    run::prepare_directory(out);
     std::vector<std::string> names{"values.csv", "summary.json"};
     for (const std::string& curve : curves) names.push_back(curve + ".csv");
     for (const std::string& picture : pictures) {
         names.push_back(picture + ".gp");
         names.push_back(picture + ".png");
     }
-    remove_files(out, names);
+    run::remove_files(out, names);
 }
 
-void report(const Program& program, const std::filesystem::path& out, const Study& study) {
-    for (const auto& [name, table] : study.curves) write_csv(out / (name + ".csv"), table);
+void report(const apps::Program& program, const std::filesystem::path& out, const Study& study) {
+    for (const auto& [name, table] : study.curves) apps::write_csv(out / (name + ".csv"), table);
     std::vector<std::string> without_picture;
-    for (const Picture& picture : study.pictures)
+    for (const run::Picture& picture : study.pictures)
         if (std::string why = draw(out, picture); !why.empty()) without_picture.push_back(std::move(why));
-    write_whole(out / "values.csv", values_text(study));
-    write_whole(out / "summary.json", summary(program, study).dump(2) + "\n");
+    run::write_whole(out / "values.csv", values_text(study));
+    run::write_whole(out / "summary.json", summary(program, study).dump(2) + "\n");
 
     fmt::print("{}: {}\n", program.name, study.title);
     fmt::print("  reference: {}\n", study.reference);
@@ -173,7 +173,7 @@ void report(const Program& program, const std::filesystem::path& out, const Stud
     fmt::print("  files: {}\n", out.string());
 }
 
-template EnergyFigures energy_figures<2>(const RunResult<2>&);
-template EnergyFigures energy_figures<3>(const RunResult<3>&);
+template EnergyFigures energy_figures<2>(const run::RunResult<2>&);
+template EnergyFigures energy_figures<3>(const run::RunResult<3>&);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

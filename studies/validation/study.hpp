@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/gnuplot.hpp"
+#include "abut/run/scene.hpp"
 #include "apps/support/csv.hpp"
-#include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
-#include "apps/support/run.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 
 /// A number that a computation gave, beside what it should be.
 struct Quantity {
@@ -41,7 +41,7 @@ struct EnergyFigures {
     std::string scale_name;
 };
 template <int Dim>
-[[nodiscard]] EnergyFigures energy_figures(const RunResult<Dim>& result);
+[[nodiscard]] EnergyFigures energy_figures(const run::RunResult<Dim>& result);
 
 /// One computation of a study.
 struct Level {
@@ -63,8 +63,8 @@ struct Study {
     std::string title;
     std::string reference;  ///< where the known answers come from, a sentence
     std::vector<Level> levels;
-    std::vector<std::pair<std::string, Table>> curves;  ///< "pressure" is left as pressure.csv
-    std::vector<Picture> pictures;
+    std::vector<std::pair<std::string, apps::Table>> curves;  ///< "pressure" is left as pressure.csv
+    std::vector<run::Picture> pictures;
     nlohmann::ordered_json options;  ///< as they were used
     std::vector<OrderTarget> orders{};
 };
@@ -79,6 +79,6 @@ void prepare_study(const std::filesystem::path& out, const std::vector<std::stri
 
 /// Leaves values.csv (a row a quantity and level), the curves, the pictures and summary.json; prints the table: value,
 /// reference, error, target and whether it is met, orders of convergence with theirs, energies.
-void report(const Program& program, const std::filesystem::path& out, const Study& study);
+void report(const apps::Program& program, const std::filesystem::path& out, const Study& study);
 
-}  // namespace abut::examples
+}  // namespace abut::studies

@@ -16,21 +16,21 @@
 #include "apps/support/choices.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
 constexpr int least_cells = 100;    // from which on the targets hold that do not scale with h
 constexpr double approach = 0.05;   // [s]
 constexpr double free_time = 0.35;  // of flight after the contact, so that it is known to be over [s]
 
-const Program program{.name = "two_bars",
-                      .purpose = "Two equal bars that collide head on: they exchange their velocities.",
-                      .footer = "Each bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; they meet after 0.05 s."};
+const apps::Program program{.name = "two_bars",
+                            .purpose = "Two equal bars that collide head on: they exchange their velocities.",
+                            .footer = "Each bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; they meet after 0.05 s."};
 
 struct Options {
     BarOptions bars = default_bar_options(program, {50, 100, 200, 400});
     std::vector<int> upper_cells;  ///< empty: those of the lower one
-    BodyValues speed{0.1, 0.1};
+    apps::BodyValues speed{0.1, 0.1};
 
     [[nodiscard]] double closing_speed() const { return speed[0] + speed[1]; }
     [[nodiscard]] std::array<int, 2> cells(std::size_t level) const {
@@ -40,10 +40,11 @@ struct Options {
 
 void add_options(CLI::App& app, Options& options) {
     add_bar_options(app, options.bars, {BarBody::strip2d, BarBody::strip3d});
-    add_counts(app, "--cells-2", options.upper_cells, "cells along the upper bar, as many numbers; by default as --cells", 8)
+    apps::add_counts(app, "--cells-2", options.upper_cells,
+                     "cells along the upper bar, as many numbers; by default as --cells", 8)
         ->group("Bar");
-    add_body_values(app, "--speed", options.speed, "speed of the lower and the upper bar towards the other",
-                    {.unit = "m/s", .above = 0.0, .zero = true})
+    apps::add_body_values(app, "--speed", options.speed, "speed of the lower and the upper bar towards the other",
+                          {.unit = "m/s", .above = 0.0, .zero = true})
         ->group("Bar");
 }
 
@@ -92,7 +93,7 @@ Level level(const BarRun& run, const Options& options, std::array<int, 2> cells)
 }
 
 /// Corners of the exact pressure and velocities; jumps are two rows at one time.
-Table exact_table(const Options& options) {
+apps::Table exact_table(const Options& options) {
     const TwoBars bars = scene(options);
     const double release = approach + bars.bar.contact_time();
     const double pressure = bars.bar.impedance() * 0.5 * options.closing_speed(), v_1 = options.speed[0],
@@ -106,7 +107,7 @@ Table exact_table(const Options& options) {
                      {bars.time, 0.0, v_2, v_1}}};
 }
 
-Picture picture(const Options& options) {
+run::Picture picture(const Options& options) {
     const auto& cells = options.bars.cells;
     const double pressure = 0.5 * Bar{}.impedance() * options.closing_speed(), margin = 0.05 * options.closing_speed();
     const std::string script = fmt::format(
@@ -143,11 +144,12 @@ void run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     Options options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
 }

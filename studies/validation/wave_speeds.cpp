@@ -23,12 +23,13 @@
 #include "studies/scenes/plane_wave.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::examples {
+namespace abut::studies {
 namespace {
 
-const Program program{.name = "wave_speeds",
-                      .purpose = "Speeds of plane P and S waves, and of P, S and Rayleigh waves of a force on a half plane.",
-                      .footer = "The rock: E = 1.88e10 Pa, nu = 0.25, rho = 2200 kg/m^3."};
+const apps::Program program{
+    .name = "wave_speeds",
+    .purpose = "Speeds of plane P and S waves, and of P, S and Rayleigh waves of a force on a half plane.",
+    .footer = "The rock: E = 1.88e10 Pa, nu = 0.25, rho = 2200 kg/m^3."};
 
 constexpr double allowed = 0.01;          // of a speed, where a wavelength has
 constexpr double cells_of_target = 20.0;  // or more cells
@@ -38,9 +39,9 @@ constexpr double early = 1.0 / source_frequency, late = 2.0 / source_frequency,
                  taper = 0.5 / source_frequency;  // windows [s]
 
 enum class Case { all, plane_2d, plane_3d, half_plane };
-const Choices<Case> cases = {
+const apps::Choices<Case> cases = {
     {"all", Case::all}, {"plane_2d", Case::plane_2d}, {"plane_3d", Case::plane_3d}, {"half_plane", Case::half_plane}};
-const Choices<BoxCells> meshes = {
+const apps::Choices<BoxCells> meshes = {
     {"quadrangles", BoxCells::quadrangles}, {"triangles", BoxCells::triangles}, {"gmsh", BoxCells::gmsh}};
 
 struct WaveOptions {
@@ -48,24 +49,27 @@ struct WaveOptions {
     BoxCells half_plane = BoxCells::gmsh;
     int cells = 10;
     int levels = 2;
-    RunOptions run{.out = "out/" + program.name, .interval = 10};
+    run::RunOptions run{.out = "out/" + program.name, .interval = 10};
 };
 
 void add_options(CLI::App& app, WaveOptions& options) {
-    add_choice(app, "--case", options.which, "plane waves in a strip or bar, the half plane, or all", cases)->group("Waves");
-    add_choice(app, "--mesh", options.half_plane, "cells of the half plane", meshes)->group("Waves");
-    add_count(app, "--cells", options.cells, "edges of cells in a wavelength, on the coarsest mesh", 5)->group("Waves");
-    add_count(app, "--levels", options.levels, "meshes, each twice as fine as the one before", 1)->group("Waves");
-    add_number(app, "--cfl", options.run.cfl, "time step over the stable step", {.above = 0.0, .below = 1.0, .closed = true})
+    apps::add_choice(app, "--case", options.which, "plane waves in a strip or bar, the half plane, or all", cases)
+        ->group("Waves");
+    apps::add_choice(app, "--mesh", options.half_plane, "cells of the half plane", meshes)->group("Waves");
+    apps::add_count(app, "--cells", options.cells, "edges of cells in a wavelength, on the coarsest mesh", 5)
+        ->group("Waves");
+    apps::add_count(app, "--levels", options.levels, "meshes, each twice as fine as the one before", 1)->group("Waves");
+    apps::add_number(app, "--cfl", options.run.cfl, "time step over the stable step",
+                     {.above = 0.0, .below = 1.0, .closed = true})
         ->group("Time");
-    add_out_option(app, options.run.out);
+    apps::add_out_option(app, options.run.out);
 }
 
 bool includes(const WaveOptions& options, Case which) { return options.which == Case::all || options.which == which; }
 
 /// Loads start and end at rest: drifts are quoted on the largest energy of the run.
 template <int Dim>
-EnergyFigures energies(const RunResult<Dim>& result) {
+EnergyFigures energies(const run::RunResult<Dim>& result) {
     EnergyFigures figures = energy_figures(result);
     const double largest = result.ledger.largest_energy();
     for (double* figure : {&figures.drift, &figures.excess}) *figure *= figures.scale / largest;
@@ -105,9 +109,9 @@ std::string wave_name(PlaneWave wave, BoxCells cells, int dim) {
 }
 
 /// Phase speed over the exact one by the cells in a wavelength, computed and by the scheme's closed form.
-Table dispersion_curve(const ChainDispersion& chain, double dt, const Trace& a, const Trace& b, double distance) {
+apps::Table dispersion_curve(const ChainDispersion& chain, double dt, const Trace& a, const Trace& b, double distance) {
     const double speed = std::sqrt(chain.modulus / chain.density);
-    Table table{.columns = {"cells", "computed", "scheme"}, .rows = {}};
+    apps::Table table{.columns = {"cells", "computed", "scheme"}, .rows = {}};
     for (double share = 0.5; share < 1.65; share += 0.05) {
         const double frequency = share * source_frequency;
         const double scheme = chain.speed(2.0 * std::numbers::pi * frequency, dt);
@@ -139,14 +143,14 @@ void compare_with_scheme(Study& study, Level& level, const PlaneWaveOptions& opt
 }
 
 template <int Dim>
-void add_plane_wave(Study& study, const RunOptions& run, const PlaneWaveOptions& options) {
+void add_plane_wave(Study& study, const run::RunOptions& run, const PlaneWaveOptions& options) {
     Level level{.name = fmt::format("{}, {} cells a wavelength", wave_name(options.wave, options.cells, Dim),
                                     options.per_wavelength),
                 .size = cell_size(options)};
     {
         const Stopwatch watch(level.seconds);
         Seismograph<Dim> seismograph(plane_wave_receivers<Dim>(options));
-        const RunResult<Dim> result = simulate<Dim>(plane_wave<Dim>(options), run, seismograph);
+        const run::RunResult<Dim> result = run::simulate<Dim>(plane_wave<Dim>(options), run, seismograph);
         const double end = result.dt * static_cast<double>(result.steps),
                      distance = seismograph.position(1)[0] - seismograph.position(0)[0];
         const Trace a = windowed(seismograph.trace(0), 0.0, end - taper, taper);
@@ -186,8 +190,8 @@ void add_wave(Level& level, const std::string& name, double speed, const HalfPla
 }
 
 /// Columns time and, for each receiver on the surface, its displacement over its largest.
-Table surface_curve(const Seismograph<2>& seismograph, std::size_t first, std::size_t last) {
-    Table table{.columns = {"time"}, .rows = {}};
+apps::Table surface_curve(const Seismograph<2>& seismograph, std::size_t first, std::size_t last) {
+    apps::Table table{.columns = {"time"}, .rows = {}};
     std::vector<double> size;
     for (std::size_t i = first; i < last; ++i) {
         table.columns.push_back(fmt::format("u_{}", i - first + 1));
@@ -203,7 +207,7 @@ Table surface_curve(const Seismograph<2>& seismograph, std::size_t first, std::s
     return table;
 }
 
-void add_half_plane(Study& study, const RunOptions& run, const HalfPlaneOptions& options, bool keep_surface) {
+void add_half_plane(Study& study, const run::RunOptions& run, const HalfPlaneOptions& options, bool keep_surface) {
     const bool across = options.force == LineForce::across;
     auto receivers = receivers_below(options.force);
     const auto surface = receivers_on_surface();
@@ -214,7 +218,7 @@ void add_half_plane(Study& study, const RunOptions& run, const HalfPlaneOptions&
     {
         const Stopwatch watch(level.seconds);
         Seismograph<2> seismograph(receivers);
-        const RunResult<2> result = simulate<2>(half_plane(options), run, seismograph);
+        const run::RunResult<2> result = run::simulate<2>(half_plane(options), run, seismograph);
         const double speed = wave_speed(across ? PlaneWave::compression : PlaneWave::shear, rock());
         const auto depth = [&](std::size_t i) { return -seismograph.position(i).y(); };
         const auto along = [&](std::size_t i) { return seismograph.position(i).x(); };
@@ -231,7 +235,7 @@ void add_half_plane(Study& study, const RunOptions& run, const HalfPlaneOptions&
 
 /// Traces of the receivers on the surface at their distances, with the times at which the waves of the middle of the source
 /// arrive.
-Picture seismogram_picture() {
+run::Picture seismogram_picture() {
     std::string traces;
     const auto n = receivers_on_surface().size();
     for (std::size_t i = 1; i <= n; ++i)
@@ -256,7 +260,7 @@ Picture seismogram_picture() {
                 (static_cast<double>(n) + 2.2) * rayleigh_wavelength(), traces, lines)};
 }
 
-const Picture dispersion_picture{
+const run::Picture dispersion_picture{
     .name = "dispersion",
     .purpose = "Phase speeds of plane waves on squares, and the scheme's closed form",
     .width = 1100,
@@ -300,7 +304,7 @@ void run_study(const WaveOptions& options) {
     if (includes(options, Case::half_plane)) study.pictures.push_back(seismogram_picture());
     const auto is_dispersion = [](const auto& curve) { return curve.first.starts_with("dispersion"); };
     if (std::ranges::any_of(study.curves, is_dispersion)) study.pictures.push_back(dispersion_picture);
-    study.options = {{"case", name_of(cases, options.which)},
+    study.options = {{"case", apps::name_of(cases, options.which)},
                      {"mesh", name_of(options.half_plane)},
                      {"cells", options.cells},
                      {"levels", options.levels},
@@ -309,11 +313,12 @@ void run_study(const WaveOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::examples
+}  // namespace abut::studies
 
 int main(int argc, char** argv) {
-    using namespace abut::examples;
+    using namespace abut;
+    using namespace abut::studies;
     WaveOptions options;
-    return run_program(
+    return apps::run_program(
         program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+#include <fstream>
+
+#include "abut/run/observer.hpp"
+
+namespace abut::run {
+
+/// The ledger of a run as CSV: a row per entry, 17 significant digits, so that every bit comes back; the columns are those of
+/// dynamics::ledger_columns, in SI units. It is written as it goes, and is called <path>.partial until `finish`.
+template <int Dim>
+class EnergyFile : public Observer<Dim> {
+public:
+    explicit EnergyFile(std::filesystem::path path);
+
+    /// Opens the file. Throws BadInput if it cannot be written.
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
+    /// Throws BadInput if the row cannot be written.
+    void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
+    /// The run is complete: gives the file its name. Throws BadInput if it cannot.
+    void finish();
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] const std::filesystem::path& partial_path() const { return partial_; }
+
+private:
+    void check() const;
+
+    std::filesystem::path path_;
+    std::filesystem::path partial_;
+    std::ofstream file_;
+};
+
+}  // namespace abut::run

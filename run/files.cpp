@@ -1,0 +1,108 @@
+#include "abut/run/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+
+#include "abut/base/error.hpp"
+
+namespace abut::run {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> plain_results = {"summary.json", "energy.csv", "energy.png", "energy.gp"};
+
+[[noreturn]] void refuse_directory(const fs::path& directory, const std::string& reason) {
+    throw BadInput(
+        fmt::format("--out {}: the folder cannot be written to: {}. Choose another folder or change its permissions.",
+                    directory.string(), reason));
+}
+
+bool take(std::string_view& text, std::string_view start) {
+    if (!text.starts_with(start)) return false;
+    text.remove_prefix(start.size());
+    return true;
+}
+
+/// <series>.pvd, <series>_000012.vtu, <series>_surface.pvd, <series>_surface_000012.vtp; and, with a dot in front, what
+/// a frame is called while it is written.
+bool belongs_to_series(std::string_view name, std::string_view series) {
+    take(name, ".");
+    if (!take(name, series)) return false;
+    const bool surface = take(name, "_surface");
+    if (name == ".pvd" || name == ".part.pvd") return true;
+    if (!take(name, "_")) return false;
+    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    if (digits < 6) return false;
+    name.remove_prefix(digits);
+    take(name, ".part");
+    return name == (surface ? ".vtp" : ".vtu");
+}
+
+void remove_result(const fs::path& path) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error)
+        throw BadInput(
+            fmt::format("{}: the result of an earlier run cannot be removed: {}. Choose another folder with --out.",
+                        path.string(), error.message()));
+}
+
+}  // namespace
+
+void prepare_directory(const fs::path& directory) {
+    std::error_code error, unknown;
+    fs::create_directories(directory, error);
+    const auto status = fs::status(directory, unknown);
+    if (!fs::is_directory(status))
+        refuse_directory(directory, fs::exists(status) ? "a file is in its place" : (error ? error : unknown).message());
+    const fs::path probe = directory / ".writable";
+    std::ofstream file(probe);
+    file << "abut\n";
+    file.close();
+    if (!file) refuse_directory(directory, "permission denied or no space left");
+    fs::remove(probe, error);
+}
+
+void remove_earlier_results(const fs::path& directory, const std::string& series) {
+    remove_files(directory, plain_results);
+    std::vector<fs::path> frames;
+    for (const auto& entry : fs::directory_iterator(directory))
+        if (belongs_to_series(entry.path().filename().string(), series)) frames.push_back(entry.path());
+    for (const auto& frame : frames) remove_result(frame);
+}
+
+void remove_files(const fs::path& directory, const std::vector<std::string>& names) {
+    for (const fs::path name : names) {
+        const std::string stem = name.stem().string(), extension = name.extension().string();
+        for (const std::string& present : {name.string(), name.string() + ".partial", stem + ".partial" + extension})
+            remove_result(directory / present);
+    }
+}
+
+void write_whole(const fs::path& path, const std::string& text) {
+    fs::path partial = path;
+    partial += ".partial";
+    std::ofstream file(partial, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw BadInput(cannot_be_written(partial));
+    move_file(partial, path);
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error) throw BadInput(cannot_be_written(to, error.message()));
+}
+
+std::string cannot_be_written(const fs::path& path, const std::string& reason) {
+    return fmt::format("{}: cannot be written{}{}. Check permissions and free space of its folder.", path.string(),
+                       reason.empty() ? "" : ": ", reason);
+}
+
+}  // namespace abut::run

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace abut::run {
+
+/// Makes the folder with its parents and proves by a file that it can be written to. Throws BadInput naming the
+/// folder, the reason and what to do.
+void prepare_directory(const std::filesystem::path& directory);
+
+/// Removes what ResultFiles of an earlier run may have left: summary.json, energy.csv, its picture, and the lists and frames of `series`.
+/// Everything else stays. Throws BadInput naming the file.
+void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
+
+/// Removes files of these names, and what they are called while they are written. Throws BadInput naming the file.
+void remove_files(const std::filesystem::path& directory, const std::vector<std::string>& names);
+
+/// Writes a file beside its place, then moves it there: it is never seen half-written. Throws BadInput.
+void write_whole(const std::filesystem::path& path, const std::string& text);
+
+/// Throws BadInput naming the file.
+void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// What is said wherever a file cannot be written.
+[[nodiscard]] std::string cannot_be_written(const std::filesystem::path& path, const std::string& reason = "");
+
+}  // namespace abut::run

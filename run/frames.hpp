@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "abut/mesh/io/write_vtu.hpp"
+#include "abut/run/observer.hpp"
+
+namespace abut::run {
+
+/// A run as a series for ParaView: displacement [m], velocity [m/s], stress and von Mises stress [Pa] on cells, contact
+/// pressure [Pa] and gap [m] on boundary faces (a face that nothing faces has the gap NaN). `n_frames` equally far apart,
+/// first and last step included. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
+/// throw if they cannot be written.
+template <int Dim>
+class Frames : public Observer<Dim> {
+public:
+    /// Nothing is written before the run begins; `n_frames` > 0.
+    Frames(std::filesystem::path directory, std::string series, int n_frames);
+
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
+    /// Writes a frame if one is due at this step.
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+
+private:
+    void write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+
+    std::filesystem::path directory_;
+    std::string name_;
+    std::int64_t n_frames_;
+    std::int64_t n_steps_ = 0;
+    std::optional<mesh::VtuSeries<Dim>> series_;
+};
+
+/// von Mises equivalent stress [Pa]; in 2D of plane strain, with sigma_zz = nu (sigma_xx + sigma_yy).
+template <int Dim>
+[[nodiscard]] double von_mises(const Matrix<Dim>& stress, double poisson);
+
+}  // namespace abut::run

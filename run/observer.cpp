@@ -1,0 +1,23 @@
+#include "abut/run/observer.hpp"
+
+namespace abut::run {
+
+template <int Dim>
+void Observers<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    for (Observer<Dim>& observer : observers_) observer.begin(scene, result);
+}
+
+template <int Dim>
+void Observers<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) {
+    for (Observer<Dim>& observer : observers_) observer.record(entry, result);
+}
+
+template <int Dim>
+void Observers<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    for (Observer<Dim>& observer : observers_) observer.look(run, solid);
+}
+
+template class Observers<2>;
+template class Observers<3>;
+
+}  // namespace abut::run

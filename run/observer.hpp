@@ -1,0 +1,39 @@
+#pragma once
+#include <functional>
+#include <initializer_list>
+#include <vector>
+
+#include "abut/run/scene.hpp"
+
+namespace abut::run {
+
+/// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run.
+template <int Dim>
+class Observer {
+public:
+    virtual ~Observer() = default;
+    /// All is set up, no step is taken.
+    virtual void begin(const Scene<Dim>&, const RunResult<Dim>&) {}
+    /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
+    virtual void record(const dynamics::LedgerEntry<Dim>&, const RunResult<Dim>&) {}
+    virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
+};
+
+/// Several observers as one; they are called in the order given, and must outlive it.
+///
+///     run::Observers<2> all{files, progress};
+template <int Dim>
+class Observers : public Observer<Dim> {
+public:
+    Observers(std::initializer_list<std::reference_wrapper<Observer<Dim>>> observers) : observers_(observers) {}
+    void add(Observer<Dim>& observer) { observers_.push_back(observer); }
+
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
+    void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+
+private:
+    std::vector<std::reference_wrapper<Observer<Dim>>> observers_;
+};
+
+}  // namespace abut::run

@@ -1,0 +1,79 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "abut/contact/options.hpp"
+#include "abut/run/value.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+
+namespace abut::run {
+
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// The schemes that a solid with contact runs under. docs/integrators.md says which to choose.
+enum class SolidIntegrator { memm, memm_async, leapfrog, bilbao };
+
+/// How a scene is run. Where a message of an error or a warning names an option, it does so in the words of the programs'
+/// command lines: --contact-margin is `contact_margin`.
+struct RunOptions {
+    double time = not_given;      ///< end of the run [s]; not given: as many steps as `steps`, or the scene's own time
+    int steps = 0;                ///< of the run where no time is given; 0: not given
+    double cfl = 0.9;             ///< time step over the stable step [-]
+    double dt = not_given;        ///< time step [s], instead of `cfl`
+    bool allow_unstable = false;  ///< takes `dt` even above the stable step
+    contact::ContactOptions contact;
+    solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
+    SolidIntegrator integrator = SolidIntegrator::memm;
+    int levels = 0;             ///< of memm_async, at most; 0: 8
+    int contact_margin = 1;     ///< of memm_async: levels that cells in contact are finer than they need to be alone
+    int contact_levels = 0;     ///< of memm_async: levels that cells in contact are finer than all others
+    double gauge = not_given;   ///< c of the Bilbao scheme [J]; not given: the energy at the start
+    bool filter = false;        ///< energy-neutral filter of the parasitic mode
+    int threads = 0;            ///< at most; 0: all. The results do not depend on it
+    std::filesystem::path out;  ///< folder of ResultFiles; a simulation alone writes nothing
+    int interval = 0;           ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
+    int frames = 21;            ///< of the VTU series of ResultFiles, the first and the last included; 0: none
+};
+
+/// A choice and its word on command lines and in summaries.
+template <class Choice>
+struct Word {
+    const char* word;
+    Choice choice;
+};
+inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm", SolidIntegrator::memm},
+                                                                        {"memm_async", SolidIntegrator::memm_async},
+                                                                        {"leapfrog", SolidIntegrator::leapfrog},
+                                                                        {"bilbao", SolidIntegrator::bilbao}}};
+inline constexpr std::array<Word<contact::OverlapMode>, 2> overlap_words{
+    {{"moving", contact::OverlapMode::moving}, {"frozen", contact::OverlapMode::frozen}}};
+inline constexpr std::array<Word<contact::InterfaceWeighting>, 2> weighting_words{
+    {{"half", contact::InterfaceWeighting::half}, {"stiffness", contact::InterfaceWeighting::stiffness}}};
+inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
+    {{"fast", geometry::AreaMethod::fast}, {"exact", geometry::AreaMethod::exact}}};
+inline constexpr std::array<Word<solid::FreeFaceRule>, 3> free_face_words{
+    {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
+     {"extrapolate", solid::FreeFaceRule::extrapolate},
+     {"adjacent", solid::FreeFaceRule::adjacent}}};
+inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neutral", true}}};
+inline constexpr std::array<Word<bool>, 2> event_words{{{"on", true}, {"off", false}}};
+
+/// "memm"
+[[nodiscard]] std::string name_of(SolidIntegrator integrator);
+
+/// With what depends on the dimension, and on nothing else, filled in: `interval` and the quadrature of contact.
+template <int Dim>
+[[nodiscard]] RunOptions with_defaults(RunOptions options);
+
+/// Throws BadInput if options do not go together: a filter, levels or a gauge for a scheme that has none.
+void check(const RunOptions& options);
+
+/// The options by name, as given: either "dt" or "cfl", whichever decided. Of the end of the run, skin and threads only the
+/// run knows what they were.
+[[nodiscard]] NamedValues named_values(const RunOptions& options);
+/// Of these, what bodies at rest depend on, too: "weights", "area", "neumann".
+[[nodiscard]] NamedValues model_values(const RunOptions& options);
+
+}  // namespace abut::run

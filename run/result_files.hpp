@@ -1,0 +1,52 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "abut/run/energy_file.hpp"
+#include "abut/run/frames.hpp"
+#include "abut/run/observer.hpp"
+
+namespace abut::run {
+
+/// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png
+/// and summary.json.
+///
+///     run::RunOptions options{.out = "out/mine"};
+///     run::ResultFiles<2> files(options, "mine", "bodies");
+///     run::RunResult<2> result = run::simulate<2>(scene, options, files);
+///     files.finish(scene, result);
+template <int Dim>
+class ResultFiles : public Observer<Dim> {
+public:
+    /// Makes the folder, and removes results of an earlier run there before anything else can be refused. `program` is what
+    /// picture and summary call the run; `series` names the files for ParaView. Throws BadInput if the folder cannot be
+    /// written to.
+    ResultFiles(const RunOptions& options, std::string program, std::string series);
+
+    void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
+    void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    /// After the run. Adds the time of all output to `result.seconds`, that of the picture also to the total. Throws BadInput
+    /// if a file cannot be written; a picture that cannot be drawn is no error.
+    void finish(const Scene<Dim>& scene, RunResult<Dim>& result);
+
+    /// Whether energy.csv.partial holds records of a run: what is left of one that fails.
+    [[nodiscard]] bool has_begun() const { return has_begun_; }
+    /// Why there is no energy.png, after `finish`; empty if there is.
+    [[nodiscard]] const std::string& without_picture() const { return without_picture_; }
+    /// "Files" and a line for each kind of them, as closing_table: to follow it.
+    [[nodiscard]] std::string table() const;
+
+private:
+    std::filesystem::path out_;
+    std::string program_;
+    std::string name_;  // of the series
+    EnergyFile<Dim> energies_;
+    std::optional<Frames<Dim>> frames_;
+    bool has_begun_ = false;
+    double seconds_ = 0.0;
+    std::string without_picture_;
+};
+
+}  // namespace abut::run

@@ -1,0 +1,78 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/stable_step.hpp"
+#include "abut/mesh/mesh.hpp"
+#include "abut/run/options.hpp"
+#include "abut/run/value.hpp"
+#include "abut/solid/body_motion.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::run {
+
+/// What the energies of a run are measured with.
+struct EnergyScale {
+    std::string name = "K0";  ///< a letter and its index
+    double value = 0.0;       ///< [J]; 0: the kinetic energy at the start
+};
+
+template <int Dim>
+struct RunResult;
+
+/// What is run: bodies, what they are made of, what acts on them, and how they move at the start.
+template <int Dim>
+struct Scene {
+    mesh::Mesh<Dim> mesh{};
+    solid::SolidOptions<Dim> solid{};     ///< all but the choices of RunOptions: contact and the rule of free faces
+    std::vector<Vector<Dim>> velocity{};  ///< at the start, one per body [m/s]
+    std::function<Vector<Dim>(const Vector<Dim>& position)> displacement{};  ///< at the start [m]; empty: none
+    bool contact = true;                  ///< false: bodies pass through each other, at no cost
+    double time = 0.0;                    ///< end of the run where no option says it [s]
+    EnergyScale energy_scale{};           ///< to be given where all is at rest at the start
+    std::string remedy_if_overlapping{};  ///< ends the message if bodies overlap at the start
+    NamedValues options{};                ///< the scene's own, as they were used; for the summary
+    std::function<void(const solid::Solid<Dim>&, double dt)> after_step{};  ///< looks on; may be empty
+    std::function<std::vector<Finding>(const RunResult<Dim>&)> findings{};  ///< at the end; may be empty
+};
+
+/// Where the time of a run went [s].
+struct RunSeconds {
+    double total = 0.0;
+    double mesh = 0.0;   ///< making or reading it; known only to whoever did
+    double setup = 0.0;  ///< check for overlapping bodies, operators, stable step
+    double ledger = 0.0;
+    double output = 0.0;  ///< of ResultFiles
+};
+
+/// A finished run, or one that is under way.
+template <int Dim>
+struct RunResult {
+    RunOptions options;  ///< with the defaults filled in
+    dynamics::Ledger<Dim> ledger;
+    dynamics::StableStep stable;
+    double dt = 0.0;                        ///< [s]
+    double finest_dt = 0.0;                 ///< of the finest cells; dt itself except with memm_async [s]
+    std::vector<std::int64_t> level_cells;  ///< cells that step with dt, dt/2, ... (memm_async); empty: all with dt
+    std::int64_t evaluations = 0;           ///< forces of cells, in the steps
+    std::int64_t steps = 0;
+    EnergyScale scale;  ///< with its value, > 0
+    double skin = 0.0;  ///< of the last candidate list [m]
+    int threads = 0;    ///< allowed
+    contact::ContactReport contact;
+    std::int64_t inadmissible_overlaps_max = 0;  ///< most pairs at a record that face each other inside and are no contacts
+    std::vector<Vector<Dim>> blind_corners;      ///< too sharp for contact to see them [m]
+    std::int64_t contact_faces_left_out = 0;     ///< their displacement is prescribed
+    solid::StencilReport stencils;               ///< of the faces between cells
+    solid::StencilReport boundary_stencils;      ///< of the boundary faces that local equilibrium leaves undetermined
+    std::vector<solid::BodyMotion<Dim>> start;
+    std::vector<solid::BodyMotion<Dim>> end;
+    solid::SolidTimes times;  ///< of the steps
+    RunSeconds seconds;
+    std::vector<Finding> findings;  ///< of the scene
+};
+
+}  // namespace abut::run

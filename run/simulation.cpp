@@ -1,0 +1,266 @@
+#include "abut/run/simulation.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/base/throw_again.hpp"
+#include "abut/dynamics/bilbao.hpp"
+#include "abut/dynamics/filter.hpp"
+#include "abut/dynamics/leapfrog.hpp"
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/memm_async.hpp"
+#include "abut/mesh/interpenetration.hpp"
+#include "abut/solid/local_steps.hpp"
+
+namespace abut::run {
+namespace {
+
+using oneapi::tbb::global_control;
+
+/// H beyond this many times its first value: the solution is lost, whatever H~ says.
+constexpr double divergence_factor = 1e3;
+constexpr int default_levels = 8;
+/// More than any run takes; all of them are counted exactly in doubles and integers.
+constexpr double most_steps = 1e15;
+
+template <int Dim>
+solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
+    solid::SolidOptions<Dim> solid = scene.solid;
+    solid.boundary.free_face_rule = options.neumann;
+    if (scene.contact) solid.contact = options.contact;
+    return solid;
+}
+
+double choose_step(const RunOptions& options, const dynamics::StableStep& stable) {
+    if (std::isnan(options.dt)) return options.cfl * stable.dt;
+    if (options.dt > stable.dt && !options.allow_unstable)
+        throw BadInput(fmt::format("--dt: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl; "
+                                   "--allow-unstable takes it all the same.",
+                                   options.dt, stable.dt),
+                       {.value = options.dt, .allowed = stable.dt});
+    return options.dt;
+}
+
+std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
+    if (std::isnan(options.time) && options.steps > 0) return options.steps;
+    const double time = std::isnan(options.time) ? time_of_scene : options.time;
+    const double steps = std::ceil(time / dt);
+    if (!(steps >= 1.0 && steps <= most_steps))
+        throw BadInput(
+            fmt::format(
+                "--time, --dt: {:g} s in steps of {:g} s are {:g} steps, 1 to {:g} are allowed. Give another end of the "
+                "run with --time or --steps, or another step with --dt or --cfl.",
+                time, dt, steps, most_steps),
+            {.value = steps, .allowed = most_steps});
+    return static_cast<std::int64_t>(steps);
+}
+
+solid::SolidTimes difference(const solid::SolidTimes& a, const solid::SolidTimes& b) {
+    return {a.bulk - b.bulk, a.contact - b.contact, a.search - b.search};
+}
+
+EnergyScale known_scale(EnergyScale scale, double kinetic) {
+    if (scale.value == 0.0) scale.value = kinetic;
+    if (!(scale.value > 0.0))
+        throw BadInput(fmt::format(
+            "the kinetic energy at the start is {} J, above 0 J is needed to measure energies with. Raise the speed "
+            "at the start; a scene that starts at rest gives Scene::energy_scale.",
+            scale.value));
+    return scale;
+}
+
+/// What a run begins from, whatever its integrator.
+template <int Dim>
+struct Start {
+    Start(const Scene<Dim>& scene, const RunOptions& options) : solid(scene.mesh, solid_options(scene, options)) {
+        result.stable = dynamics::stable_step(solid);
+        result.finest_dt = result.dt = choose_step(options, result.stable);
+        if (options.integrator == SolidIntegrator::memm_async) set_local_steps(options);
+        result.steps = choose_steps(options, scene.time, result.dt);
+        result.stencils = solid.ccg().stencil_report();
+        result.boundary_stencils = solid.ccg().boundary().report;
+        result.contact_faces_left_out = solid.contact_faces_left_out();
+        result.blind_corners = solid.blind_corners();
+        q.assign(solid.size(), 0.0);
+        if (scene.displacement) {
+            const auto u = as_vectors<Dim>(std::span<double>(q));
+            for (std::size_t c = 0; c < u.size(); ++c) u[c] = scene.displacement(scene.mesh.cell_centroid[c]);
+        }
+        momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
+    }
+
+    solid::Solid<Dim> solid;
+    RunResult<Dim> result;
+    std::vector<double> q;
+    std::vector<double> momentum;
+    dynamics::LocalSteps local_steps;  // of memm_async
+
+private:
+    void set_local_steps(const RunOptions& options) {
+        auto local = solid::local_steps(solid, result.stable,
+                                        {.most_levels = options.levels == 0 ? default_levels : options.levels,
+                                         .contact_margin = options.contact_margin,
+                                         .contact_levels = options.contact_levels});
+        local_steps = std::move(local.steps);
+        result.level_cells = std::move(local.cells);
+        result.dt *= local.dt / result.stable.dt;
+        result.finest_dt = result.dt / local_steps.parts.back();
+    }
+};
+
+/// c of the Bilbao scheme [J].
+template <int Dim>
+double gauge(const Scene<Dim>& scene, const RunOptions& options, const Start<Dim>& start) {
+    if (!std::isnan(options.gauge)) return options.gauge;
+    if (scene.energy_scale.value > 0.0) return 2.0 * scene.energy_scale.value;  // V may sink by that scale
+    return 0.5 * dynamics::mass_product(start.momentum, start.solid.inverse_mass(), start.momentum);
+}
+
+/// One run, from the first step to the last.
+template <int Dim, class Integrator>
+class Simulation {
+public:
+    Simulation(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& start, Observer<Dim>& observer,
+               Integrator integrator)
+        : scene_(scene),
+          options_(options),
+          observer_(observer),
+          solid_(start.solid),
+          result_(start.result),
+          filter_(solid_),
+          integrator_(std::move(integrator)),
+          times_of_setup_(solid_.times()) {
+        if constexpr (Integrator::takes_after_step)
+            if (options.filter)
+                integrator_.set_after_step(
+                    [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+    }
+
+    void run() {
+        result_.start = solid::body_motions<Dim>(integrator_, solid_);
+        record();
+        observer_.look(integrator_, solid_);
+        while (integrator_.steps() < result_.steps) {
+            step();
+            if (integrator_.steps() % options_.interval == 0 || integrator_.steps() == result_.steps) record();
+            observer_.look(integrator_, solid_);
+        }
+        result_.end = solid::body_motions<Dim>(integrator_, solid_);
+        result_.contact = solid_.contact_report();
+        if (solid_.contact()) result_.skin = solid_.contact()->skin();
+        result_.evaluations = solid_.evaluations();
+        result_.times = difference(solid_.times(), times_of_setup_);
+        if (scene_.findings) result_.findings = scene_.findings(result_);
+    }
+
+private:
+    void step() {
+        try {
+            integrator_.step();
+        } catch (const Error& error) {
+            throw_again(error, at_this_step(error.what()));
+        } catch (const std::exception& error) {
+            throw std::runtime_error(at_this_step(error.what()));
+        }
+        if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+    }
+
+    [[nodiscard]] std::string at_this_step(const char* what) const {
+        return fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {}", integrator_.steps() + 1,
+                           integrator_.time(), result_.dt, result_.stable.dt, what);
+    }
+
+    void record() {
+        {
+            const Stopwatch watch(result_.seconds.ledger);
+            result_.ledger.record(dynamics::measure(integrator_, solid_));
+            result_.contact = solid_.contact_report();
+            result_.inadmissible_overlaps_max = std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+        }
+        const auto& entries = result_.ledger.entries();
+        if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
+        observer_.record(entries.back(), result_);
+        check_alive(entries.back(), std::max(entries.front().energy, result_.scale.value));
+    }
+
+    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) const {
+        if (std::isfinite(entry.pseudo_energy) && entry.energy <= divergence_factor * scale) return;
+        throw Diverged(fmt::format("step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J and H~ {:.3g} J; {:g} times "
+                                   "{:.3g} J is allowed. Steps are {:.4g} s long, stable are {:.4g} s: lower --cfl or --dt.",
+                                   entry.step, entry.time, entry.energy, entry.pseudo_energy, divergence_factor, scale,
+                                   result_.dt, result_.stable.dt),
+                       {.value = entry.energy, .allowed = divergence_factor * scale});
+    }
+
+    const Scene<Dim>& scene_;
+    const RunOptions& options_;
+    Observer<Dim>& observer_;
+    solid::Solid<Dim>& solid_;
+    RunResult<Dim>& result_;
+    dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
+    Integrator integrator_;
+    solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
+};
+
+/// The one place that knows all schemes.
+template <int Dim>
+void simulate(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& start, Observer<Dim>& observer) {
+    using Solid = solid::Solid<Dim>;
+    const auto run_with = [&](auto integrator) {
+        Simulation<Dim, decltype(integrator)>(scene, options, start, observer, std::move(integrator)).run();
+    };
+    const double dt = start.result.dt;
+    switch (options.integrator) {
+        case SolidIntegrator::memm:
+            return run_with(dynamics::Memm<Solid>(start.solid, start.q, start.momentum, dt));
+        case SolidIntegrator::memm_async:
+            return run_with(dynamics::MemmAsync<Solid>(start.solid, start.q, start.momentum, dt, start.local_steps));
+        case SolidIntegrator::leapfrog:
+            return run_with(dynamics::Leapfrog<Solid>(start.solid, start.q, start.momentum, dt));
+        case SolidIntegrator::bilbao:
+            return run_with(dynamics::Bilbao<Solid>(start.solid, start.q, start.momentum, dt, gauge(scene, options, start)));
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer) {
+    check(given);
+    const RunOptions options = with_defaults<Dim>(given);
+    std::optional<global_control> threads;
+    if (options.threads > 0)
+        threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    RunSeconds seconds;
+    std::optional<Start<Dim>> start;
+    {
+        const Stopwatch whole(seconds.total);
+        {
+            const Stopwatch watch(seconds.setup);
+            mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase);
+            start.emplace(scene, options);
+        }
+        RunResult<Dim>& result = start->result;
+        result.options = options;
+        result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
+        result.seconds.setup = seconds.setup;
+        observer.begin(scene, result);
+        simulate(scene, options, *start, observer);
+    }
+    start->result.seconds.total = seconds.total;
+    return std::move(start->result);
+}
+
+template RunResult<2> simulate<2>(const Scene<2>&, const RunOptions&, Observer<2>&);
+template RunResult<3> simulate<3>(const Scene<3>&, const RunOptions&, Observer<3>&);
+
+}  // namespace abut::run

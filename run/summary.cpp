@@ -1,0 +1,221 @@
+#include "abut/run/summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "abut/run/json.hpp"
+#include "abut/run/table_line.hpp"
+
+namespace abut::run {
+namespace {
+
+template <int Dim>
+std::vector<double> numbers(const Vector<Dim>& vector) {
+    return {vector.begin(), vector.end()};
+}
+
+/// Time in contact, search included, over the time of the bulk [-].
+template <int Dim>
+double contact_share(const RunResult<Dim>& result) {
+    return (result.times.contact + result.times.search) / result.times.bulk;
+}
+
+template <int Dim>
+Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json bodies = Json::array();
+    for (std::size_t body = 0; body < result.start.size(); ++body)
+        bodies.push_back({{"name", scene.mesh.body_names[body]},
+                          {"mass", result.start[body].mass},
+                          {"velocity_initial", numbers<Dim>(result.start[body].velocity)},
+                          {"velocity_final", numbers<Dim>(result.end[body].velocity)}});
+    return bodies;
+}
+
+template <int Dim>
+Json seconds_json(const RunResult<Dim>& result) {
+    const auto& seconds = result.seconds;
+    return {{"total", seconds.total},          {"mesh", seconds.mesh},
+            {"setup", seconds.setup},          {"bulk", result.times.bulk},
+            {"contact", result.times.contact}, {"search", result.times.search},
+            {"ledger", seconds.ledger},        {"output", seconds.output}};
+}
+
+template <int Dim>
+Json options_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const RunOptions& options = result.options;
+    Json all = to_json(scene.options);
+    if (std::isnan(options.time) && options.steps > 0)
+        all["steps"] = options.steps;
+    else
+        all["time"] = std::isnan(options.time) ? scene.time : options.time;
+    all.update(to_json(named_values(options)));
+    all["skin"] = result.skin;
+    all["threads"] = result.threads;
+    return all;
+}
+
+template <int Dim>
+Json run_json(const RunResult<Dim>& result) {
+    const auto& last = result.ledger.entries().back();
+    return {{"steps", result.steps},
+            {"dt", result.dt},
+            {"stable_dt", result.stable.dt},
+            {"dt_over_stable_dt", result.dt / result.stable.dt},
+            {"finest_dt", result.finest_dt},
+            {"level_cells", result.level_cells},
+            {"force_evaluations", result.evaluations},
+            {"time", last.time}};
+}
+
+template <int Dim>
+Json energies_json(const RunResult<Dim>& result) {
+    const auto& ledger = result.ledger;
+    return {{"kinetic_initial", ledger.entries().front().kinetic},
+            {"energy_scale", {{"name", result.scale.name}, {"value", result.scale.value}}},
+            {"pseudo_energy_drift", ledger.pseudo_energy_drift()},
+            {"energy_drift", ledger.energy_drift()},
+            {"energy_excess_max", ledger.energy_excess()},
+            {"parasitic_max", ledger.parasitic()},
+            {"momentum_drift_max", ledger.momentum_drift()},
+            {"angular_momentum_drift_max", ledger.angular_momentum_drift()}};
+}
+
+Json mesh_json(const mesh::BuildReport& report) {
+    return {{"unused_vertices", report.n_unused_vertices},
+            {"ignored_elements", report.n_ignored_elements},
+            {"coincident_vertices", report.n_coincident_vertices},
+            {"non_planar_faces", report.n_non_planar_faces},
+            {"cut_cells", report.n_cut_cells},
+            {"worst_planarity", report.worst_planarity},
+            {"warnings", report.warnings}};
+}
+
+template <int Dim>
+Json counts_json(const RunResult<Dim>& result) {
+    const auto& contact = result.contact;
+    return {{"events", contact.events},
+            {"active_pairs_max", contact.active_pairs_max},
+            {"active_pairs_final", result.ledger.entries().back().active_pairs},
+            {"lost_contacts", contact.missed_contacts},
+            {"not_admitted_max", result.inadmissible_overlaps_max},
+            {"candidates", contact.candidates_max},
+            {"rebuilds", contact.rebuilds},
+            {"contact_faces_left_out", result.contact_faces_left_out},
+            {"blind_corners", result.blind_corners.size()},
+            {"compression_max", contact.compression_max},
+            {"sliding_ratio_max", contact.sliding_ratio_max},
+            {"slipped_pairs", contact.slipped_pairs},
+            {"slipped_compression_max", contact.slipped_compression_max},
+            {"compressed_steps", contact.compressed_steps},
+            {"stencil_faces", result.stencils.faces},
+            {"stencil_extrapolations", result.stencils.extrapolated},
+            {"stencil_worst_weight", result.stencils.worst_weight},
+            {"stencil_lowered_floor", result.stencils.lowered_floor},
+            {"boundary_stencil_extrapolations", result.boundary_stencils.extrapolated},
+            {"boundary_stencil_worst_weight", result.boundary_stencils.worst_weight}};
+}
+
+template <int Dim>
+std::string velocity_text(const Vector<Dim>& velocity) {
+    std::vector<std::string> parts;
+    for (const double v : velocity) parts.push_back(fmt::format("{:+.6f}", v));
+    return fmt::format("({})", fmt::join(parts, ", "));
+}
+
+std::string value_text(const Value& value) {
+    const double* number = std::get_if<double>(&value);
+    return number ? fmt::format("{:.6g}", *number) : to_json(value).dump();
+}
+
+template <int Dim>
+std::string energy_lines(const RunResult<Dim>& result) {
+    const auto& [name, scale] = result.scale;
+    const dynamics::Ledger<Dim>& ledger = result.ledger;
+    std::string text =
+        table_line("kinetic energy at the start, K0", fmt::format("{:.6g} J", ledger.entries().front().kinetic));
+    if (name != "K0") text += table_line(fmt::format("scale of energies, {}", name), fmt::format("{:.6g} J", scale));
+    return text +
+           table_line(fmt::format("drift of pseudo-energy, / {}", name),
+                      fmt::format("{:.2e}", ledger.pseudo_energy_drift() / scale)) +
+           table_line(fmt::format("true energy, max |H - H0|, / {}", name),
+                      fmt::format("{:.2e}", ledger.energy_drift() / scale)) +
+           table_line(fmt::format("energy excess H - H~, / {}", name),
+                      fmt::format("{:.2e}", ledger.energy_excess() / scale)) +
+           table_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", ledger.parasitic())) +
+           table_line("drift of linear momentum", fmt::format("{:.2e} kg m/s", ledger.momentum_drift())) +
+           table_line("drift of angular momentum", fmt::format("{:.2e} kg m^2/s", ledger.angular_momentum_drift()));
+}
+
+template <int Dim>
+std::string contact_lines(const RunResult<Dim>& result) {
+    const auto& contact = result.contact;
+    return table_line("contact events", fmt::format("{}", contact.events)) +
+           table_line("active pairs, at most", fmt::format("{} ({} at the end)", contact.active_pairs_max,
+                                                           result.ledger.entries().back().active_pairs)) +
+           table_line("contacts lost", fmt::format("{}", contact.missed_contacts)) +
+           table_line("compression of the skin, max |g|/D", fmt::format("{:.3g}", contact.compression_max));
+}
+
+template <int Dim>
+std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::string text;
+    for (std::size_t body = 0; body < result.end.size(); ++body)
+        text += table_line(fmt::format("velocity of '{}'", scene.mesh.body_names[body]),
+                           fmt::format("{} -> {} m/s", velocity_text<Dim>(result.start[body].velocity),
+                                       velocity_text<Dim>(result.end[body].velocity)));
+    return text;
+}
+
+template <int Dim>
+std::string time_line(const RunResult<Dim>& result) {
+    const auto& [total, mesh, setup, ledger, output] = result.seconds;
+    const auto& times = result.times;
+    return table_line("time of the run",
+                      fmt::format("{:.1f} s: mesh {:.1f}, setup {:.1f}, bulk {:.1f}, contact {:.2f}, search {:.2f}, "
+                                  "ledger {:.1f}, output {:.1f}",
+                                  total, mesh, setup, times.bulk, times.contact, times.search, ledger, output));
+}
+
+}  // namespace
+
+template <int Dim>
+std::string summary_json(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json json = {{"program", program},
+                 {"version", ABUT_VERSION},
+                 {"dim", Dim},
+                 {"cells", scene.mesh.n_cells()},
+                 {"boundary_faces", scene.mesh.boundary_faces.size()}};
+    json.update(run_json(result));
+    json.update(energies_json(result));
+    json.update(counts_json(result));
+    for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
+    json.update({{"mesh", mesh_json(scene.mesh.report)},
+                 {"bodies", bodies_json(scene, result)},
+                 {"seconds", seconds_json(result)},
+                 {"contact_share", contact_share(result)},
+                 {"options", options_json(scene, result)}});
+    return json.dump(2) + "\n";
+}
+
+template <int Dim>
+std::string closing_table(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::string text = fmt::format("{}: {} cells, {} steps of {:.4g} s, {}{:.3g} of the stable step\n", program,
+                                   scene.mesh.n_cells(), result.steps, result.dt,
+                                   result.level_cells.empty() ? "" : "the finest ", result.finest_dt / result.stable.dt);
+    if (!result.level_cells.empty())
+        text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
+    text += energy_lines(result) + contact_lines(result);
+    for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
+    return text + body_lines(scene, result) + time_line(result);
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                             \
+    template std::string summary_json<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&); \
+    template std::string closing_table<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "abut/run/scene.hpp"
+
+namespace abut::run {
+
+/// The text of summary.json: units are SI, drifts absolute and the largest of all records, "options" what was used. `program`
+/// is what it calls the run.
+template <int Dim>
+[[nodiscard]] std::string summary_json(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result);
+
+/// The table that closes a run, for people: energies over their scale, contact, what the scene has found, velocities of the
+/// bodies, times. Each line ends with a line feed.
+template <int Dim>
+[[nodiscard]] std::string closing_table(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result);
+
+}  // namespace abut::run

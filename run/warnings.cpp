@@ -1,0 +1,125 @@
+#include "abut/run/warnings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <limits>
+#include <utility>
+
+namespace abut::run {
+namespace {
+
+/// Gathers warnings of counts that should be 0.
+class Counts {
+public:
+    template <class Count>
+    void add(WarningKind kind, Severity severity, Count count, std::string text) {
+        if (count > 0) warnings.push_back({kind, severity, std::move(text), static_cast<double>(count), 0.0});
+    }
+    std::vector<Warning> warnings;
+};
+
+void add_mesh(Counts& counts, const mesh::BuildReport& report) {
+    for (const std::string& warning : report.warnings)
+        counts.warnings.push_back({WarningKind::mesh_file, Severity::warning, fmt::format("Gmsh: {}", warning),
+                                   std::numeric_limits<double>::quiet_NaN(), 0.0});
+    counts.add(WarningKind::unused_vertices, Severity::note, report.n_unused_vertices,
+               fmt::format("{} vertices belong to no cell and are left out", report.n_unused_vertices));
+    counts.add(
+        WarningKind::ignored_elements, Severity::note, report.n_ignored_elements,
+        fmt::format("{} elements are neither cells nor faces of a named group and are left out", report.n_ignored_elements));
+    counts.add(WarningKind::cut_cells, Severity::note, report.n_cut_cells,
+               fmt::format("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
+                           report.n_non_planar_faces));
+    counts.add(WarningKind::coincident_vertices, Severity::warning, report.n_coincident_vertices,
+               fmt::format("{} vertices lie on a vertex of another body: meshes that match are a special case of contact",
+                           report.n_coincident_vertices));
+}
+
+template <int Dim>
+void add_corners(Counts& counts, const std::vector<Vector<Dim>>& corners) {
+    if (corners.empty()) return;
+    counts.add(
+        WarningKind::blind_corners, Severity::warning, corners.size(),
+        fmt::format("{} corners, one of them at ({:g}), are so sharp that contact does not see them meet a flat face: "
+                    "bodies pass through each other there. Blunt them, or take a --facing-cosine nearer to 0.",
+                    corners.size(), fmt::join(corners.front(), ", ")));
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Counts counts;
+    add_mesh(counts, scene.mesh.report);
+    const auto& stencils = result.stencils;
+    counts.add(WarningKind::extrapolated_faces, Severity::warning, stencils.extrapolated,
+               fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "
+                           "shorter",
+                           stencils.extrapolated, stencils.faces, stencils.worst_weight));
+    counts.add(
+        WarningKind::faces_out_of_contact, Severity::note, result.contact_faces_left_out,
+        fmt::format("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out));
+    add_corners<Dim>(counts, result.blind_corners);
+    return std::move(counts.warnings);
+}
+
+template <int Dim>
+std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact;
+    const contact::ContactOptions& options = result.options.contact;
+    if (contact.compressed_steps == 0) return {};
+    return {{WarningKind::compression, Severity::warning,
+             fmt::format("by step {} faces are pressed {:.2g} of D, the depth of their cells, into each other, more than "
+                         "{:g}; above {:g} the run stops. A lower speed or load makes it less",
+                         step, contact.compression_max, options.compression_warning, options.compression_limit),
+             contact.compression_max, options.compression_warning}};
+}
+
+template <int Dim>
+std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact;
+    Counts counts;
+    const auto add = [&](WarningKind kind, double value, double threshold, std::string text) {
+        counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
+    };
+    if (contact.compressed_steps > 0)
+        add(WarningKind::compression, contact.compression_max, result.options.contact.compression_warning,
+            fmt::format("strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their cells",
+                        contact.compressed_steps, static_cast<double>(result.steps) * result.dt / result.finest_dt,
+                        contact.compression_max));
+    if (contact.sliding_ratio_max > stiff_sliding_ratio)
+        add(WarningKind::stiff_sliding, contact.sliding_ratio_max, stiff_sliding_ratio,
+            fmt::format("faces are pressed into each other deeper than they are wide ({:.2g} of the width where they slide "
+                        "off each other, {:g} is safe): contact is stiffer than the stable step allows for. Look at H - H~ "
+                        "and |e|/m; a lower --cfl, --filter neutral, or faces as wide as their cells are deep make it "
+                        "better",
+                        contact.sliding_ratio_max, stiff_sliding_ratio));
+    if (contact.slipped_compression_max > deep_slip_compression)
+        add(WarningKind::deep_slip, contact.slipped_compression_max, deep_slip_compression,
+            fmt::format("{} pairs of faces slid off each other while pressed in, by up to {:.2g} of D, the depth of their "
+                        "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
+                        "speed prevents it, and so does --overlap frozen, under which H~ drifts",
+                        contact.slipped_pairs, contact.slipped_compression_max));
+    counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
+               fmt::format("{} contacts were lost, 0 are allowed: the energy is not exact", contact.missed_contacts));
+    counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,
+               fmt::format("up to {} pairs of faces overlap without being contacts: far sides of bodies",
+                           result.inadmissible_overlaps_max));
+    return std::move(counts.warnings);
+}
+
+std::vector<Warning> without_notes(std::vector<Warning> warnings) {
+    std::erase_if(warnings, [](const Warning& warning) { return warning.severity == Severity::note; });
+    return warnings;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                     \
+    template std::vector<Warning> warnings_before<Dim>(const Scene<Dim>&, const RunResult<Dim>&); \
+    template std::vector<Warning> warnings_during<Dim>(std::int64_t, const RunResult<Dim>&);      \
+    template std::vector<Warning> warnings_after<Dim>(const RunResult<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

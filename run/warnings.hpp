@@ -1,0 +1,62 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "abut/run/scene.hpp"
+
+namespace abut::run {
+
+/// Ratio of the forces of sliding and pressing above which contacts were seen to be stiffer than the stable step allows for
+/// [-]. docs/limits.md, docs/validation.md.
+inline constexpr double stiff_sliding_ratio = 1.0;
+/// |g|/D above which faces that slide off each other are worth a word [-]: two coarse discs part with up to 0.2.
+/// docs/limits.md.
+inline constexpr double deep_slip_compression = 0.3;
+
+enum class Severity {
+    note,     ///< as it should be, and good to know
+    warning,  ///< may spoil the result
+};
+
+/// What a warning is about, with what its `value` counts; what is counted has the threshold 0.
+enum class WarningKind {
+    mesh_file,              ///< Gmsh warned while it read a file; no value
+    unused_vertices,        ///< note: vertices that belong to no cell
+    ignored_elements,       ///< note: elements of a file that are neither cells nor named faces
+    cut_cells,              ///< note: cells that were cut because of faces that are not planar
+    coincident_vertices,    ///< vertices at the place of one of another body
+    extrapolated_faces,     ///< faces that extrapolate from the cells around them: the stable step is shorter
+    faces_out_of_contact,   ///< note: faces with a prescribed displacement
+    blind_corners,          ///< corners too sharp for contact to see
+    compression,            ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
+    stiff_sliding,          ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
+    deep_slip,              ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
+    missed_contacts,        ///< contacts that were lost: the energy is not exact
+    inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
+};
+
+/// Something that the user of a run ought to know and that is no error.
+struct Warning {
+    WarningKind kind;
+    Severity severity;
+    std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
+    double value;      ///< see WarningKind; NaN: none
+    double threshold;  ///< above which `value` is worth a word
+};
+
+/// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.
+template <int Dim>
+[[nodiscard]] std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result);
+
+/// Known while a run goes on, at a step: that faces are strongly compressed; nothing if they are not. For Observer::record.
+template <int Dim>
+[[nodiscard]] std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result);
+
+/// What happened in contact, and mostly does not show in H~: of a finished run.
+template <int Dim>
+[[nodiscard]] std::vector<Warning> warnings_after(const RunResult<Dim>& result);
+
+/// Those that may spoil the result.
+[[nodiscard]] std::vector<Warning> without_notes(std::vector<Warning> warnings);
+
+}  // namespace abut::run

@@ -1,0 +1,318 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "programs/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace abut::test::programs;
+
+/// Arguments that must be refused, and what the message must name: place, value, limit, remedy.
+struct BadInput {
+    std::string arguments;
+    std::vector<std::string> words;
+};
+
+const std::vector<BadInput> bad_options = {
+    {"--broad-phase bvh", {"--broad-phase", "bvh", "embree", "fcl", "brute_force", "--help"}},
+    {"--overlap sliding", {"--overlap", "sliding", "moving", "frozen"}},
+    {"--neumann free", {"--neumann", "free", "local_equilibrium"}},
+    {"--events maybe", {"--events", "maybe", "on", "off"}},
+    {"--quadrature 4", {"--quadrature", "4", "1, 2, 3"}},
+    {"--dim 4", {"--dim", "4", "2, 3"}},
+    {"--colour red", {"--colour", "--help"}},
+    {"--density nan", {"--density", "nan", "above 0 kg/m^3"}},
+    {"--density -1", {"--density", "-1 kg/m^3", "above 0 kg/m^3"}},
+    {"--density 1,-2", {"--density", "-2 kg/m^3", "above 0 kg/m^3"}},
+    {"--density 1,2,3", {"--density", "1,2,3", "two"}},
+    {"--density heavy", {"--density", "heavy", "above 0 kg/m^3"}},
+    {"--poisson 0.5", {"--poisson", "0.5", "below 0.5", "take 0.49"}},
+    {"--poisson -1", {"--poisson", "-1", "above -1"}},
+    {"--poisson inf", {"--poisson", "inf", "finite"}},
+    {"--young 0", {"--young", "0 Pa", "above 0 Pa"}},
+    {"--young -5,1", {"--young", "-5 Pa", "above 0 Pa"}},
+    {"--eta -1", {"--eta", "-1 Pa", "not below 0 Pa"}},
+    {"--radius 0", {"--radius", "0 m", "above 0 m"}},
+    {"--speed -0.1", {"--speed", "-0.1 m/s", "not below 0 m/s"}},
+    {"--speed 0", {"--speed", "0 m/s", "never meet"}},
+    {"--time -1", {"--time", "-1 s", "above 0 s"}},
+    {"--steps -1", {"--steps", "-1", "at least 0"}},
+    {"--steps 10 --time 1", {"--steps", "excludes", "--time"}},
+    {"--interval -1", {"--interval", "-1", "at least 0"}},
+    {"--threads many", {"--threads", "many", "whole number"}},
+    {"--compression-limit 0", {"--compression-limit", "0", "above 0"}},
+    {"--cfl 1.5", {"--cfl", "1.5", "not above 1", "--allow-unstable"}},
+    {"--cfl 0", {"--cfl", "0", "above 0"}},
+    {"--dt 1", {"--dt", "1 s", "stable step of 0.0", "--allow-unstable"}},
+    {"--dt 0.01 --cfl 0.5", {"--dt", "excludes", "--cfl"}},
+    {"--allow-unstable", {"--allow-unstable", "--dt"}},
+    {"--integrator rk4", {"--integrator", "rk4", "memm, memm_async, leapfrog, bilbao"}},
+    {"--integrator leapfrog --filter neutral", {"--filter", "leapfrog", "--filter none"}},
+    {"--gauge 1", {"--gauge", "memm has no gauge", "--integrator bilbao"}},
+    {"--gauge 0 --integrator bilbao", {"--gauge", "0 J", "above 0 J"}},
+    {"--levels 3", {"--levels", "memm takes one step", "--integrator memm_async"}},
+    {"--levels 99 --integrator memm_async", {"99 levels", "1 to 20"}},
+    {"--refine 0.5", {"--refine", "0.5", "1, for cells of one size, or more"}},
+    {"--size 2", {"--size", "2 m", "1 m", "tenth"}},
+    {"--offset 2.5", {"--offset", "2.5 m", "2 m", "Lower"}},
+    {"--gap -0.1",
+     {"'left'", "'right'", "overlap", "cells", "m inside each other", "0 m is allowed", "Raise --gap", "-0.1 m"}},
+    {"--dim 3 --size 0.3 --gap -0.2", {"'left'", "'right'", "overlap", "Raise --gap"}},
+    {"--gap -4.02", {"'left'", "'right'", "overlap", "Raise --gap"}},
+    {"--time 1e300", {"--time", "1e+300 s", "steps", "1 to 1e+15 are allowed", "--dt"}},
+    {"--dt 1e-300", {"--time", "steps of 1e-300 s", "1 to 1e+15 are allowed", "--dt"}},
+    {"--speed 1e-200 --time 1", {"kinetic energy", "0 J", "Raise the speed"}},
+    {"--steps 1e3", {"--steps", "1e3", "whole number"}},
+    {"--non-planar split", {"--non-planar", "--mesh"}},
+    {"--mesh left.msh", {"--mesh", "2"}},
+    {"--mesh left.msh,right.msh", {"--mesh", "--time", "above 0 s", "--steps"}},
+    {"--mesh left.msh,right.msh --radius 2", {"--mesh", "--radius"}},
+    {"--mesh nowhere.msh,right.msh --time 1", {"nowhere.msh", "no such file", "path"}},
+};
+
+const std::vector<BadInput> bad_options_of_the_strip = {
+    {"--cells 3", {"--cells", "3", "at least 4"}},
+    {"--filter weak", {"--filter", "weak", "none, neutral"}},
+    {"--eta nan", {"--eta", "nan", "finite", "not below 0 Pa"}},
+    {"--dt 0.0024", {"--dt", "0.0024 s", "stable step of 0.0022", "--allow-unstable"}},
+    {"--csv energy.csv", {"--csv", "--help"}},
+};
+
+const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons = {
+    {"fpu", {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
+    {"fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},
+    {"fpu", {"--dt 0", {"--dt", "0 s", "above 0 s"}}},
+    {"fpu", {"--dt 1e-300", {"steps of 1e-300 s", "1 to 1e+15 are allowed"}}},
+    {"fpu", {"--gauge 1 --integrator memm", {"--gauge", "memm does not know it", "--integrator bilbao"}}},
+    {"fpu", {"--mean 2 --integrator leapfrog", {"--mean", "leapfrog does not know it", "memm or energy_momentum"}}},
+    {"fpu", {"--fast 7", {"--fast", "7 masses", "there are 6"}}},
+    {"fpu", {"--parts 0", {"--parts", "'0'", "at least 1"}}},
+    {"fpu", {"--start half --integrator energy_momentum", {"--start", "energy_momentum does not know it"}}},
+    {"fpu", {"--omega nan", {"--omega", "nan", "finite"}}},
+    {"slow_fast_wave", {"--integrator bilbao", {"--integrator", "bilbao", "all, memm, memm_async, leapfrog"}}},
+    {"slow_fast_wave", {"--time 0.6", {"--time", "0.6 s", "not above 0.5 s"}}},
+    {"slow_fast_wave", {"--cells 1001 --refinements 0", {"--cells", "1001", "even", "interface"}}},
+    {"slow_fast_wave", {"--cells 1002", {"--cells", "1002 halved 2 times", "multiple of 16", "--refinements"}}},
+    {"slow_fast_wave", {"--cfl 1.01", {"--cfl", "1.01", "not above 1", "unstable"}}},
+    {"slow_fast_wave", {"--ratio 20", {"--ratio", "20 steps", "below 1 is stable", "--cfl"}}},
+    {"slow_fast_wave", {"--ratio 5 --integrator memm", {"--ratio", "memm does not know it"}}},
+    {"bouncing_bar", {"--gravity 5", {"--gravity", "5", "0, 10"}}},
+    {"bouncing_bar", {"--cells 3", {"--cells", "3", "at least 4"}}},
+    {"bouncing_bar", {"--cfl 2", {"--cfl", "2", "not above 1"}}},
+    {"bouncing_bar", {"--filter weak", {"--filter", "weak", "none, neutral"}}},
+    {"bouncing_bar", {"--filter neutral --integrator leapfrog", {"--filter", "leapfrog does not know it"}}},
+    {"bouncing_bar", {"--filter neutral --patch 1", {"--patch", "'1'", "at least 2"}}},
+    {"bouncing_bar", {"--patch 3", {"--patch", "--filter"}}},
+    {"bouncing_bar", {"--cells 10 --filter neutral --patch 11", {"--patch", "11 masses", "the bar has 10"}}},
+    {"bouncing_bar", {"--gauge 0", {"Bilbao scheme", "Raise the gauge"}}},
+};
+
+void check_no_result(const fs::path& directory) {
+    REQUIRE_FALSE(directory.empty());
+    for (const char* file : {"summary.json", "energy.csv", "energy.png", "energy.gp"})
+        CHECK_FALSE(fs::exists(directory / file));
+}
+
+void check_refused(const BadInput& bad, const Outcome& outcome) {
+    INFO(bad.arguments << "\n" << outcome.error);
+    CHECK(outcome.exit_code == 1);
+    for (const std::string& word : bad.words) {
+        INFO("does it say '" << word << "'?");
+        CHECK(outcome.error.find(word) != std::string::npos);
+    }
+    CHECK(std::ranges::count(outcome.error, '\n') == 1);  // one message
+    check_no_result(outcome.directory);
+}
+
+/// An ASCII file of Gmsh's format 2.2: nodes "x y z", elements "type, nodes", numbered from 1, one body.
+void write_msh(const fs::path& path, const std::vector<std::string>& nodes, const std::vector<std::string>& elements) {
+    std::ofstream file(path);
+    file << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n" << nodes.size() << "\n";
+    for (std::size_t i = 0; i < nodes.size(); ++i) file << i + 1 << " " << nodes[i] << "\n";
+    file << "$EndNodes\n$Elements\n" << elements.size() << "\n";
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+        const auto blank = elements[i].find(' ');
+        file << i + 1 << " " << elements[i].substr(0, blank) << " 2 1 1" << elements[i].substr(blank) << "\n";
+    }
+    file << "$EndElements\n";
+}
+
+struct BadMesh {
+    std::string name;
+    std::string more;  ///< options
+    std::vector<std::string> nodes;
+    std::vector<std::string> elements;
+    std::vector<std::string> words;
+};
+
+// Element types of Gmsh: 2 triangle, 3 quadrangle, 4 tetrahedron, 5 hexahedron.
+const std::vector<BadMesh> bad_meshes = {
+    {"inverted_triangle",
+     "",
+     {"0 0 0", "1 0 0", "0 1 0", "1 1 0"},
+     {"2 1 2 3", "2 2 3 4"},
+     {"cell 2 (triangle) is inverted", "its measure is -0.5 m^2", "more than", "is needed", "counter-clockwise"}},
+    {"flat_triangle",
+     "",
+     {"0 0 0", "1 0 0", "0 1 0", "0 2 0"},
+     {"2 1 2 3", "2 1 3 4"},
+     {"cell 2 (triangle) is flat", "its measure is 0 m^2", "more than", "is needed", "mesh the part again"}},
+    {"no_edge",
+     "",
+     {"0 0 0", "1 0 0", "1 1 0", "1 1 0"},
+     {"3 1 2 3 4"},
+     {"face (3, 4) of cell 1 is degenerate", "its measure is 0 m^1", "more than", "is needed", "Merge"}},
+    {"inverted_hexahedron",
+     "--dim 3",
+     {"0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"},
+     {"5 5 6 7 8 1 2 3 4"},
+     {"cell 1 (hexahedron) is inverted", "its measure is -1 m^3", "more than", "is needed", "order"}},
+    {"flat_tetrahedron",
+     "--dim 3",
+     {"0 0 0", "1 0 0", "0 1 0", "1 1 0"},
+     {"4 1 2 3 4"},
+     {"cell 1 (tetrahedron) is flat", "its measure is 0 m^3", "more than", "is needed", "mesh the part again"}},
+    {"no_face",
+     "--dim 3",
+     {"0 0 0", "1 0 0", "0.5 1 0", "0.5 1 0", "0 0 1", "1 0 1", "0.5 1 1", "0.5 1 1"},
+     {"5 1 2 3 4 5 6 7 8"},
+     {"face (", "of cell 1 is degenerate", "its measure is 0 m^2", "more than", "is needed", "Merge"}},
+};
+
+/// Into a folder that is there already.
+Outcome run_into(const fs::path& directory, const std::string& program, const std::string& arguments) {
+    Outcome outcome = run_program(program, fmt::format("{} --out '{}'", arguments, directory.string()), "");
+    outcome.directory = directory;
+    return outcome;
+}
+
+std::string with_mesh(const fs::path& path) { return fmt::format("--time 1 --mesh '{0}','{0}'", path.string()); }
+
+}  // namespace
+
+TEST_CASE("bad options end with one message that names them, and leave no result", "[programs]") {
+    const BadInput bad = GENERATE(from_range(bad_options));
+    check_refused(bad, run_program("slipping_cylinders", bad.arguments, "bad_option"));
+}
+
+TEST_CASE("bad options of the bouncing strip end in the same way", "[programs]") {
+    const BadInput bad = GENERATE(from_range(bad_options_of_the_strip));
+    check_refused(bad, run_program("bouncing_strip", bad.arguments, "bad_strip_option"));
+}
+
+TEST_CASE("bad options of the programs that compare integrators end in the same way", "[programs]") {
+    const auto [program, bad] = GENERATE(from_range(bad_options_of_comparisons));
+    check_refused(bad, run_program(program, bad.arguments, "bad_comparison_option"));
+}
+
+TEST_CASE("a run that breaks off says at which step, and leaves no result", "[programs]") {
+    const BadInput bad = GENERATE(BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
+                                           {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "energy.csv.partial"}},
+                                  BadInput{"--speed 5 --frames 0",
+                                           {"step 1", "face ", "(body 0, at (", "2 is allowed", "compression_limit",
+                                            "lower the speed", "energy.csv.partial"}});
+    const auto outcome = run_program("slipping_cylinders", bad.arguments, "broken_off");
+    check_refused(bad, outcome);
+    CHECK(fs::exists(outcome.directory / "energy.csv.partial"));
+}
+
+TEST_CASE("an output folder with a file in its place is refused before the run", "[programs]") {
+    const std::string program = GENERATE("slipping_cylinders", "bouncing_strip", "bouncing_bar", "fpu", "slow_fast_wave");
+    const Folder folder("in_the_way");
+    const std::string file = (folder.path() / "results").string();
+    std::ofstream(file) << "something\n";
+    const BadInput bad = {"", {"--out", file, "cannot be written to", "a file is in its place", "Choose another folder"}};
+    check_refused(bad, run_into(file, program, ""));
+    CHECK(read_text(file) == "something\n");
+}
+
+TEST_CASE("an output folder that cannot exist is refused before the run", "[programs]") {
+    const Folder folder("no_name");
+    const std::string out = (folder.path() / std::string(300, 'x')).string();
+    Outcome outcome = run_into(out, "slipping_cylinders", "");
+    outcome.directory = folder.path();
+    check_refused({"", {"--out", "cannot be written to", "File name too long", "Choose another folder"}}, outcome);
+}
+
+TEST_CASE("an output folder without permission to write is refused before the run", "[programs]") {
+    const Folder folder("read_only");
+    fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+    if (access(folder.path().c_str(), W_OK) == 0) {
+        WARN("skipped: whoever runs this may write to any folder");
+        return;
+    }
+    const std::string out = folder.path().string();
+    const BadInput bad = {"", {"--out", out, "cannot be written to", "permission denied", "Choose another folder"}};
+    check_refused(bad, run_into(out, "slipping_cylinders", ""));
+    fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+TEST_CASE("an output folder on a full disc is refused before the run", "[programs]") {
+    const Folder folder("full");
+    fs::create_symlink("/dev/full", folder.path() / ".writable");  // the file that proves the folder writable
+    const std::string out = folder.path().string();
+    const BadInput bad = {"", {"--out", out, "cannot be written to", "no space left", "Choose another folder"}};
+    check_refused(bad, run_into(out, "slipping_cylinders", ""));
+}
+
+TEST_CASE("a disc that fills up during a run ends it with a message, and leaves no result", "[programs]") {
+    const auto outcome =
+        run_program("slipping_cylinders", "--size 0.25 --frames 0", "fills_up", "trap '' XFSZ; ulimit -f 16;");
+    check_refused({"", {"energy.csv.partial", "cannot be written", "free space"}}, outcome);
+}
+
+TEST_CASE("a bad run leaves no results of an earlier good one, and nobody else's file is touched", "[programs]") {
+    const BadInput bad = GENERATE(BadInput{"--dt 1", {"--dt"}}, BadInput{"--gap -0.1", {"overlap"}},
+                                  BadInput{"--mesh nowhere.msh,right.msh --time 1", {"nowhere.msh"}},
+                                  BadInput{"--gap 10 --dt 0.1 --allow-unstable --frames 0", {"diverged"}});
+    const auto good = run_well("slipping_cylinders", "--size 0.25 --steps 4 --frames 2", "twice");
+    REQUIRE(fs::exists(good.directory / "cylinders_surface_000001.vtp"));
+    const std::vector<std::string> mine = {"cylinders_2.vtu", "cylinders_new_000001.vtu", "notes.txt",
+                                           "othercylinders_000001.vtu"};
+    for (const auto& name : mine) std::ofstream(good.directory / name) << "mine\n";
+    check_refused(bad, run_into(good.directory, "slipping_cylinders", bad.arguments));
+    auto left = files_in(good.directory);
+    std::erase(left, "energy.csv.partial");
+    CHECK(left == mine);
+}
+
+TEST_CASE("a run of few frames leaves none of an earlier run of many", "[programs]") {
+    const auto many = run_well("slipping_cylinders", "--size 0.25 --steps 8 --frames 5", "frames_again");
+    REQUIRE(run_into(many.directory, "slipping_cylinders", "--size 0.25 --steps 8 --frames 2").exit_code == 0);
+    const auto frames = [&](const std::string& ending) {
+        return std::ranges::count_if(files_in(many.directory), [&](const auto& name) { return name.ends_with(ending); });
+    };
+    CHECK(frames(".vtu") == 2);
+    CHECK(frames(".vtp") == 2);
+}
+
+TEST_CASE("mesh files that cannot be read are refused by name", "[programs]") {
+    const Folder meshes("meshes");
+    std::ofstream(meshes.path() / "empty.msh");
+    std::ofstream(meshes.path() / "truncated.msh") << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n";
+    const auto [name, words] = GENERATE(table<std::string, std::vector<std::string>>(
+        {{"empty.msh", {"empty", "0 bytes", "again"}}, {"truncated.msh", {"$EndNodes", "again"}}}));
+    const auto path = meshes.path() / name;
+    BadInput bad{with_mesh(path), words};
+    bad.words.push_back(path.string());
+    check_refused(bad, run_program("slipping_cylinders", bad.arguments, "bad_mesh"));
+}
+
+TEST_CASE("meshes with inverted or flat cells or degenerate faces are refused with cell, measure, limit and remedy",
+          "[programs]") {
+    const BadMesh bad = GENERATE(from_range(bad_meshes));
+    const Folder meshes("bad_meshes");
+    const auto path = meshes.path() / (bad.name + ".msh");
+    write_msh(path, bad.nodes, bad.elements);
+    const BadInput input{bad.more + " " + with_mesh(path), bad.words};
+    check_refused(input, run_program("slipping_cylinders", input.arguments, "bad_cells"));
+}

@@ -1,0 +1,126 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/run/frames.hpp"
+#include "abut/run/result_files.hpp"
+#include "abut/run/simulation.hpp"
+#include "abut/run/summary.hpp"
+#include "run/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+namespace fs = std::filesystem;
+
+/// A folder for this process alone that is not there at first, removed with the object.
+class Folder {
+public:
+    Folder() { fs::remove_all(path_); }
+    ~Folder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_ = fs::path(ABUT_RUN_RESULTS) / std::to_string(getpid());
+};
+
+std::string read_text(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("a program of a few lines leaves the files of a run, and a summary of what the result holds", "[run][files]") {
+    const Folder folder;
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.options = {{"speed", 0.01}, {"shape", "block"}, {"counts", std::vector<std::int64_t>{2, 2}}};
+    scene.findings = [](const run::RunResult<2>&) -> std::vector<run::Finding> {
+        return {{"known", "a number [m]", 0.5}, {"unknown", "another [m]", {}}};
+    };
+    const run::RunOptions options{.out = folder.path() / "out", .frames = 3};
+    run::ResultFiles<2> files(options, "mine", "block");
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    files.finish(scene, result);
+
+    for (const char* name :
+         {"energy.csv", "energy.gp", "summary.json", "block.pvd", "block_000002.vtu", "block_surface_000002.vtp"})
+        CHECK(fs::exists(options.out / name));
+    CHECK_FALSE(fs::exists(options.out / "block_000003.vtu"));
+    CHECK_FALSE(fs::exists(options.out / "energy.csv.partial"));
+    CHECK(fs::exists(options.out / "energy.png") == files.without_picture().empty());
+
+    std::istringstream energies(read_text(options.out / "energy.csv"));
+    std::int64_t lines = 0;
+    for (std::string line; std::getline(energies, line);) ++lines;
+    CHECK(lines == result.steps + 2);  // names of the columns, and the start
+
+    const std::string text = read_text(options.out / "summary.json");
+    CHECK(text == run::summary_json("mine", scene, result));
+    const auto json = nlohmann::ordered_json::parse(text);
+    CHECK(json["program"] == "mine");
+    CHECK(json["steps"] == result.steps);
+    CHECK(json["dt"] == result.dt);
+    CHECK(json["pseudo_energy_drift"] == result.ledger.pseudo_energy_drift());
+    CHECK(json["known"] == 0.5);
+    CHECK(json["unknown"].is_null());
+    CHECK(json["options"]["shape"] == "block");
+    CHECK(json["options"]["counts"] == std::vector{2, 2});
+    CHECK(json["options"]["time"] == scene.time);
+    CHECK(json["options"]["cfl"] == 0.9);
+    CHECK(json["options"].begin().key() == "speed");  // the scene's own come first, in their order
+
+    const std::string table = run::closing_table("mine", scene, result);
+    CHECK(table.starts_with("mine: 4 cells, "));
+    CHECK(table.find("velocity of 'block'") != std::string::npos);
+    CHECK(table.find("a number [m]") != std::string::npos);
+    CHECK(files.table().find((options.out / "block.pvd").string()) != std::string::npos);
+}
+
+TEST_CASE("a run that breaks off leaves its records under another name, and an earlier result is gone", "[run][files]") {
+    const Folder folder;
+    run::RunOptions options{.out = folder.path(), .frames = 0};
+    fs::create_directories(folder.path());
+    for (const char* name : {"summary.json", "energy.csv", "somebody_elses.csv"})
+        std::ofstream(folder.path() / name) << "old";
+    options.contact.compression_limit = 1e-3;
+    run::ResultFiles<2> files(options, "mine", "block");
+    CHECK_FALSE(files.has_begun());
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(test::block_on_plane(0.1), options, files)), TooDeep);
+    CHECK(files.has_begun());
+    CHECK(fs::exists(folder.path() / "energy.csv.partial"));
+    CHECK_FALSE(fs::exists(folder.path() / "energy.csv"));
+    CHECK_FALSE(fs::exists(folder.path() / "summary.json"));
+    CHECK(fs::exists(folder.path() / "somebody_elses.csv"));
+}
+
+TEST_CASE("a folder with a file in its place is refused as bad input, by name", "[run][files]") {
+    const Folder folder;
+    fs::create_directories(folder.path());
+    const fs::path taken = folder.path() / "taken";
+    std::ofstream(taken) << "a file";
+    CHECK_THROWS_AS(run::ResultFiles<2>({.out = taken}, "mine", "block"), BadInput);
+    CHECK_THROWS_WITH(run::ResultFiles<2>({.out = taken}, "mine", "block"), Catch::Contains(taken.string()));
+}
+
+TEST_CASE("the von Mises stress of pure shear is sqrt(3) tau, of a uniaxial stress that stress", "[run][files]") {
+    Matrix<3> shear = Matrix<3>::Zero(), tension = Matrix<3>::Zero();
+    shear(0, 1) = shear(1, 0) = 2.0;
+    tension(1, 1) = -3.0;
+    CHECK(run::von_mises<3>(shear, 0.3) == Approx(2.0 * std::sqrt(3.0)).epsilon(1e-14));
+    CHECK(run::von_mises<3>(tension, 0.3) == Approx(3.0).epsilon(1e-14));
+    const Matrix<2> pressure = Matrix<2>::Identity();  // plane strain: sigma_zz = 2 nu
+    CHECK(run::von_mises<2>(pressure, 0.25) == Approx(0.5).epsilon(1e-14));
+}

@@ -1,0 +1,139 @@
+#include "abut/run/simulation.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/base/throw_again.hpp"
+#include "run/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+
+/// Keeps the order in which it is called.
+class Caller : public run::Observer<2> {
+public:
+    Caller(std::string name, std::vector<std::string>& calls) : name_(std::move(name)), calls_(calls) {}
+    void begin(const run::Scene<2>&, const run::RunResult<2>& result) override {
+        CHECK(result.steps == 2);
+        CHECK(result.ledger.entries().empty());
+        calls_.push_back("begin " + name_);
+    }
+    void record(const dynamics::LedgerEntry<2>& entry, const run::RunResult<2>& result) override {
+        CHECK(result.ledger.entries().back().step == entry.step);
+        calls_.push_back("record " + name_);
+    }
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
+        CHECK(view.q.size() == solid.size());
+        calls_.push_back("look " + name_);
+    }
+
+private:
+    std::string name_;
+    std::vector<std::string>& calls_;
+};
+
+}  // namespace
+
+TEST_CASE("several observers are called in turn, at the start and after each step", "[run]") {
+    std::vector<std::string> calls;
+    Caller a("a", calls), b("b", calls);
+    run::Observers<2> both{a};
+    both.add(b);
+    static_cast<void>(run::simulate<2>(test::block_on_plane(0.01), {.steps = 2}, both));
+    std::vector<std::string> expected{"begin a", "begin b"};
+    for (int node = 0; node < 3; ++node) expected.insert(expected.end(), {"record a", "record b", "look a", "look b"});
+    CHECK(calls == expected);
+}
+
+TEST_CASE("a block bounces off a plane with the speed it came with on the mean, and H~ stays", "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.time = 8.0;
+    scene.findings = [](const run::RunResult<2>& result) -> std::vector<run::Finding> {
+        return {{"n", "records", static_cast<std::int64_t>(result.ledger.entries().size())}};
+    };
+    const run::RunResult<2> result = run::simulate<2>(scene);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-12 * result.scale.value);
+    CHECK(result.end.front().velocity.y() > 0.005);
+    CHECK(std::get<std::int64_t>(result.findings.front().value) == result.steps + 1);
+    CHECK(result.options.interval == 1);  // filled in
+    CHECK(result.options.contact.quadrature == 2);
+    CHECK(result.threads > 0);
+}
+
+TEST_CASE("an error in a step keeps its type, kind and facts, and says at which step it happened", "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.solid.boundary.traction = {{.group = "ymax", .history = [](double time, const Vector<2>&) -> Vector<2> {
+                                          if (time > 0.1)
+                                              throw LimitExceeded("enough", {.cell = 3, .value = 4.0, .allowed = 2.0});
+                                          return Vector<2>::Zero();
+                                      }}};
+    try {
+        static_cast<void>(run::simulate<2>(scene));
+        FAIL("the load throws");
+    } catch (const LimitExceeded& error) {
+        CHECK(error.kind() == ErrorKind::limit_exceeded);
+        CHECK(error.facts().cell == 3);
+        CHECK(error.facts().value == 4.0);
+        CHECK(error.facts().allowed == 2.0);
+        const std::string text = error.what();
+        CHECK(text.starts_with("step "));
+        CHECK(text.find("stable are") != std::string::npos);
+        CHECK(text.ends_with("enough"));
+    }
+}
+
+TEST_CASE("a block that is pressed in deeper than allowed ends the run as too deep", "[run]") {
+    run::RunOptions options;
+    options.contact.compression_limit = 1e-3;
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(test::block_on_plane(0.1), options)), TooDeep);
+}
+
+TEST_CASE("an error thrown again has its type, kind and facts, and another text", "[run]") {
+    const ErrorFacts facts{.face_1 = 1, .face_2 = 2, .cell = 3, .value = 4.0, .allowed = 5.0};
+    const auto check_kept = [&](const auto& error) {
+        try {
+            throw_again(error, "here: " + std::string(error.what()));
+        } catch (const std::decay_t<decltype(error)>& again) {
+            CHECK(again.kind() == error.kind());
+            CHECK(again.what() == std::string("here: why"));
+            CHECK(again.facts().face_1 == 1);
+            CHECK(again.facts().face_2 == 2);
+            CHECK(again.facts().cell == 3);
+            CHECK(again.facts().value == 4.0);
+            CHECK(again.facts().allowed == 5.0);
+        }
+    };
+    check_kept(BadInput("why", facts));
+    check_kept(Misuse("why", facts));
+    check_kept(Diverged("why", facts));
+    check_kept(TooDeep("why", facts));
+    check_kept(LimitExceeded("why", facts));
+}
+
+TEST_CASE("a run beyond the stable step diverges, and its error says so by its type", "[run]") {
+    run::RunOptions options{.steps = 10'000, .allow_unstable = true};
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.contact = false;
+    scene.solid.obstacles.clear();
+    scene.displacement = [](const Vector<2>& x) { return Vector<2>(1e-3 * x.x(), 0.0); };
+    options.dt = 1.5 * run::simulate<2>(scene, {.steps = 1}).stable.dt;
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options)), Diverged);
+    options.allow_unstable = false;
+    try {
+        static_cast<void>(run::simulate<2>(scene, options));
+        FAIL("the step is too long");
+    } catch (const BadInput& error) {
+        CHECK(error.facts().value == options.dt);
+        CHECK(error.facts().allowed == Approx(options.dt / 1.5));
+    }
+}
+
+TEST_CASE("options that do not go together are refused before anything is run", "[run]") {
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    for (const run::RunOptions& options : {run::RunOptions{.integrator = run::SolidIntegrator::leapfrog, .filter = true},
+                                           run::RunOptions{.levels = 3}, run::RunOptions{.gauge = 1.0}})
+        CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options)), BadInput);
+}

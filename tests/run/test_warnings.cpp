@@ -1,0 +1,80 @@
+#include "abut/run/warnings.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "abut/run/simulation.hpp"
+#include "run/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using run::WarningKind;
+
+std::vector<WarningKind> kinds(const std::vector<run::Warning>& warnings) {
+    std::vector<WarningKind> result;
+    for (const run::Warning& warning : warnings) result.push_back(warning.kind);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("a run in which nothing went wrong has no warning", "[run][warnings]") {
+    const run::Scene<2> scene = test::block_on_plane(1e-3);
+    const run::RunResult<2> result = run::simulate<2>(scene);
+    REQUIRE(result.contact.active_pairs_max > 0);
+    CHECK(run::warnings_before(scene, result).empty());
+    CHECK(run::warnings_during(result.steps, result).empty());
+    CHECK(run::without_notes(run::warnings_after(result)).empty());
+}
+
+TEST_CASE("each figure above its threshold is a warning of its kind with value and threshold, and none at it",
+          "[run][warnings]") {
+    run::RunResult<2> result;
+    result.dt = result.finest_dt = 1.0;
+    result.steps = 10;
+    result.contact.sliding_ratio_max = run::stiff_sliding_ratio;
+    result.contact.slipped_compression_max = run::deep_slip_compression;
+    CHECK(run::warnings_after(result).empty());
+    result.contact.sliding_ratio_max *= 2.0;
+    result.contact.slipped_compression_max *= 2.0;
+    result.contact.missed_contacts = 3;
+    result.contact.compressed_steps = 4;
+    result.contact.compression_max = 0.5;
+    result.inadmissible_overlaps_max = 7;
+    const auto warnings = run::warnings_after(result);
+    CHECK(kinds(warnings) == std::vector{WarningKind::compression, WarningKind::stiff_sliding, WarningKind::deep_slip,
+                                         WarningKind::missed_contacts, WarningKind::inadmissible_overlaps});
+    const std::vector<double> values{0.5, 2.0, 0.6, 3.0, 7.0}, thresholds{0.3, 1.0, 0.3, 0.0, 0.0};
+    for (std::size_t i = 0; i < warnings.size(); ++i) {
+        CHECK(warnings[i].value == values[i]);
+        CHECK(warnings[i].threshold == thresholds[i]);
+        CHECK_FALSE(warnings[i].text.empty());
+    }
+    CHECK(run::without_notes(warnings).size() == 4);
+    CHECK(kinds(run::warnings_during(3, result)) == std::vector{WarningKind::compression});
+}
+
+TEST_CASE("what a mesh left out and corners that contact cannot see are known before the first step", "[run][warnings]") {
+    run::Scene<2> scene = test::block_on_plane(1e-3);
+    run::RunResult<2> result;
+    auto& report = scene.mesh.report;
+    report.warnings = {"node 3 is lonely"};
+    report.n_unused_vertices = 1;
+    report.n_ignored_elements = 2;
+    report.n_cut_cells = 3;
+    report.n_coincident_vertices = 4;
+    result.stencils.extrapolated = 5;
+    result.contact_faces_left_out = 6;
+    result.blind_corners.assign(7, Vector<2>(0.5, 0.25));
+    const auto warnings = run::warnings_before(scene, result);
+    CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
+                                         WarningKind::cut_cells, WarningKind::coincident_vertices,
+                                         WarningKind::extrapolated_faces, WarningKind::faces_out_of_contact,
+                                         WarningKind::blind_corners});
+    CHECK(warnings.front().text == "Gmsh: node 3 is lonely");
+    for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
+    CHECK(warnings.back().text.find("0.5, 0.25") != std::string::npos);
+    CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices,
+                                                             WarningKind::extrapolated_faces, WarningKind::blind_corners});
+}
