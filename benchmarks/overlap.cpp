@@ -71,8 +71,8 @@ std::vector<FacePair<Dim>> make_pairs(std::size_t n) {
 }
 
 template <int Dim>
-geometry::SharedArea<Dim> area_of(const FacePair<Dim>& pair, AreaMethod method) {
-    return geometry::shared_area<Dim>(pair.face_1, pair.face_2, pair.shift, method);
+geometry::OverlapArea<Dim> area_of(const FacePair<Dim>& pair, AreaMethod method) {
+    return geometry::overlap_area<Dim>(pair.face_1, pair.face_2, pair.shift, method);
 }
 
 struct Difference {
@@ -88,7 +88,7 @@ Difference largest_difference(std::span<const FacePair<Dim>> pairs) {
         largest.area = std::max(largest.area, std::abs(fast.area - exact.area));
         // where nothing but round-off is shared, the two may disagree on which side of "nothing" they are
         if (std::min(fast.area, exact.area) > 1e-12)
-            largest.derivative = std::max(largest.derivative, (fast.shift_derivative - exact.shift_derivative).norm());
+            largest.derivative = std::max(largest.derivative, (fast.area_gradient - exact.area_gradient).norm());
     }
     return largest;
 }

@@ -29,20 +29,20 @@ using Corners = std::array<PlaneVector<3>, 3>;
 // ---- ours ---------------------------------------------------------------------------------------------------------------
 
 void many_at_once(std::span<const TrianglePair> pairs, std::span<double> areas) {
-    std::vector<geometry::SharedArea<3>> shared(pairs.size());
-    geometry::shared_areas(pairs, shared);
+    std::vector<geometry::OverlapArea<3>> shared(pairs.size());
+    geometry::overlap_areas(pairs, shared);
     for (std::size_t k = 0; k < pairs.size(); ++k) areas[k] = shared[k].area;
 }
 template <AreaMethod method>
 void one_by_one(std::span<const TrianglePair> pairs, std::span<double> areas) {
     for (std::size_t k = 0; k < pairs.size(); ++k)
-        areas[k] = geometry::shared_area<3>(pairs[k].face_1, pairs[k].face_2, pairs[k].shift, method).area;
+        areas[k] = geometry::overlap_area<3>(pairs[k].face_1, pairs[k].face_2, pairs[k].shift, method).area;
 }
 
 std::vector<Clipper> all_clippers() {
-    std::vector<Clipper> all{{"shared_areas (many at once)", ~std::size_t{0}, many_at_once},
-                             {"shared_area, fast (one by one)", ~std::size_t{0}, one_by_one<AreaMethod::fast>},
-                             {"shared_area, exact", 10'000, one_by_one<AreaMethod::exact>}};
+    std::vector<Clipper> all{{"overlap_areas (many at once)", ~std::size_t{0}, many_at_once},
+                             {"overlap_area, fast (one by one)", ~std::size_t{0}, one_by_one<AreaMethod::fast>},
+                             {"overlap_area, exact", 10'000, one_by_one<AreaMethod::exact>}};
     for (const Clipper& clipper : benchmark::clippers()) all.push_back(clipper);
     return all;
 }
@@ -261,7 +261,7 @@ void require_same_sums(const std::vector<Timed>& timed, const contact::Overlaps<
     double found = 0.0, batch = 0.0;
     for (const auto& overlap : overlaps.found) found += overlap.area;
     for (const double area : timed[0].areas) batch += area;
-    benchmark::require_small("sum of areas, find_overlaps against shared_areas", std::abs(found - batch) / batch, 1e-12);
+    benchmark::require_small("sum of areas, find_overlaps against overlap_areas", std::abs(found - batch) / batch, 1e-12);
 }
 
 nlohmann::json measure(const std::string& name, const Scene& scene, std::size_t checked, int repetitions) {

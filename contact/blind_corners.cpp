@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "abut/geometry/places.hpp"
+#include "abut/geometry/merged_vertices.hpp"
 
 namespace abut::contact {
 namespace {
@@ -22,7 +22,7 @@ struct FaceAtCorner {
 
 template <int Dim>
 std::vector<FaceAtCorner> faces_at_corners(const SurfaceView<Dim>& surface) {
-    const std::vector<std::int32_t> place = geometry::first_at_same_place<Dim>(surface.vertices);
+    const std::vector<std::int32_t> place = geometry::merged_vertices<Dim>(surface.vertices);
     std::vector<FaceAtCorner> all;
     all.reserve(surface.face_vertices.size());
     for (std::int32_t face = 0; face < surface.size(); ++face)

@@ -99,12 +99,13 @@ struct ProjectedPair {
 };
 
 template <int Dim>
-geometry::SharedArea<Dim> shared_area(geometry::ProjectedFace<Dim> face_1, geometry::ProjectedFace<Dim> face_2,
-                                      AreaMethod method, geometry::DecisionCounts& counts) {
+geometry::OverlapArea<Dim> overlap_area(geometry::ProjectedFace<Dim> face_1, geometry::ProjectedFace<Dim> face_2,
+                                        AreaMethod method, geometry::DecisionCounts& counts) {
     if constexpr (Dim == 3)
-        if (method == AreaMethod::fast) return geometry::counted_shared_area(face_1, face_2, PlaneVector<3>::Zero(), counts);
+        if (method == AreaMethod::fast)
+            return geometry::counted_overlap_area(face_1, face_2, PlaneVector<3>::Zero(), counts);
     ++(method == AreaMethod::fast ? counts.by_doubles : counts.by_exact_arithmetic);
-    return geometry::shared_area<Dim>(face_1, face_2, PlaneVector<Dim>::Zero(), method);
+    return geometry::overlap_area<Dim>(face_1, face_2, PlaneVector<Dim>::Zero(), method);
 }
 
 // Pairs one by one.
@@ -115,11 +116,11 @@ void append_overlap(const Scene<Dim>& scene, IndexPair pair, AreaMethod method, 
         return;
     }
     const ProjectedPair<Dim> projected(scene, pair);
-    const auto shared = shared_area<Dim>(projected.face_1(), projected.face_2(), method, overlaps.report.decided);
+    const auto shared = overlap_area<Dim>(projected.face_1(), projected.face_2(), method, overlaps.report.decided);
     if (shared.area == 0.0) return;
     const Vector<Dim>& normal = projected.frame.normal();
     overlaps.found.push_back({pair.first, pair.second, shared.area, normal, scene.apart(pair).dot(normal),
-                              projected.frame.lift(shared.shift_derivative)});
+                              projected.frame.lift(shared.area_gradient)});
 }
 
 // Pairs of triangles, one a column: first gathered, then computed side by side. The larger face is a, the smaller b; both
@@ -230,7 +231,7 @@ private:
         for (int k = 0; k < TriangleBatch::size; k += lane_count) project(first + k, batch, k);
         geometry::AreaBatch result;
         if (method == AreaMethod::fast)
-            result = geometry::shared_areas(batch);
+            result = geometry::overlap_areas(batch);
         else
             result.undecided = ~0u;
         const int end = std::min(size_ - first, TriangleBatch::size);
@@ -239,27 +240,27 @@ private:
                 append(first + k, one_by_one(batch, k, is_swapped_[first + k], method, overlaps.report.decided), overlaps);
             } else {
                 ++overlaps.report.decided.by_doubles;
-                const PlaneVector<3> derivative(result.shift_derivative[0][k], result.shift_derivative[1][k]);
+                const PlaneVector<3> derivative(result.area_gradient[0][k], result.area_gradient[1][k]);
                 append(first + k, {result.area[k], is_swapped_[first + k] ? PlaneVector<3>(-derivative) : derivative},
                        overlaps);
             }
         }
     }
-    static geometry::SharedArea<3> one_by_one(const TriangleBatch& batch, int k, bool is_swapped, AreaMethod method,
-                                              geometry::DecisionCounts& counts) {
+    static geometry::OverlapArea<3> one_by_one(const TriangleBatch& batch, int k, bool is_swapped, AreaMethod method,
+                                               geometry::DecisionCounts& counts) {
         std::array<PlaneVector<3>, 3> a, b;
         for (int i = 0; i < 3; ++i) {
             a[i] = {batch.x_a[i][k], batch.y_a[i][k]};
             b[i] = {batch.x_b[i][k], batch.y_b[i][k]};
         }
-        return is_swapped ? shared_area<3>(b, a, method, counts) : shared_area<3>(a, b, method, counts);
+        return is_swapped ? overlap_area<3>(b, a, method, counts) : overlap_area<3>(a, b, method, counts);
     }
-    void append(int k, const geometry::SharedArea<3>& shared, Overlaps<3>& overlaps) const {
+    void append(int k, const geometry::OverlapArea<3>& shared, Overlaps<3>& overlaps) const {
         if (shared.area == 0.0) return;
         const auto column = [k](const Rows& rows) { return Vector<3>(rows[0][k], rows[1][k], rows[2][k]); };
         overlaps.found.push_back(
             {pairs_[k].first, pairs_[k].second, shared.area, column(normal_), gap_[k],
-             shared.shift_derivative.x() * column(tangent_0_) + shared.shift_derivative.y() * column(tangent_1_)});
+             shared.area_gradient.x() * column(tangent_0_) + shared.area_gradient.y() * column(tangent_1_)});
     }
 
     int size_ = 0;
@@ -323,7 +324,7 @@ std::vector<Vector<Dim>> polygon_of(const Scene<Dim>& scene, IndexPair pair) {
     const Vector<Dim> halfway = centroid_1 + 0.5 * scene.apart(pair);
     const Vector<Dim> on_plane = origin + (halfway - origin).dot(projected.frame.normal()) * projected.frame.normal();
     std::vector<Vector<Dim>> polygon;
-    for (const PlaneVector<Dim>& corner : geometry::shared_polygon<Dim>(projected.face_1(), projected.face_2()))
+    for (const PlaneVector<Dim>& corner : geometry::overlap_polygon<Dim>(projected.face_1(), projected.face_2()))
         polygon.push_back(on_plane + projected.frame.lift(corner));
     return polygon;
 }

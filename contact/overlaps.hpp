@@ -10,15 +10,15 @@
 namespace abut::contact {
 
 /// The patch that two facing faces share, seen along their common normal.
-/// Law: swapping faces 1 and 2 reverses `normal` and `shift_derivative` and changes nothing else (beyond rounding).
+/// Law: swapping faces 1 and 2 reverses `normal` and `area_gradient` and changes nothing else (beyond rounding).
 template <int Dim>
 struct Overlap {
     std::int32_t face_1;
     std::int32_t face_2;
-    double area;                   ///< A_12 [m^(Dim-1)], > 0
-    Vector<Dim> normal;            ///< n_12, unit, from face 1's body into face 2's: `pair_normal`
-    double gap;                    ///< g [m], between the centroids along the normal; > 0 apart
-    Vector<Dim> shift_derivative;  ///< dA/ds [m^(Dim-2)], orthogonal to the normal: what A gains as face 2 moves
+    double area;                ///< A_12 [m^(Dim-1)], > 0
+    Vector<Dim> normal;         ///< n_12, unit, from face 1's body into face 2's: `pair_normal`
+    double gap;                 ///< g [m], between the centroids along the normal; > 0 apart
+    Vector<Dim> area_gradient;  ///< dA/ds [m^(Dim-2)], orthogonal to the normal: what A gains as face 2 moves
 };
 
 /// What became of the pairs: not_facing + decided.total() = pairs.

@@ -48,7 +48,7 @@ void PairList<Dim>::append(const SurfaceView<Dim>& surface, std::int32_t first, 
                           .theta_1 = theta_1,
                           .theta_2 = 1.0 - theta_1,
                           .interaction_radius = 0.0,
-                          .admission_depth = surface.depth[first] + surface.depth[second]};
+                          .admission_depth = surface.cell_depth[first] + surface.cell_depth[second]};
     pair.corners_1 = static_cast<std::int32_t>(corners_.size());
     append_projected(surface, first, pair.frame, corners_);
     pair.corners_2 = static_cast<std::int32_t>(corners_.size());
@@ -105,9 +105,9 @@ geometry::ProjectedFace<Dim> PairList<Dim>::face_2(const ContactPair<Dim>& pair)
 }
 
 template <int Dim>
-geometry::SharedArea<Dim> PairList<Dim>::overlap(const ContactPair<Dim>& pair, const PlaneVector<Dim>& tangential_offset,
-                                                 geometry::AreaMethod method) const {
-    return geometry::shared_area<Dim>(face_1(pair), face_2(pair), tangential_offset, method);
+geometry::OverlapArea<Dim> PairList<Dim>::overlap(const ContactPair<Dim>& pair, const PlaneVector<Dim>& tangential_offset,
+                                                  geometry::AreaMethod method) const {
+    return geometry::overlap_area<Dim>(face_1(pair), face_2(pair), tangential_offset, method);
 }
 
 template <int Dim>

@@ -53,8 +53,8 @@ public:
     /// Position of a pair whose faces have the displacements u_1 and u_2 [m].
     [[nodiscard]] PairPosition<Dim> position(const SurfaceView<Dim>& surface, const ContactPair<Dim>& pair,
                                              const Vector<Dim>& u_1, const Vector<Dim>& u_2) const;
-    [[nodiscard]] geometry::SharedArea<Dim> overlap(const ContactPair<Dim>& pair, const PlaneVector<Dim>& tangential_offset,
-                                                    geometry::AreaMethod method) const;
+    [[nodiscard]] geometry::OverlapArea<Dim> overlap(const ContactPair<Dim>& pair, const PlaneVector<Dim>& tangential_offset,
+                                                     geometry::AreaMethod method) const;
     /// Whether the faces are sure to share no area while the offset goes straight from s_0 to s_1 (a cheap test).
     [[nodiscard]] bool stay_apart(const ContactPair<Dim>& pair, const PlaneVector<Dim>& s_0,
                                   const PlaneVector<Dim>& s_1) const {

@@ -72,9 +72,9 @@ void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
         refuse(surface, face,
                "has the stiffness " + number(surface.stiffness[face]) +
                    " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
-    if (!(surface.depth[face] >= 0.0) || (surface.depth[face] == 0.0 && !surface.is_rigid(face)))
+    if (!(surface.cell_depth[face] >= 0.0) || (surface.cell_depth[face] == 0.0 && !surface.is_rigid(face)))
         refuse(surface, face,
-               "has the depth " + number(surface.depth[face]) +
+               "has the depth " + number(surface.cell_depth[face]) +
                    " m; it must be > 0 (>= 0 if rigid). Give the distance from the centroid of its cell to its plane.");
 }
 
@@ -145,11 +145,11 @@ void check_face(const SurfaceView<Dim>& surface, std::int32_t face) {
 
 template <int Dim>
 SurfaceView<Dim> Surface<Dim>::view() const {
-    return {vertices, face_offsets, face_vertices, centroid, normal, area, depth, stiffness, body};
+    return {vertices, face_offsets, face_vertices, centroid, normal, area, cell_depth, stiffness, body};
 }
 
 template <int Dim>
-void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness,
+void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_cell_depth, double face_stiffness,
                           std::int32_t face_body) {
     check_n_corners<Dim>(corners.size(), "face " + std::to_string(size()));
     for (const Vector<Dim>& corner : corners) {
@@ -160,7 +160,7 @@ void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_dept
     centroid.push_back(geometry::face_centroid<Dim>(corners));
     normal.push_back(geometry::face_normal<Dim>(corners));
     area.push_back(geometry::face_measure<Dim>(corners));
-    depth.push_back(face_depth);
+    cell_depth.push_back(face_cell_depth);
     stiffness.push_back(face_stiffness);
     body.push_back(face_body);
 }
@@ -176,7 +176,7 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     require_size(surface.face_offsets.size(), n + 1, "face_offsets");
     require_size(surface.centroid.size(), n, "centroid");
     require_size(surface.normal.size(), n, "normal");
-    require_size(surface.depth.size(), n, "depth");
+    require_size(surface.cell_depth.size(), n, "cell_depth");
     require_size(surface.stiffness.size(), n, "stiffness");
     require_size(surface.body.size(), n, "body");
     const auto refuse_offsets = [](const std::string& what) {
@@ -215,7 +215,7 @@ std::uint64_t fingerprint(const SurfaceView<Dim>& surface) {
     checksum.add_values(surface.face_vertices);
     for (const std::int32_t v : surface.face_vertices)
         checksum.add_values(std::span<const double>(surface.vertices[v].data(), Dim));
-    checksum.add_values(surface.depth);
+    checksum.add_values(surface.cell_depth);
     checksum.add_values(surface.stiffness);
     checksum.add_values(surface.body);
     return checksum.value();

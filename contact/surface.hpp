@@ -24,7 +24,7 @@ struct SurfaceView {
     std::span<const Vector<Dim>> normal;          ///< n_f (n), unit, out of the body
     std::span<const double> area;                 ///< |f| (n) [m^(Dim-1)]
     /// d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
-    std::span<const double> depth;
+    std::span<const double> cell_depth;
     /// k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
     std::span<const double> stiffness;
     std::span<const std::int32_t> body;  ///< (n) faces of one body do not touch each other unless self-contact is asked for
@@ -48,7 +48,7 @@ struct Surface {
     std::vector<Vector<Dim>> centroid;
     std::vector<Vector<Dim>> normal;
     std::vector<double> area;
-    std::vector<double> depth;
+    std::vector<double> cell_depth;
     std::vector<double> stiffness;
     std::vector<std::int32_t> body;
 
@@ -57,7 +57,7 @@ struct Surface {
     /// Appends one face from its corners: counter-clockwise seen from outside (3D), or with the outside on the right of
     /// the way from the first to the second (2D). Measures follow from the corners. Throws BadInput for
     /// other than 2 corners in 2D, 3 to geometry::max_polygon_vertices in 3D.
-    void append(std::span<const Vector<Dim>> corners, double face_depth, double face_stiffness, std::int32_t face_body);
+    void append(std::span<const Vector<Dim>> corners, double face_cell_depth, double face_stiffness, std::int32_t face_body);
 };
 
 /// The part of `check` that reads no face: throws BadInput naming an array whose size disagrees with the

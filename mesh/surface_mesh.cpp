@@ -6,7 +6,7 @@
 
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
-#include "abut/geometry/places.hpp"
+#include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/quality.hpp"
 
@@ -67,7 +67,7 @@ void append_displacement(SurfaceMesh& all, const SurfaceMesh& mesh) {
     all.displacement.resize(all.vertices.size(), Vector<3>::Zero());
 }
 
-[[noreturn]] void refuse_faces(const SurfaceMesh& mesh, const geometry::SurfaceHealth& health) {
+[[noreturn]] void refuse_faces(const SurfaceMesh& mesh, const geometry::SurfaceReport& health) {
     constexpr std::size_t most = 5;
     const std::size_t n = health.unusable_faces.size();
     std::string message =
@@ -93,7 +93,7 @@ std::vector<std::int32_t> corners_without_repeats(const SurfaceMesh& mesh, std::
 
 class Cleaning {
 public:
-    Cleaning(const SurfaceMesh& mesh, const geometry::SurfaceHealth& health) : mesh_(mesh), health_(health) {
+    Cleaning(const SurfaceMesh& mesh, const geometry::SurfaceReport& health) : mesh_(mesh), health_(health) {
         clean_.mesh.name = mesh.name;
         clean_.mesh.vertices = mesh.vertices;
         clean_.mesh.displacement = mesh.displacement;
@@ -144,14 +144,14 @@ private:
     }
 
     const SurfaceMesh& mesh_;
-    const geometry::SurfaceHealth& health_;
+    const geometry::SurfaceReport& health_;
     CleanSurface clean_;
 };
 
 }  // namespace
 
 std::int32_t weld(SurfaceMesh& mesh) {
-    const std::vector<std::int32_t> places = geometry::first_at_same_place<3>(mesh.vertices);
+    const std::vector<std::int32_t> places = geometry::merged_vertices<3>(mesh.vertices);
     std::vector<std::int32_t> target(places);
     std::vector<char> keeps(places.size(), 1);
     std::int32_t n_dropped = 0;
@@ -169,7 +169,7 @@ std::int32_t weld(SurfaceMesh& mesh) {
 }
 
 void name_connected_bodies(SurfaceMesh& mesh) {
-    const std::vector<std::int32_t> places = geometry::first_at_same_place<3>(mesh.vertices);
+    const std::vector<std::int32_t> places = geometry::merged_vertices<3>(mesh.vertices);
     DisjointSets connected(places.size());
     for (std::size_t v = 0; v < places.size(); ++v) connected.join(places[v], static_cast<std::int32_t>(v));
     const auto first_vertex = [&](std::int32_t face) {
@@ -235,7 +235,7 @@ SurfaceMesh boundary_of(const Mesh<3>& mesh, std::span<const Vector<3>> displace
     return surface;
 }
 
-CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceHealth& health, UnusableFaces policy) {
+CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceReport& health, UnusableFaces policy) {
     if (health.n_faces != mesh.faces.size() || at(health.n_vertices) != mesh.vertices.size())
         throw BadInput(mesh.name + ": has " + std::to_string(mesh.faces.size()) + " faces and " +
                        std::to_string(mesh.vertices.size()) + " vertices, but the health is that of " +

@@ -184,7 +184,8 @@ private:
             const Stopwatch watch(result_.seconds.ledger);
             result_.ledger.record(dynamics::measure(integrator_, solid_));
             result_.contact = solid_.contact_report();
-            result_.inadmissible_overlaps_max = std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+            result_.inadmissible_overlaps_max =
+                std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
         }
         const auto& entries = result_.ledger.entries();
         if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);

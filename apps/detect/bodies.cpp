@@ -42,7 +42,7 @@ std::vector<std::int64_t> labels_of(const SurfaceMesh& surface) {
 
 InputReport examined(const SurfaceMesh& surface, const DetectOptions& options) {
     InputReport report{.name = surface.name,
-                       .health = geometry::examine(surface.soup(), {.self_intersections = options.self_intersections}),
+                       .health = geometry::check_surface(surface.soup(), {.self_intersections = options.self_intersections}),
                        .lines = {},
                        .n_ignored_elements = surface.n_ignored_elements,
                        .warnings = surface.warnings};
@@ -237,7 +237,7 @@ void update_faces(Bodies& bodies, int step) {
 
 void set_depth(Bodies& bodies, double depth, double distance) {
     constexpr double nothing = 1e-9;  // of the depth: faces that are not rigid must have some
-    bodies.surface.depth.assign(bodies.surface.body.size(), std::max(0.25 * (depth - distance), nothing * depth));
+    bodies.surface.cell_depth.assign(bodies.surface.body.size(), std::max(0.25 * (depth - distance), nothing * depth));
 }
 
 }  // namespace abut::apps

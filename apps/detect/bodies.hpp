@@ -12,7 +12,7 @@ namespace abut::apps {
 /// One surface as it came, and what became of it.
 struct InputReport {
     std::string name;
-    geometry::SurfaceHealth health;
+    geometry::SurfaceReport health;
     std::vector<std::string> lines;  ///< the health in words
     std::int32_t n_used_faces = 0;
     std::int32_t n_skipped_faces = 0, n_cut_faces = 0, n_flat_pieces = 0;  ///< as in mesh::CleanSurface

@@ -116,7 +116,7 @@ enum Problem {
     self_intersection = 32,
 };
 
-std::vector<double> problems_of_input(const geometry::SurfaceHealth& health) {
+std::vector<double> problems_of_input(const geometry::SurfaceReport& health) {
     std::vector<int> problems(at(health.n_faces), 0);
     const auto add = [&](std::int32_t face, Problem problem) { problems[at(face)] |= problem; };
     for (const std::int32_t face : health.slivers) add(face, sliver);

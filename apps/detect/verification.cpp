@@ -9,8 +9,8 @@
 #include <optional>
 #include <set>
 
+#include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
-#include "abut/geometry/places.hpp"
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::apps {
@@ -30,7 +30,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 class Rings {
 public:
     Rings(const SurfaceView<3>& surface, std::span<const Vector<3>> start)
-        : surface_(surface), place_(geometry::first_at_same_place<3>(start)), faces_(start.size()) {
+        : surface_(surface), place_(geometry::merged_vertices<3>(start)), faces_(start.size()) {
         for (std::int32_t face = 0; face < surface.size(); ++face)
             for (const std::int32_t v : surface.vertices_of(face)) faces_[at(place_[at(v)])].push_back(face);
     }
@@ -145,7 +145,7 @@ private:
         const auto corners_1 = projected(frame, face_1, face_1);
         auto corners_2 = projected(frame, face_2, face_1);
         std::ranges::reverse(corners_2);
-        return geometry::shared_area<3>(corners_1, corners_2, PlaneVector<3>::Zero(), geometry::AreaMethod::exact).area;
+        return geometry::overlap_area<3>(corners_1, corners_2, PlaneVector<3>::Zero(), geometry::AreaMethod::exact).area;
     }
     [[nodiscard]] std::vector<PlaneVector<3>> projected(const geometry::PlaneFrame<3>& frame, std::int32_t face,
                                                         std::int32_t origin) const {

@@ -130,19 +130,19 @@ void PieceFinder<Dim>::append_piece(const PairList<Dim>& list, const ContactPair
     piece.area_gradient.fill(PlaneVector<Dim>::Zero());
 
     constexpr double first = Dim == 2 ? 0.5 : 0.25;
-    const geometry::SharedArea<Dim> at_first = list.overlap(pair, motion.offset(begin + first * length), options_.area);
+    const geometry::OverlapArea<Dim> at_first = list.overlap(pair, motion.offset(begin + first * length), options_.area);
     piece.area = {at_first.area, 0.0, 0.0};
-    if (motion.overlap_moves) piece.area_gradient[0] = at_first.shift_derivative;
+    if (motion.overlap_moves) piece.area_gradient[0] = at_first.area_gradient;
     if (motion.overlap_changes()) {
         const PlaneVector<Dim> travel = length * (motion.at_1.tangential_offset - motion.at_0.tangential_offset);
-        const double slope = at_first.shift_derivative.dot(travel);
+        const double slope = at_first.area_gradient.dot(travel);
         double curvature = 0.0;
         if constexpr (Dim == 3) {
             constexpr double second = 0.75;
-            const geometry::SharedArea<Dim> at_second =
+            const geometry::OverlapArea<Dim> at_second =
                 list.overlap(pair, motion.offset(begin + second * length), options_.area);
-            const PlaneVector<Dim> change = (at_second.shift_derivative - at_first.shift_derivative) / (second - first);
-            piece.area_gradient = {PlaneVector<Dim>(at_first.shift_derivative - first * change), change,
+            const PlaneVector<Dim> change = (at_second.area_gradient - at_first.area_gradient) / (second - first);
+            piece.area_gradient = {PlaneVector<Dim>(at_first.area_gradient - first * change), change,
                                    PlaneVector<Dim>::Zero()};
             curvature = change.dot(travel);
         }
@@ -165,9 +165,9 @@ void PieceFinder<Dim>::append_sampled_piece(const PairList<Dim>& list, const Con
     gradient.fill(PlaneVector<Dim>::Zero());
     bool touches = false;
     for (int k = 0; k < rule.size; ++k) {
-        const geometry::SharedArea<Dim> overlap = list.overlap(pair, motion.offset(rule.node[k]), options_.area);
+        const geometry::OverlapArea<Dim> overlap = list.overlap(pair, motion.offset(rule.node[k]), options_.area);
         area[k] = overlap.area;
-        if (motion.overlap_moves) gradient[k] = overlap.shift_derivative;
+        if (motion.overlap_moves) gradient[k] = overlap.area_gradient;
         penetration[k] = std::min(motion.gap(rule.node[k]), 0.0);
         touches = touches || (area[k] > 0.0 && penetration[k] < 0.0);
     }

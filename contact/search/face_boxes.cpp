@@ -39,7 +39,7 @@ RestFace<Dim> RestFaceMaker<Dim>::operator()(std::int32_t face) const {
     RestFace<Dim> rest{.corners = {}, .interaction_radius = 0.0, .radius = circumradius(surface_, face), .face = face};
     for (const std::int32_t v : surface_.vertices_of(face)) rest.corners.extend(surface_.vertices[v]);
     if (!by_distance_alone_ && !surface_.is_rigid(face))
-        rest.interaction_radius = 2.0 * surface_.depth[face] + rest.radius * tilt_;
+        rest.interaction_radius = 2.0 * surface_.cell_depth[face] + rest.radius * tilt_;
     return rest;
 }
 

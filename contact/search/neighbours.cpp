@@ -4,14 +4,14 @@
 #include <numeric>
 
 #include "abut/base/sort_unique.hpp"
-#include "abut/geometry/places.hpp"
+#include "abut/geometry/merged_vertices.hpp"
 
 namespace abut::contact {
 
 template <int Dim>
 Neighbours::Neighbours(const SurfaceView<Dim>& surface, int rings)
     : rings_(rings), face_offsets_(surface.face_offsets.begin(), surface.face_offsets.end()) {
-    const std::vector<std::int32_t> place = geometry::first_at_same_place<Dim>(surface.vertices);
+    const std::vector<std::int32_t> place = geometry::merged_vertices<Dim>(surface.vertices);
     corners_.reserve(surface.face_vertices.size());
     for (const std::int32_t v : surface.face_vertices) corners_.push_back(place[static_cast<std::size_t>(v)]);
     corner_offsets_.assign(surface.vertices.size() + 1, 0);

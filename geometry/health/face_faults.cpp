@@ -14,8 +14,8 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
-#include "abut/geometry/places.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::geometry {
@@ -203,7 +203,7 @@ double shape_tolerance(std::span<const Vector<3>> corners) {
 
 std::vector<FaceFault> face_faults(const FaceSoup& soup) {
     check_offsets(soup);
-    return face_faults(soup, first_at_same_place<3>(soup.vertices));
+    return face_faults(soup, merged_vertices<3>(soup.vertices));
 }
 
 std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> places) {

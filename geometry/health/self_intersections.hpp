@@ -13,7 +13,7 @@ namespace abut::geometry {
 /// folded onto each other. Sorted, complete. Decided exactly on the coordinates as given; a polygon stands for the triangles
 /// it is cut into (geometry/triangulate.hpp), whose common corners and edges count as shared. Corners at exactly one place
 /// are shared whatever their index. Two faces with the same three corners, one turned round, are not listed here.
-/// `places` is first_at_same_place(soup.vertices), `faults` is face_faults(soup).
+/// `places` is merged_vertices(soup.vertices), `faults` is face_faults(soup).
 [[nodiscard]] std::vector<IndexPair> self_intersections(const FaceSoup& soup, std::span<const std::int32_t> places,
                                                         std::span<const FaceFault> faults);
 

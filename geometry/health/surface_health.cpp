@@ -9,8 +9,8 @@
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/health/self_intersections.hpp"
+#include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
-#include "abut/geometry/places.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::geometry {
@@ -42,7 +42,7 @@ public:
         health_.n_vertices = static_cast<std::int32_t>(soup.vertices.size());
     }
 
-    SurfaceHealth report() && {
+    SurfaceReport report() && {
         examine_vertices();
         examine_faces();
         measure_faces();
@@ -67,7 +67,7 @@ private:
     }
 
     void examine_vertices() {
-        health_.place = first_at_same_place<3>(soup_.vertices);
+        health_.place = merged_vertices<3>(soup_.vertices);
         std::vector<char> is_named(soup_.vertices.size(), 0);
         for (const std::int32_t v : soup_.face_vertices)
             if (v >= 0 && v < health_.n_vertices) is_named[at(v)] = 1;
@@ -112,7 +112,7 @@ private:
     }
     void record_aspect(std::int32_t face, double aspect) {
         if (aspect > options_.sliver_aspect) health_.slivers.push_back(face);
-        constexpr auto last = static_cast<double>(std::tuple_size_v<decltype(SurfaceHealth::aspect_decades)> - 1);
+        constexpr auto last = static_cast<double>(std::tuple_size_v<decltype(SurfaceReport::aspect_decades)> - 1);
         const double decade = aspect < infinity ? std::clamp(std::floor(std::log10(aspect)), 0.0, last) : last;
         ++health_.aspect_decades[static_cast<std::size_t>(decade)];
         if (aspect <= health_.worst_aspect) return;
@@ -251,7 +251,7 @@ private:
 
     const FaceSoup& soup_;
     const HealthOptions& options_;
-    SurfaceHealth health_;
+    SurfaceReport health_;
 };
 
 }  // namespace
@@ -274,17 +274,19 @@ double aspect_ratio(std::span<const Vector<3>> corners) {
     return smallest_height > 0.0 ? 1.0 / smallest_height : infinity;
 }
 
-bool SurfaceHealth::closed() const {
+bool SurfaceReport::closed() const {
     return !components.empty() &&
            std::all_of(components.begin(), components.end(), [](const SurfaceComponent& c) { return c.closed; });
 }
 
-bool SurfaceHealth::sound() const {
+bool SurfaceReport::sound() const {
     const auto is_sound = [](const SurfaceComponent& c) { return c.closed && c.oriented && !c.inside_out; };
     return unusable_faces.empty() && flipped_duplicates.empty() && non_planar_faces.empty() && non_manifold_edges.empty() &&
            n_self_intersections == 0 && !components.empty() && std::all_of(components.begin(), components.end(), is_sound);
 }
 
-SurfaceHealth examine(const FaceSoup& soup, const HealthOptions& options) { return Examination(soup, options).report(); }
+SurfaceReport check_surface(const FaceSoup& soup, const HealthOptions& options) {
+    return Examination(soup, options).report();
+}
 
 }  // namespace abut::geometry

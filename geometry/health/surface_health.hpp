@@ -19,7 +19,7 @@ struct HealthOptions {
     std::int32_t max_listed_pairs = 100000;  ///< of faces that intersect; their count is complete
 };
 
-/// An edge by the places of its ends (SurfaceHealth::place), first < second.
+/// An edge by the places of its ends (SurfaceReport::place), first < second.
 struct SurfaceEdge {
     std::int32_t first, second;
     std::int32_t face;     ///< the first face along it
@@ -44,14 +44,14 @@ struct SurfaceComponent {
 /// What there is to know of a surface before it is used. Nothing is left out: what is not listed is counted. Faces are those
 /// of the input; "usable" are those without a fault, and all but the first part speaks of these only. Vertices at exactly
 /// one place are one for all but `n_unwelded_vertices`.
-struct SurfaceHealth {
+struct SurfaceReport {
     std::int32_t n_faces = 0, n_vertices = 0;
 
     std::vector<FaceFault> faults;                       ///< (n_faces)
     std::array<std::int32_t, n_face_faults> n_faults{};  ///< by FaceFault; of `none` the usable faces
     std::vector<std::int32_t> unusable_faces;            ///< increasing
     std::vector<std::int32_t> unreferenced_vertices;     ///< that no face names, usable or not; increasing
-    std::vector<std::int32_t> place;                     ///< (n_vertices) first_at_same_place
+    std::vector<std::int32_t> place;                     ///< (n_vertices) merged_vertices
     std::int32_t n_unwelded_vertices = 0;                ///< at the place of an earlier vertex
     std::int32_t n_bad_vertices = 0;                     ///< with a coordinate that is NaN or infinite
 
@@ -95,12 +95,12 @@ struct SurfaceHealth {
 
 /// Throws BadInput for bad offsets, nothing for bad faces. The same bits for any number of threads.
 /// n log n, and in proportion to the pairs of faces whose boxes overlap if self-intersections are asked for.
-[[nodiscard]] SurfaceHealth examine(const FaceSoup& soup, const HealthOptions& options = {});
+[[nodiscard]] SurfaceReport check_surface(const FaceSoup& soup, const HealthOptions& options = {});
 
-/// What `health`, examine(soup), says, in plain words: a line for each thing a reader should know, with counts and the first
+/// What `health`, check_surface(soup), says, in plain words: a line for each thing a reader should know, with counts and the first
 /// faces, without line ends. `labels` (n_faces) is what faces are called; empty: by their index. Throws
 /// BadInput if the sizes disagree.
-[[nodiscard]] std::vector<std::string> describe(const FaceSoup& soup, const SurfaceHealth& health,
+[[nodiscard]] std::vector<std::string> describe(const FaceSoup& soup, const SurfaceReport& health,
                                                 std::span<const std::int64_t> labels = {});
 
 /// Longest edge over smallest height (the smallest extent orthogonal to an edge) of a face with area; >= 2/sqrt(3) for a

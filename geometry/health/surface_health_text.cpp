@@ -20,7 +20,7 @@ std::string point(const Vector<3>& x) { return "(" + number(x[0]) + ", " + numbe
 
 class Description {
 public:
-    Description(const FaceSoup& soup, const SurfaceHealth& health, std::span<const std::int64_t> labels)
+    Description(const FaceSoup& soup, const SurfaceReport& health, std::span<const std::int64_t> labels)
         : soup_(soup), health_(health), labels_(labels) {}
 
     std::vector<std::string> lines() && {
@@ -152,14 +152,14 @@ private:
     }
 
     const FaceSoup& soup_;
-    const SurfaceHealth& health_;
+    const SurfaceReport& health_;
     std::span<const std::int64_t> labels_;
     std::vector<std::string> lines_;
 };
 
 }  // namespace
 
-std::vector<std::string> describe(const FaceSoup& soup, const SurfaceHealth& health, std::span<const std::int64_t> labels) {
+std::vector<std::string> describe(const FaceSoup& soup, const SurfaceReport& health, std::span<const std::int64_t> labels) {
     if (health.n_faces != soup.size() || (!labels.empty() && labels.size() != at(soup.size())))
         throw BadInput("surface health: a report of " + std::to_string(health.n_faces) + " faces and " +
                        std::to_string(labels.size()) + " labels are given for " + std::to_string(soup.size()) +

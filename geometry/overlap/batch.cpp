@@ -200,8 +200,8 @@ AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const AllSides&
 void store(const AreaLanes& sum, LaneMask is_separated, AreaBatch& result, int first) {
     const Lanes zero{}, smallest = Lanes{} + std::numeric_limits<double>::min();
     store_lanes(is_separated ? zero : larger(0.5 * sum.twice_area, smallest), &result.area[first]);
-    store_lanes(is_separated ? zero : sum.along_b.y, &result.shift_derivative[0][first]);
-    store_lanes(is_separated ? zero : -sum.along_b.x, &result.shift_derivative[1][first]);
+    store_lanes(is_separated ? zero : sum.along_b.y, &result.area_gradient[0][first]);
+    store_lanes(is_separated ? zero : -sum.along_b.x, &result.area_gradient[1][first]);
 }
 
 // The columns from `first` on that fit in one register.
@@ -245,21 +245,21 @@ bool put(const TrianglePair& pair, int k, TriangleBatch& batch) {
     return is_swapped;
 }
 
-SharedArea<3> taken(const AreaBatch& result, int k, bool is_swapped) {
-    const PlaneVector<3> derivative(result.shift_derivative[0][k], result.shift_derivative[1][k]);
+OverlapArea<3> taken(const AreaBatch& result, int k, bool is_swapped) {
+    const PlaneVector<3> derivative(result.area_gradient[0][k], result.area_gradient[1][k]);
     return {result.area[k], is_swapped ? PlaneVector<3>(-derivative) : derivative};
 }
 
 // At most TriangleBatch::size pairs. Columns that are left over repeat the first one.
-void share(std::span<const TrianglePair> pairs, std::span<SharedArea<3>> areas, DecisionCounts& counts) {
+void share(std::span<const TrianglePair> pairs, std::span<OverlapArea<3>> areas, DecisionCounts& counts) {
     TriangleBatch batch;
     std::array<bool, TriangleBatch::size> is_swapped;
     const int n = static_cast<int>(pairs.size());
     for (int k = 0; k < TriangleBatch::size; ++k) is_swapped[k] = put(pairs[k < n ? k : 0], k, batch);
-    const AreaBatch result = shared_areas(batch);
+    const AreaBatch result = overlap_areas(batch);
     for (int k = 0; k < n; ++k) {
         if (result.undecided >> k & 1u) {
-            areas[k] = counted_shared_area(pairs[k].face_1, pairs[k].face_2, pairs[k].shift, counts);
+            areas[k] = counted_overlap_area(pairs[k].face_1, pairs[k].face_2, pairs[k].shift, counts);
         } else {
             areas[k] = taken(result, k, is_swapped[k]);
             ++counts.by_doubles;
@@ -276,13 +276,13 @@ DecisionCounts& DecisionCounts::operator+=(const DecisionCounts& other) {
     return *this;
 }
 
-AreaBatch shared_areas(const TriangleBatch& triangles) {
+AreaBatch overlap_areas(const TriangleBatch& triangles) {
     AreaBatch result;
     for (int first = 0; first < TriangleBatch::size; first += lane_count) share(triangles, first, result);
     return result;
 }
 
-DecisionCounts shared_areas(std::span<const TrianglePair> pairs, std::span<SharedArea<3>> areas) {
+DecisionCounts overlap_areas(std::span<const TrianglePair> pairs, std::span<OverlapArea<3>> areas) {
     if (pairs.size() != areas.size())
         throw BadInput("shared areas: `areas` has " + std::to_string(areas.size()) + " entries for " +
                        std::to_string(pairs.size()) + " pairs. Give as many.");

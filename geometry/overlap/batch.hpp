@@ -20,17 +20,17 @@ struct TriangleBatch {
 
 struct AreaBatch {
     alignas(64) TriangleBatch::Row area;  ///< 0 where the triangles share none, else no less than the smallest normal
-    alignas(64) std::array<TriangleBatch::Row, 2> shift_derivative;  ///< for b shifted against a
+    alignas(64) std::array<TriangleBatch::Row, 2> area_gradient;  ///< for b shifted against a
     std::uint32_t undecided = 0;  ///< bit k: doubles cannot answer for pair k, whose numbers above mean nothing
 };
 
-/// A_12 and dA/ds of `shared_area` for all columns, as far as doubles decide them for sure: where no corner is within 8e-12
+/// A_12 and dA/ds of `overlap_area` for all columns, as far as doubles decide them for sure: where no corner is within 8e-12
 /// of the extent of the pair of the line of an edge (rounding is a thousand times less), or lies on it evidently: a corner
 /// that both triangles have, or an edge along an axis. The answer for a pair does not depend on its column or on the others.
-[[nodiscard]] AreaBatch shared_areas(const TriangleBatch& triangles);
+[[nodiscard]] AreaBatch overlap_areas(const TriangleBatch& triangles);
 
-/// `shared_area` of one pair by the method `fast`, for what the batch leaves undecided. Adds the pair to `counts`.
-[[nodiscard]] SharedArea<3> counted_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
-                                                const PlaneVector<3>& shift, DecisionCounts& counts);
+/// `overlap_area` of one pair by the method `fast`, for what the batch leaves undecided. Adds the pair to `counts`.
+[[nodiscard]] OverlapArea<3> counted_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
+                                                  const PlaneVector<3>& shift, DecisionCounts& counts);
 
 }  // namespace abut::geometry

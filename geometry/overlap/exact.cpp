@@ -85,7 +85,7 @@ PlaneVector<3> shift_derivative_of(const std::vector<Point>& polygon_1, const st
 
 }  // namespace
 
-SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
+OverlapArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
     const Number lower_1 = face_1[0].x(), upper_1 = face_1[1].x();
     const Number lower_2 = Number(face_2[0].x()) + shift.x(), upper_2 = Number(face_2[1].x()) + shift.x();
     const Number area = (std::min)(upper_1, upper_2) - (std::max)(lower_1, lower_2);
@@ -95,7 +95,7 @@ SharedArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2
     return {rounded_up(area), PlaneVector<2>(derivative)};
 }
 
-SharedArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+OverlapArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
     const std::vector<Point> polygon_1 = exact_points(face_1, PlaneVector<3>::Zero()),
                              polygon_2 = exact_points(face_2, shift);
     const std::vector<Triangle> fan_1 = fan(polygon_1), fan_2 = fan(polygon_2);

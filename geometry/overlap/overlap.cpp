@@ -222,8 +222,8 @@ PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygo
     return {along.y(), -along.x()};
 }
 
-SharedArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
-                                  Arithmetic& used) {
+OverlapArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
+                                   Arithmetic& used) {
     const Polygon polygon_1(face_1, face_1[0], PlaneVector<3>::Zero());
     const Polygon polygon_2(face_2, face_1[0], shift);
     const double extent = std::max(polygon_1.extent(), polygon_2.extent());
@@ -259,7 +259,7 @@ SharedArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face
             shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
 }
 
-SharedArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+OverlapArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
     Arithmetic used = Arithmetic::doubles;
     return clipped_shared_area(face_1, face_2, shift, used);
 }
@@ -275,7 +275,7 @@ bool interiors_meet(ProjectedFace<2> face_1, ProjectedFace<2> face_2, double shi
 // 1 where the end of segment 2 cuts segment 1, 0 where segment 1 ends first, half where both end together.
 double weight_of_end(double room, double tolerance) { return std::abs(room) <= tolerance ? 0.5 : (room > 0.0 ? 1.0 : 0.0); }
 
-SharedArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
+OverlapArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
     if (!interiors_meet(face_1, face_2, shift.x())) return {};
     const double length_1 = face_1[1].x() - face_1[0].x();
     const double lower_2 = (face_2[0].x() - face_1[0].x()) + shift.x();
@@ -289,21 +289,21 @@ SharedArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2,
 }  // namespace
 
 template <int Dim>
-SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift,
-                            AreaMethod method) {
+OverlapArea<Dim> overlap_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift,
+                              AreaMethod method) {
     assert(face_1.size() >= Dim && face_1.size() <= max_polygon_vertices);
     assert(face_2.size() >= Dim && face_2.size() <= max_polygon_vertices);
     return method == AreaMethod::fast ? fast_shared_area(face_1, face_2, shift) : exact_shared_area(face_1, face_2, shift);
 }
 
 template <>
-std::vector<PlaneVector<2>> shared_polygon<2>(ProjectedFace<2> face_1, ProjectedFace<2> face_2) {
+std::vector<PlaneVector<2>> overlap_polygon<2>(ProjectedFace<2> face_1, ProjectedFace<2> face_2) {
     if (!interiors_meet(face_1, face_2, 0.0)) return {};
     return {PlaneVector<2>(std::max(face_1[0].x(), face_2[0].x())), PlaneVector<2>(std::min(face_1[1].x(), face_2[1].x()))};
 }
 
 template <>
-std::vector<PlaneVector<3>> shared_polygon<3>(ProjectedFace<3> face_1, ProjectedFace<3> face_2) {
+std::vector<PlaneVector<3>> overlap_polygon<3>(ProjectedFace<3> face_1, ProjectedFace<3> face_2) {
     const PlaneVector<3> no_shift = PlaneVector<3>::Zero();
     if (fast_shared_area(face_1, face_2, no_shift).area == 0.0) return {};
     const Polygon polygon_1(face_1, face_1[0], no_shift), polygon_2(face_2, face_1[0], no_shift);
@@ -319,15 +319,15 @@ std::vector<PlaneVector<3>> shared_polygon<3>(ProjectedFace<3> face_1, Projected
     return corners;
 }
 
-SharedArea<3> counted_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
-                                  DecisionCounts& counts) {
+OverlapArea<3> counted_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
+                                    DecisionCounts& counts) {
     Arithmetic used = Arithmetic::doubles;
-    const SharedArea<3> shared = clipped_shared_area(face_1, face_2, shift, used);
+    const OverlapArea<3> shared = clipped_shared_area(face_1, face_2, shift, used);
     ++(used == Arithmetic::exact ? counts.by_exact_arithmetic : counts.by_scalar_path);
     return shared;
 }
 
-template SharedArea<2> shared_area<2>(ProjectedFace<2>, ProjectedFace<2>, const PlaneVector<2>&, AreaMethod);
-template SharedArea<3> shared_area<3>(ProjectedFace<3>, ProjectedFace<3>, const PlaneVector<3>&, AreaMethod);
+template OverlapArea<2> overlap_area<2>(ProjectedFace<2>, ProjectedFace<2>, const PlaneVector<2>&, AreaMethod);
+template OverlapArea<3> overlap_area<3>(ProjectedFace<3>, ProjectedFace<3>, const PlaneVector<3>&, AreaMethod);
 
 }  // namespace abut::geometry

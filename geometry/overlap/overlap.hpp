@@ -23,9 +23,9 @@ inline constexpr int max_polygon_vertices = 16;
 
 /// The patch two projected faces share, the second one shifted by s.
 template <int Dim>
-struct SharedArea {
-    double area = 0.0;                                             ///< A_12 [m^(Dim-1)], 0 when they only touch or are apart
-    PlaneVector<Dim> shift_derivative = PlaneVector<Dim>::Zero();  ///< dA/ds [m^(Dim-2)]
+struct OverlapArea {
+    double area = 0.0;                                          ///< A_12 [m^(Dim-1)], 0 when they only touch or are apart
+    PlaneVector<Dim> area_gradient = PlaneVector<Dim>::Zero();  ///< dA/ds [m^(Dim-2)]
 };
 
 /// A_12(s) and its derivative. Whether A_12 > 0 is decided exactly, on the given coordinates and the shift as they stand:
@@ -37,15 +37,15 @@ struct SharedArea {
 /// meshes that match up to rounding the derivatives of the two methods differ. Repeated vertices and straight corners are
 /// allowed; a face without area shares none.
 template <int Dim>
-[[nodiscard]] SharedArea<Dim> shared_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
-                                          const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
+[[nodiscard]] OverlapArea<Dim> overlap_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
+                                            const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
 
 /// The patch itself: its corners, counter-clockwise (3D; convex up to rounding, with corners that may repeat), or its two
 /// ends in increasing order (2D). Empty where the faces share no area, which is decided exactly; the corners are rounded.
 template <int Dim>
-[[nodiscard]] std::vector<PlaneVector<Dim>> shared_polygon(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2);
+[[nodiscard]] std::vector<PlaneVector<Dim>> overlap_polygon(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2);
 
-/// Two triangles to be compared as `shared_area` does, each counter-clockwise.
+/// Two triangles to be compared as `overlap_area` does, each counter-clockwise.
 struct TrianglePair {
     std::array<PlaneVector<3>, 3> face_1, face_2;
     PlaneVector<3> shift;  ///< of face 2
@@ -61,10 +61,10 @@ struct DecisionCounts {
     [[nodiscard]] std::int64_t total() const { return by_doubles + by_scalar_path + by_exact_arithmetic; }
 };
 
-/// `shared_area` of many pairs of triangles by the method `fast`, several times quicker: pairs[i] gives areas[i]. The same
+/// `overlap_area` of many pairs of triangles by the method `fast`, several times quicker: pairs[i] gives areas[i]. The same
 /// decisions, and the same numbers up to rounding. What a pair gives depends on that pair alone. Throws
 /// BadInput if the sizes differ.
-DecisionCounts shared_areas(std::span<const TrianglePair> pairs, std::span<SharedArea<3>> areas);
+DecisionCounts overlap_areas(std::span<const TrianglePair> pairs, std::span<OverlapArea<3>> areas);
 
 /// Appends to `events` the parameters tau in (0, 1) at which A_12 may change its formula while the shift goes straight from
 /// `shift_0` to `shift_1`: a vertex of one face crosses an edge of the other. Unsorted, with duplicates possible. Between

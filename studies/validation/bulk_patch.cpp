@@ -29,8 +29,8 @@ constexpr double allowed_error = 1e-12;
 constexpr double allowed_zero = 1e-8;  // the largest zero over the next eigenvalue
 
 const apps::Choices<FreeFaceRule> neumann_choices = {{"local_equilibrium", FreeFaceRule::local_equilibrium},
-                                                {"extrapolate", FreeFaceRule::extrapolate},
-                                                {"adjacent", FreeFaceRule::adjacent}};
+                                                     {"extrapolate", FreeFaceRule::extrapolate},
+                                                     {"adjacent", FreeFaceRule::adjacent}};
 
 struct PatchOptions {
     int cells = 5;
@@ -63,8 +63,8 @@ Quantity error_of(const std::string& name, double value, double allowed) {
 }
 
 template <int Dim>
-void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name, FreeFaceRule neumann,
-               double allowed) {
+void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name,
+               FreeFaceRule neumann, double allowed) {
     const PatchErrors errors = patch_test(mesh, boundary, neumann);
     level.quantities.push_back(error_of("displacement, " + name, errors.displacement, allowed));
     level.quantities.push_back(error_of("stress, " + name, errors.stress, allowed));

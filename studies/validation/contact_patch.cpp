@@ -31,10 +31,10 @@ struct Options {
 const apps::Choices<PatchMesh> meshes = {
     {"matching", PatchMesh::matching}, {"non-matching", PatchMesh::non_matching}, {"unstructured", PatchMesh::unstructured}};
 const apps::Choices<contact::InterfaceWeighting> weights = {{"stiffness", contact::InterfaceWeighting::stiffness},
-                                                 {"half", contact::InterfaceWeighting::half}};
+                                                            {"half", contact::InterfaceWeighting::half}};
 const apps::Choices<solid::FreeFaceRule> neumanns = {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
-                                                {"extrapolate", solid::FreeFaceRule::extrapolate},
-                                                {"adjacent", solid::FreeFaceRule::adjacent}};
+                                                     {"extrapolate", solid::FreeFaceRule::extrapolate},
+                                                     {"adjacent", solid::FreeFaceRule::adjacent}};
 struct Sides {
     std::string name;
     bool free;
@@ -46,7 +46,8 @@ constexpr double exact = 1e-10;
 
 /// Where the method is exact.
 double target(const PatchOptions& options, const Sides& sides) {
-    const bool is_exact = options.mesh == PatchMesh::matching && options.contact.weighting == contact::InterfaceWeighting::stiffness &&
+    const bool is_exact = options.mesh == PatchMesh::matching &&
+                          options.contact.weighting == contact::InterfaceWeighting::stiffness &&
                           options.neumann == solid::FreeFaceRule::local_equilibrium && (!sides.free || sides.zero_poisson);
     return is_exact ? exact : std::numeric_limits<double>::infinity();
 }

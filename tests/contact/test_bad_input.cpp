@@ -37,7 +37,7 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
     auto surface = two_tiles<Dim>();
     std::string says = "face 1";
     SECTION("arrays of different sizes") {
-        surface.depth.pop_back();
+        surface.cell_depth.pop_back();
         says = "`depth` has 1";
     }
     SECTION("an empty row table") {
@@ -60,9 +60,9 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
     SECTION("a centroid that is not a number") { surface.centroid[1][0] = not_a_number; }
     SECTION("a normal that is not unit") { surface.normal[1] *= 1.001; }
     SECTION("a normal that is not a number") { surface.normal[1][0] = not_a_number; }
-    SECTION("a negative depth") { surface.depth[1] = -1e-9; }
-    SECTION("a depth that is not a number") { surface.depth[1] = not_a_number; }
-    SECTION("no depth") { surface.depth[1] = 0.0; }
+    SECTION("a negative depth") { surface.cell_depth[1] = -1e-9; }
+    SECTION("a depth that is not a number") { surface.cell_depth[1] = not_a_number; }
+    SECTION("no depth") { surface.cell_depth[1] = 0.0; }
     SECTION("an area that is not that of the corners") {
         surface.area[1] *= 1.001;
         says = ") m) has the area 1.001, its corners give 1";

@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG(
             for (std::size_t f = 0; f < u.size(); ++f) u[f] = u_0[f] + tau * (u_1[f] - u_0[f]);
             for (const auto& pair : reference.pairs()) {
                 const double g = reference.gap(pair, u);
-                if (g >= 0.0 || g <= -surface.depth[pair.face_1] - surface.depth[pair.face_2]) continue;
+                if (g >= 0.0 || g <= -surface.cell_depth[pair.face_1] - surface.cell_depth[pair.face_2]) continue;
                 if (reference.patch(pair, u).area <= 0.0) continue;
                 ++active;
                 if (!holds(found, pair.face_1, pair.face_2))
@@ -133,7 +133,7 @@ TEMPLATE_TEST_CASE_SIG("the list stays a superset while no face moves by more th
             for (Vector<Dim>& moved : u) moved += 0.5 * skin * random_vector<Dim>(random, 1.0).normalized();
             for (const auto& pair : reference.pairs()) {
                 const double g = reference.gap(pair, u);
-                if (g >= 0.0 || g <= -surface.depth[pair.face_1] - surface.depth[pair.face_2]) continue;
+                if (g >= 0.0 || g <= -surface.cell_depth[pair.face_1] - surface.cell_depth[pair.face_2]) continue;
                 if (reference.patch(pair, u).area <= 0.0) continue;
                 ++active;
                 if (!holds(bare, pair.face_1, pair.face_2)) ++beyond_the_bare_list;

@@ -19,7 +19,7 @@ TEMPLATE_TEST_CASE_SIG("a plane obstacle is a flat face of the wanted size that 
         CHECK((surface.normal[0] - normal.normalized()).norm() < 1e-14);
         CHECK((surface.centroid[0] - point).norm() < 1e-13 * half + 1e-14);
         CHECK(surface.area[0] == Approx(std::pow(2.0 * half, Dim - 1)).epsilon(1e-13));
-        CHECK(surface.depth[0] == 0.0);
+        CHECK(surface.cell_depth[0] == 0.0);
         CHECK(surface.body[0] == 4);
         CHECK(surface.view().is_rigid(0));
     }

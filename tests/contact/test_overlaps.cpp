@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG("two unit tiles shifted by s share 1 - s; the gap is thei
     CHECK(overlap.area == Approx(1.0 - s).epsilon(1e-15 / (1.0 - s)));
     CHECK(overlap.gap == Approx(-0.2).epsilon(1e-14));
     CHECK((overlap.normal - up<Dim>()).norm() < 1e-15);
-    CHECK((overlap.shift_derivative + (s > 0.0 ? 1.0 : 0.0) * axis<Dim>(0)).norm() < 1e-14);
+    CHECK((overlap.area_gradient + (s > 0.0 ? 1.0 : 0.0) * axis<Dim>(0)).norm() < 1e-14);
 }
 
 TEMPLATE_TEST_CASE_SIG("every pair gives what it gives as a pair of the list of contacts", "[contact][overlaps]",
@@ -131,10 +131,10 @@ TEMPLATE_TEST_CASE_SIG("every pair gives what it gives as a pair of the list of 
             const auto& overlap = overlaps.found[n++];
             REQUIRE(overlap.face_1 == i);
             REQUIRE(overlap.face_2 == j);
-            const Vector<Dim> derivative = pair.frame.lift(shared.shift_derivative);
+            const Vector<Dim> derivative = pair.frame.lift(shared.area_gradient);
             difference = std::max({difference, std::abs(overlap.area - shared.area), std::abs(overlap.gap - position.gap),
                                    (overlap.normal - pair.frame.normal()).norm(),
-                                   1e-4 * (overlap.shift_derivative - derivative).norm()});
+                                   1e-4 * (overlap.area_gradient - derivative).norm()});
         }
         CHECK(n == overlaps.found.size());
         CHECK(n > 500);
@@ -157,7 +157,7 @@ TEMPLATE_TEST_CASE_SIG("swapping the faces reverses normal and derivative and ch
         CHECK(std::abs(one.area - other.area) < 2e-15);
         CHECK(std::abs(one.gap - other.gap) < 1e-15);
         CHECK((one.normal + other.normal).norm() < 1e-15);
-        CHECK((one.shift_derivative + other.shift_derivative).norm() < 1e-11);
+        CHECK((one.area_gradient + other.area_gradient).norm() < 1e-11);
     }
 }
 
@@ -190,7 +190,7 @@ TEST_CASE("on surfaces that match every face overlaps its partner alone, decided
     REQUIRE(matching.report.overlaps == n);
     for (int i = 0; i < n; ++i) {
         CHECK(matching.found[i].area == Approx(surface.area[i]).epsilon(1e-14));
-        CHECK(matching.found[i].shift_derivative.norm() < 1e-15);
+        CHECK(matching.found[i].area_gradient.norm() < 1e-15);
         CHECK(std::abs(matching.found[i].gap) < 1e-16);  // of centroids summed in another order
     }
     // Neighbours of a curved sheet have no common plane: their projections may overlap by little, or by rounding.

@@ -82,8 +82,7 @@ TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and chan
         const auto shared_back = list.overlap(backward, swapped.tangential_offset, geometry::AreaMethod::fast);
         CHECK(shared.area == Approx(shared_back.area).margin(1e-14));
         // Moving face 2 one way is moving face 1 the other way.
-        CHECK((forward.frame.lift(shared.shift_derivative) + backward.frame.lift(shared_back.shift_derivative)).norm() <
-              1e-12);
+        CHECK((forward.frame.lift(shared.area_gradient) + backward.frame.lift(shared_back.area_gradient)).norm() < 1e-12);
     }
 }
 

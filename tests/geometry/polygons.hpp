@@ -13,11 +13,11 @@ namespace abut::test {
 using Point = PlaneVector<3>;
 using Polygon = std::vector<Point>;
 using geometry::AreaMethod;
-using geometry::SharedArea;
+using geometry::OverlapArea;
 
-inline SharedArea<3> shared(const Polygon& face_1, const Polygon& face_2, const Point& shift = Point::Zero(),
-                            AreaMethod method = AreaMethod::fast) {
-    return geometry::shared_area<3>(face_1, face_2, shift, method);
+inline OverlapArea<3> shared(const Polygon& face_1, const Polygon& face_2, const Point& shift = Point::Zero(),
+                             AreaMethod method = AreaMethod::fast) {
+    return geometry::overlap_area<3>(face_1, face_2, shift, method);
 }
 
 inline double uniform(std::mt19937& random, double lower, double upper) {

@@ -6,7 +6,7 @@
 
 using namespace abut;
 using namespace abut::test;
-using geometry::shared_area;
+using geometry::overlap_area;
 
 namespace {
 
@@ -14,8 +14,8 @@ constexpr std::array methods{AreaMethod::fast, AreaMethod::exact};
 
 using Segment = std::array<PlaneVector<2>, 2>;
 
-SharedArea<2> shared_length(const Segment& face_1, const Segment& face_2, double shift, AreaMethod method) {
-    return shared_area<2>(face_1, face_2, PlaneVector<2>(shift), method);
+OverlapArea<2> shared_length(const Segment& face_1, const Segment& face_2, double shift, AreaMethod method) {
+    return overlap_area<2>(face_1, face_2, PlaneVector<2>(shift), method);
 }
 Segment segment(double lower, double upper) { return {PlaneVector<2>(lower), PlaneVector<2>(upper)}; }
 
@@ -49,8 +49,8 @@ Polygon counter_clockwise(Polygon polygon) {
 
 // The answer, which must be the same with the faces swapped.
 bool check_same_decision(const Polygon& face_1, const Polygon& face_2, const Point& shift) {
-    const SharedArea<3> fast = shared(face_1, face_2, shift), swapped = shared(face_2, face_1, -shift);
-    const SharedArea<3> exact = shared(face_1, face_2, shift, AreaMethod::exact);
+    const OverlapArea<3> fast = shared(face_1, face_2, shift), swapped = shared(face_2, face_1, -shift);
+    const OverlapArea<3> exact = shared(face_1, face_2, shift, AreaMethod::exact);
     const double size = std::max(size_of(face_1), size_of(face_2)), largest = std::max(size, shift.cwiseAbs().maxCoeff());
     CHECK((fast.area > 0.0) == (exact.area > 0.0));
     CHECK((swapped.area > 0.0) == (exact.area > 0.0));
@@ -71,11 +71,11 @@ TEST_CASE("two unit squares shifted by s share an area of 1 - s", "[overlap]") {
     const auto method = GENERATE(from_range(methods));
     const double s = GENERATE(0.0, 0x1p-30, 1e-9, 0.25, 0.5, 1.0 - 1e-11, 1.0 - 1e-12);
     CAPTURE(s);
-    const SharedArea<3> result = shared(unit_square(), unit_square(), {s, 0.0}, method);
+    const OverlapArea<3> result = shared(unit_square(), unit_square(), {s, 0.0}, method);
     CHECK(result.area == Approx(1.0 - s).epsilon(s < 0.5 ? 1e-15 : 1e-16 / (1.0 - s)));
     if (s == 1.0 - 1e-12) return;  // what is left is as thin as the tolerance of `fast` for coinciding edges
-    CHECK(result.shift_derivative.x() == Approx(s > 0.0 ? -1.0 : 0.0).epsilon(1e-12));  // identical: half of + and half of -
-    CHECK(std::abs(result.shift_derivative.y()) < 1e-12);                               // both end together: the same
+    CHECK(result.area_gradient.x() == Approx(s > 0.0 ? -1.0 : 0.0).epsilon(1e-12));  // identical: half of + and half of -
+    CHECK(std::abs(result.area_gradient.y()) < 1e-12);                               // both end together: the same
 }
 
 TEST_CASE("two unit squares shifted by s share exactly 1 - s where that is a double, and nothing from 1 on", "[overlap]") {
@@ -96,11 +96,11 @@ TEST_CASE("special positions share the area of elementary geometry, at every sca
                           face_2 = placed(pair.face_2, place.scale, place.offset);
             const double size = std::max(size_of(face_1), size_of(face_2));
             const double rounding = 4 * std::numeric_limits<double>::epsilon() * (place.offset.cwiseAbs().maxCoeff() + size);
-            const SharedArea<3> result = shared(face_1, face_2, Point::Zero(), method);
+            const OverlapArea<3> result = shared(face_1, face_2, Point::Zero(), method);
             CHECK(std::abs(result.area - pair.area * place.scale * place.scale) <= rounding * size);
             const bool is_exact = place.scale == std::exp2(std::round(std::log2(place.scale))) && place.offset.isZero(0.0);
             if (is_exact) CHECK((result.area > 0.0) == (pair.area > 0.0));
-            if (result.area == 0.0) CHECK(result.shift_derivative.isZero(0.0));
+            if (result.area == 0.0) CHECK(result.area_gradient.isZero(0.0));
         }
 }
 
@@ -126,9 +126,9 @@ TEST_CASE("the triangles of a partition share areas with a face that add up to i
         double sum = 0.0;
         Point derivative = Point::Zero();
         for (const Polygon& part : triangles_over_unit_square(8)) {
-            const SharedArea<3> result = shared(face, part, Point::Zero(), method);
+            const OverlapArea<3> result = shared(face, part, Point::Zero(), method);
             sum += result.area;
-            derivative += result.shift_derivative;
+            derivative += result.area_gradient;
         }
         CHECK(sum == Approx(area_of(face)).epsilon(1e-13));
         CHECK(derivative.norm() < 1e-13);  // a partition that covers the face may slide: nothing changes
@@ -145,9 +145,9 @@ TEST_CASE("matching triangulations share whole triangles, and sliding one over t
         Point derivative = Point::Zero();
         for (Polygon other : triangles) {
             for (Point& p : other) p += noise * Point(uniform(random, -1, 1), uniform(random, -1, 1));
-            const SharedArea<3> result = shared(face, other);
+            const OverlapArea<3> result = shared(face, other);
             sum += result.area;
-            derivative += result.shift_derivative;
+            derivative += result.area_gradient;
         }
         CHECK(sum == Approx(area_of(face)).epsilon(1e-12));
         CHECK(derivative.norm() < 1e-12);  // every edge of its twin half, which adds up to 0; its neighbours nothing
@@ -159,10 +159,10 @@ TEST_CASE("an edge of 2 that lies on an edge of 1 counts half, up to 1e-12 of th
     CAPTURE(off);
     // The lower edges coincide; the upper one of face 2 lies inside.
     const Polygon face_2 = rectangle(0.25, off, 0.75, 0.5);
-    const Point derivative = shared(unit_square(), face_2).shift_derivative;
+    const Point derivative = shared(unit_square(), face_2).area_gradient;
     CHECK(std::abs(derivative.x()) < 1e-12);
     CHECK(derivative.y() == Approx(0.5 - 0.25).epsilon(1e-12));
-    CHECK(shared(unit_square(), rectangle(0.25, 1e-11, 0.75, 0.5)).shift_derivative.norm() < 1e-12);
+    CHECK(shared(unit_square(), rectangle(0.25, 1e-11, 0.75, 0.5)).area_gradient.norm() < 1e-12);
 }
 
 TEST_CASE("the half rule holds where a short edge lies on a long one and angles are noisy", "[overlap]") {
@@ -171,8 +171,8 @@ TEST_CASE("the half rule holds where a short edge lies on a long one and angles 
         const double x = uniform(random, 0.1, 0.8), width = std::pow(10.0, uniform(random, -6, -2));
         const auto jitter = [&] { return uniform(random, -1e-15, 1e-15); };
         const Polygon small = {{x, jitter()}, {x + width, jitter()}, {x + width, width}, {x, width}};
-        CHECK(shared(unit_square(), small).shift_derivative.y() == Approx(0.5 * width).epsilon(1e-6));
-        CHECK(shared(small, unit_square()).shift_derivative.y() == Approx(-0.5 * width).epsilon(1e-6));
+        CHECK(shared(unit_square(), small).area_gradient.y() == Approx(0.5 * width).epsilon(1e-6));
+        CHECK(shared(small, unit_square()).area_gradient.y() == Approx(-0.5 * width).epsilon(1e-6));
         CHECK(shared(unit_square(), small).area == Approx(width * width).epsilon(1e-6));
     }
 }
@@ -185,10 +185,10 @@ TEST_CASE("swapping the faces leaves the area and negates the derivative", "[ove
         const Polygon face_2 = random_polygon(random, 3 + trial % 4, {uniform(random, -2, 2), uniform(random, -2, 2)},
                                               uniform(random, 0.3, 1.5));
         const Point shift(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
-        const SharedArea<3> forward = shared(face_1, face_2, shift, method),
-                            backward = shared(face_2, face_1, -shift, method);
+        const OverlapArea<3> forward = shared(face_1, face_2, shift, method),
+                             backward = shared(face_2, face_1, -shift, method);
         CHECK(std::abs(forward.area - backward.area) < 1e-14);
-        CHECK((forward.shift_derivative + backward.shift_derivative).norm() < 1e-13);
+        CHECK((forward.area_gradient + backward.area_gradient).norm() < 1e-13);
     }
 }
 
@@ -203,11 +203,11 @@ TEST_CASE("fast and exact agree on thousands of random pairs", "[overlap]") {
             random_polygon(random, 3 + trial % 3, scale * Point(uniform(random, -1.5, 1.5), uniform(random, -1.5, 1.5)),
                            scale * std::pow(10.0, uniform(random, -2, 0.5)));
         const Point shift = scale * Point(uniform(random, -0.1, 0.1), uniform(random, -0.1, 0.1));
-        const SharedArea<3> fast = shared(face_1, face_2, shift), exact = shared(face_1, face_2, shift, AreaMethod::exact);
+        const OverlapArea<3> fast = shared(face_1, face_2, shift), exact = shared(face_1, face_2, shift, AreaMethod::exact);
         const double size = std::max(size_of(face_1), size_of(face_2));
         CHECK((fast.area > 0.0) == (exact.area > 0.0));
         CHECK(std::abs(fast.area - exact.area) <= 1e-15 * size * size);
-        CHECK((fast.shift_derivative - exact.shift_derivative).norm() <= 1e-13 * size);
+        CHECK((fast.area_gradient - exact.area_gradient).norm() <= 1e-13 * size);
         overlapping += exact.area > 0.0;
     }
     CHECK(overlapping > 1000);
@@ -217,13 +217,13 @@ TEST_CASE("fast and exact agree on thousands of random pairs", "[overlap]") {
 TEST_CASE("fast and exact agree on special positions", "[overlap]") {
     for (const NamedPair& pair : special_positions()) {
         CAPTURE(pair.name);
-        const SharedArea<3> fast = shared(pair.face_1, pair.face_2),
-                            exact = shared(pair.face_1, pair.face_2, Point::Zero(), AreaMethod::exact);
+        const OverlapArea<3> fast = shared(pair.face_1, pair.face_2),
+                             exact = shared(pair.face_1, pair.face_2, Point::Zero(), AreaMethod::exact);
         CHECK((fast.area > 0.0) == (exact.area > 0.0));
         CHECK(std::abs(fast.area - exact.area) <= 4e-16);
         // The needles are thinner than the tolerance of `fast` for coinciding edges, which `exact` does not have.
         if (pair.name.find("needle") == std::string::npos && pair.name.find("last digit") == std::string::npos)
-            CHECK((fast.shift_derivative - exact.shift_derivative).norm() <= 1e-13);
+            CHECK((fast.area_gradient - exact.area_gradient).norm() <= 1e-13);
     }
 }
 
@@ -293,7 +293,7 @@ TEST_CASE("the derivative is that of central differences away from events", "[ov
             geometry::append_overlap_events<3>(face_1, face_2, shift - step * Point::Unit(axis),
                                                shift + step * Point::Unit(axis), events);
         if (!events.empty()) continue;  // between events the area is quadratic and the difference exact
-        CHECK((shared(face_1, face_2, shift).shift_derivative - central_difference(face_1, face_2, shift, step)).norm() <
+        CHECK((shared(face_1, face_2, shift).area_gradient - central_difference(face_1, face_2, shift, step)).norm() <
               1e-10);
         ++tested;
     }
@@ -353,11 +353,11 @@ TEST_CASE("2D: segments share the length of elementary geometry", "[overlap][2d]
                              Row{0.5, 0.5, 0.0, 0.0},    // no length
                              Row{1 - 0x1p-53, 2, 0x1p-53, -1.0});
     CAPTURE(row.lower, row.upper, scale);
-    const SharedArea<2> result =
+    const OverlapArea<2> result =
         shared_length(segment(0, scale), segment(scale * row.lower, scale * row.upper), 0.0, method);
     CHECK(result.area == scale * row.length);
-    if (row.length > 1e-12) CHECK(result.shift_derivative.x() == row.derivative);
-    const SharedArea<2> shifted =
+    if (row.length > 1e-12) CHECK(result.area_gradient.x() == row.derivative);
+    const OverlapArea<2> shifted =
         shared_length(segment(0, scale), segment(scale * (row.lower - 0.5), scale * (row.upper - 0.5)), 0.5 * scale, method);
     CHECK(shifted.area == Approx(scale * row.length).margin(1e-15 * scale));
 }
@@ -375,9 +375,9 @@ TEST_CASE("2D: fast and exact agree on whether segments that touch overlap, wher
         const Segment face_1 = segment(end - length_1, end);
         const Segment face_2 = on_the_left ? segment(face_1[0].x() - shift - length_2, face_1[0].x() - shift)
                                            : segment(end - shift, end - shift + length_2);
-        const SharedArea<2> fast = shared_length(face_1, face_2, shift, AreaMethod::fast),
-                            swapped = shared_length(face_2, face_1, -shift, AreaMethod::fast);
-        const SharedArea<2> exact = shared_length(face_1, face_2, shift, AreaMethod::exact);
+        const OverlapArea<2> fast = shared_length(face_1, face_2, shift, AreaMethod::fast),
+                             swapped = shared_length(face_2, face_1, -shift, AreaMethod::fast);
+        const OverlapArea<2> exact = shared_length(face_1, face_2, shift, AreaMethod::exact);
         const bool same = (fast.area > 0.0) == (exact.area > 0.0) && (swapped.area > 0.0) == (exact.area > 0.0);
         if (same && std::abs(fast.area - exact.area) <= 1e-15 * (std::abs(shift) + 1.0)) {
             overlapping += exact.area > 0.0;

@@ -17,18 +17,18 @@ using Corners = std::array<Point, 3>;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Batch {
-    std::vector<SharedArea<3>> areas;
+    std::vector<OverlapArea<3>> areas;
     DecisionCounts counts;
 };
 
 Batch many(const std::vector<TrianglePair>& pairs) {
-    Batch batch{std::vector<SharedArea<3>>(pairs.size()), {}};
-    batch.counts = geometry::shared_areas(pairs, batch.areas);
+    Batch batch{std::vector<OverlapArea<3>>(pairs.size()), {}};
+    batch.counts = geometry::overlap_areas(pairs, batch.areas);
     return batch;
 }
 
-SharedArea<3> alone(const TrianglePair& pair, AreaMethod method = AreaMethod::fast) {
-    return geometry::shared_area<3>(pair.face_1, pair.face_2, pair.shift, method);
+OverlapArea<3> alone(const TrianglePair& pair, AreaMethod method = AreaMethod::fast) {
+    return geometry::overlap_area<3>(pair.face_1, pair.face_2, pair.shift, method);
 }
 
 double twice_area(const Corners& c) {
@@ -70,7 +70,7 @@ void check_against_exact(const std::vector<TrianglePair>& pairs) {
     const Batch batch = many(pairs);
     CHECK(batch.counts.total() == static_cast<std::int64_t>(pairs.size()));
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const SharedArea<3> exact = alone(pairs[k], AreaMethod::exact), &got = batch.areas[k];
+        const OverlapArea<3> exact = alone(pairs[k], AreaMethod::exact), &got = batch.areas[k];
         const double size = extent_of(pairs[k]), limit = 8 * epsilon * size * size + std::numeric_limits<double>::min();
         const bool is_right = (got.area > 0.0) == (exact.area > 0.0) && std::abs(got.area - exact.area) <= limit;
         if (is_right) continue;
@@ -80,7 +80,7 @@ void check_against_exact(const std::vector<TrianglePair>& pairs) {
     }
 }
 
-bool same_bits(const SharedArea<3>& a, const SharedArea<3>& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const OverlapArea<3>& a, const OverlapArea<3>& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 // Pairs of all kinds: apart, overlapping, with common corners and edges, shifted, almost coinciding.
 std::vector<TrianglePair> mixed_pairs(int n) {
@@ -110,11 +110,11 @@ TEST_CASE("many triangles at once share what one by one they share", "[overlap][
     double area = 0.0, derivative = 0.0;
     int overlapping = 0;
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const SharedArea<3> one = alone(pairs[k]);
+        const OverlapArea<3> one = alone(pairs[k]);
         CHECK((one.area > 0.0) == (batch.areas[k].area > 0.0));
         overlapping += one.area > 0.0;
         area = std::max(area, std::abs(one.area - batch.areas[k].area));
-        derivative = std::max(derivative, (one.shift_derivative - batch.areas[k].shift_derivative).norm());
+        derivative = std::max(derivative, (one.area_gradient - batch.areas[k].area_gradient).norm());
     }
     CHECK(overlapping > 5000);
     CHECK(area < 2e-15);
@@ -152,8 +152,8 @@ TEST_CASE("coinciding edges count half in the derivative, as exact arithmetic ha
     CHECK(batch.counts.by_doubles > 1000);
     double largest = 0.0;
     for (std::size_t k = 0; k < pairs.size(); ++k)
-        largest = std::max(largest,
-                           (batch.areas[k].shift_derivative - alone(pairs[k], AreaMethod::exact).shift_derivative).norm());
+        largest =
+            std::max(largest, (batch.areas[k].area_gradient - alone(pairs[k], AreaMethod::exact).area_gradient).norm());
     CHECK(largest < 1e-14);
 }
 
@@ -176,7 +176,7 @@ TEST_CASE("a triangle on itself, and its neighbours over an edge and over a corn
     for (int k = 0; k < 25; ++k) {
         const bool is_itself = k % 6 == 0;
         CHECK(batch.areas[k].area == Approx(is_itself ? 0.5 * twice_area(fan[k / 5]) : 0.0).epsilon(1e-15));
-        CHECK(batch.areas[k].shift_derivative.norm() < 1e-15 * scale);
+        CHECK(batch.areas[k].area_gradient.norm() < 1e-15 * scale);
     }
 }
 
@@ -229,7 +229,7 @@ TEST_CASE("swapped faces share the same, with the derivative reversed", "[overla
         CHECK((one.areas[k].area > 0.0) == (other.areas[k].area > 0.0));
         area = std::max(area, std::abs(one.areas[k].area - other.areas[k].area));
         if (one.areas[k].area > 1e-12)
-            derivative = std::max(derivative, (one.areas[k].shift_derivative + other.areas[k].shift_derivative).norm());
+            derivative = std::max(derivative, (one.areas[k].area_gradient + other.areas[k].area_gradient).norm());
     }
     CHECK(area < 2e-15);
     CHECK(derivative < 1e-10);
@@ -253,7 +253,7 @@ TEST_CASE("the derivative is that of central differences in general position, al
         if (!events.empty()) continue;  // between events the area is quadratic and the difference exact
         const Batch batch = many(pairs);
         const Point expected(batch.areas[2].area - batch.areas[1].area, batch.areas[4].area - batch.areas[3].area);
-        CHECK((batch.areas[0].shift_derivative - expected / (2 * step)).norm() < 1e-10);
+        CHECK((batch.areas[0].area_gradient - expected / (2 * step)).norm() < 1e-10);
         ++tested;
     }
     CHECK(tested > 1500);
@@ -301,8 +301,8 @@ TEST_CASE("special positions of triangles share the area of elementary geometry 
 
 TEST_CASE("numbers of pairs and of areas that differ are refused", "[overlap][batch][errors]") {
     std::vector<TrianglePair> pairs(3);
-    std::vector<SharedArea<3>> areas(2);
-    CHECK_THROWS_WITH(geometry::shared_areas(pairs, areas),
+    std::vector<OverlapArea<3>> areas(2);
+    CHECK_THROWS_WITH(geometry::overlap_areas(pairs, areas),
                       "shared areas: `areas` has 2 entries for 3 pairs. Give as many.");
-    CHECK(geometry::shared_areas({}, {}).total() == 0);
+    CHECK(geometry::overlap_areas({}, {}).total() == 0);
 }

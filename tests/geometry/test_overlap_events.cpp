@@ -101,8 +101,8 @@ TEST_CASE("the derivative integrated with two Gauss points between events is the
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
             for (const double point : {0.5 - std::sqrt(3.0) / 6.0, 0.5 + std::sqrt(3.0) / 6.0}) {
                 const double tau = cuts[k] + point * (cuts[k + 1] - cuts[k]);
-                integral += 0.5 * (cuts[k + 1] - cuts[k]) *
-                            shared(face_1, face_2, shift_0 + tau * motion).shift_derivative.dot(motion);
+                integral +=
+                    0.5 * (cuts[k + 1] - cuts[k]) * shared(face_1, face_2, shift_0 + tau * motion).area_gradient.dot(motion);
             }
         CHECK(std::abs(integral - (shared(face_1, face_2, shift_1).area - shared(face_1, face_2, shift_0).area)) < 1e-13);
     }
@@ -117,7 +117,7 @@ TEST_CASE("matching meshes that slide along a direction of their edges keep the 
         double integral = 0.0;
         for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
             const double middle = 0.5 * (cuts[k] + cuts[k + 1]);
-            integral += (cuts[k + 1] - cuts[k]) * shared(face, face, start + middle * motion).shift_derivative.dot(motion);
+            integral += (cuts[k + 1] - cuts[k]) * shared(face, face, start + middle * motion).area_gradient.dot(motion);
         }
         CHECK(integral == Approx(shared(face, face, start + motion).area - shared(face, face, start).area).margin(1e-14));
     }

@@ -26,7 +26,9 @@ namespace {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-SurfaceHealth examined(const Faces& faces, const HealthOptions& options = {}) { return examine(faces.soup(), options); }
+SurfaceReport examined(const Faces& faces, const HealthOptions& options = {}) {
+    return check_surface(faces.soup(), options);
+}
 FaceFault fault_of(const Faces& faces, std::int32_t face = 0) {
     return face_faults(faces.soup())[static_cast<std::size_t>(face)];
 }
@@ -67,7 +69,7 @@ Faces unwelded(const Faces& faces) {
 }  // namespace
 
 TEST_CASE("no faces are examined without complaint, and are not sound", "[geometry][health]") {
-    const SurfaceHealth health = examine({}, {.self_intersections = true});
+    const SurfaceReport health = check_surface({}, {.self_intersections = true});
     CHECK(health.n_faces == 0);
     CHECK(health.n_usable() == 0);
     CHECK(health.components.empty());
@@ -78,7 +80,7 @@ TEST_CASE("no faces are examined without complaint, and are not sound", "[geomet
 }
 
 TEST_CASE("one triangle is one open component with one rim of three edges", "[geometry][health]") {
-    const SurfaceHealth health = examined(one_face({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
+    const SurfaceReport health = examined(one_face({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
     CHECK(health.n_usable() == 1);
     CHECK(health.n_edges == 3);
     CHECK(health.boundary_edges.size() == 3);
@@ -95,9 +97,9 @@ TEST_CASE("one triangle is one open component with one rim of three edges", "[ge
 TEST_CASE("offsets that do not fit are the host's mistake and throw", "[geometry][health]") {
     Faces bad = one_face(corner_triangle());
     bad.offsets = {0, 2};
-    CHECK_THROWS_WITH(examine(bad.soup()), Contains("`face_offsets` ends with 2 for 3 entries"));
+    CHECK_THROWS_WITH(check_surface(bad.soup()), Contains("`face_offsets` ends with 2 for 3 entries"));
     bad.offsets = {1, 3};
-    CHECK_THROWS_AS(examine(bad.soup()), BadInput);
+    CHECK_THROWS_AS(check_surface(bad.soup()), BadInput);
     bad.offsets = {0, 5, 3};
     CHECK_THROWS_WITH(face_faults(bad.soup()), Contains("`face_offsets` falls after face 1"));
 }
@@ -123,7 +125,7 @@ TEST_CASE("a corner that is NaN or infinite makes its faces unusable and no othe
     const double bad = GENERATE(as<double>{}, no_number, infinite, -infinite);
     CAPTURE(bad);
     const Faces soup = faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {bad, 1, 1}}, {{0, 1, 2}, {0, 1, 3}, {3, 3, 3}});
-    const SurfaceHealth health = examined(soup, {.self_intersections = true});
+    const SurfaceReport health = examined(soup, {.self_intersections = true});
     CHECK(health.unusable_faces == std::vector<std::int32_t>{1, 2});
     CHECK(health.n_faults[static_cast<std::size_t>(FaceFault::not_finite)] == 2);
     CHECK(health.n_bad_vertices == 1);
@@ -150,7 +152,7 @@ TEST_CASE("a surface of any allowed size gives measures of that size", "[geometr
     const double size = GENERATE(1e-70, 1e-20, 1.0, 1e19, 1e70);
     Faces box = cube();
     for (Vector<3>& x : box.vertices) x *= size;
-    const SurfaceHealth health = examined(box, {.self_intersections = true});
+    const SurfaceReport health = examined(box, {.self_intersections = true});
     CHECK(health.sound());
     CHECK(health.area == Approx(6.0 * size * size).margin(0.0));
     CHECK(health.components[0].volume == Approx(size * size * size).margin(0.0));
@@ -163,7 +165,7 @@ TEST_CASE("corners at fewer than three places make no face", "[geometry][health]
     CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {1, 0, 0}}) == FaceFault::repeated_corner);
     CHECK(fault_of(faces(corner_triangle(), {{0, 1, 1}})) == FaceFault::repeated_corner);
     // Three places are enough.
-    const SurfaceHealth health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    const SurfaceReport health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     CHECK(health.n_usable() == 1);
     CHECK(health.repeated_corner_faces == std::vector<std::int32_t>{0});
     CHECK(health.n_edges == 3);
@@ -179,7 +181,7 @@ TEST_CASE("a triangle whose corners are exactly collinear has no area", "[geomet
 }
 
 TEST_CASE("a needle of aspect 1e12 is usable, and counted as a sliver of that decade", "[geometry][health]") {
-    const SurfaceHealth health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5e-12, 0}}));
+    const SurfaceReport health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5e-12, 0}}));
     CHECK(health.n_usable() == 1);
     CHECK(health.worst_aspect == Approx(2e12));
     CHECK(health.worst_aspect_face == 0);
@@ -192,7 +194,7 @@ TEST_CASE("aspect ratios are longest edge over smallest height", "[geometry][hea
     CHECK(aspect_ratio(one_face({{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {0, 1, 0}}).vertices) == Approx(5.0));
     Faces both = one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.02, 0}});
     append(both, one_face(corner_triangle()), {0, 0, 1});
-    SurfaceHealth health = examined(both, {.sliver_aspect = 49.0});
+    SurfaceReport health = examined(both, {.sliver_aspect = 49.0});
     CHECK(health.slivers == std::vector<std::int32_t>{0});
     CHECK(health.worst_aspect == Approx(50.0));
     CHECK(health.aspect_decades[0] == 1);
@@ -223,7 +225,7 @@ TEST_CASE("a polygon that is not flat is usable and listed with its deviation", 
     const double h = 1e-3;
     Faces soup = one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, h}, {0, 1, 0}});
     append(soup, one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-12}, {0, 1, 0}}), {0, 0, 5});
-    const SurfaceHealth health = examined(soup);
+    const SurfaceReport health = examined(soup);
     CHECK(health.n_usable() == 2);
     CHECK(health.non_planar_faces == std::vector<std::int32_t>{0});
     CHECK(health.worst_planarity == Approx(h / 4).epsilon(1e-3));
@@ -241,7 +243,7 @@ TEST_CASE("the second of two equal faces is a duplicate, from whichever corner i
 }
 
 TEST_CASE("a face that repeats another the other way round is usable and reported by itself", "[geometry][health]") {
-    const SurfaceHealth health =
+    const SurfaceReport health =
         examined(faces(corner_triangle(), {{0, 1, 2}, {0, 2, 1}, {2, 1, 0}}), {.self_intersections = true});
     CHECK(health.n_usable() == 2);
     CHECK(health.faults[2] == FaceFault::duplicate);  // of the flipped one
@@ -257,7 +259,7 @@ TEST_CASE("vertices that no face names, and such at one place, are counted", "[g
     soup.vertices.push_back({7, 7, 7});
     soup.vertices.push_back({1, 0, 0});
     soup.vertices.push_back({-0.0, 0, 0});
-    const SurfaceHealth health = examined(soup);
+    const SurfaceReport health = examined(soup);
     CHECK(health.unreferenced_vertices == std::vector<std::int32_t>{3, 4, 5});
     CHECK(health.n_unwelded_vertices == 2);
     CHECK(health.place == std::vector<std::int32_t>{0, 1, 2, 3, 1, 0});
@@ -265,7 +267,7 @@ TEST_CASE("vertices that no face names, and such at one place, are counted", "[g
 
 TEST_CASE("a cube is sound, welded or not", "[geometry][health]") {
     const bool weld = GENERATE(true, false);
-    const SurfaceHealth health = examined(weld ? cube() : unwelded(cube()), {.self_intersections = true});
+    const SurfaceReport health = examined(weld ? cube() : unwelded(cube()), {.self_intersections = true});
     CHECK(health.sound());
     CHECK(health.n_edges == 12);
     CHECK(health.n_unwelded_vertices == (weld ? 0 : 24 - 8));
@@ -278,7 +280,7 @@ TEST_CASE("a closed surface that is turned inside out has a negative volume", "[
     for (std::int32_t face = 0; face < box.size(); ++face)
         std::reverse(box.corners.begin() + box.offsets[static_cast<std::size_t>(face)],
                      box.corners.begin() + box.offsets[static_cast<std::size_t>(face) + 1]);
-    const SurfaceHealth health = examined(box);
+    const SurfaceReport health = examined(box);
     CHECK(health.closed());
     CHECK(health.components[0].inside_out);
     CHECK(health.components[0].volume == Approx(-1.0));
@@ -288,7 +290,7 @@ TEST_CASE("a closed surface that is turned inside out has a negative volume", "[
 TEST_CASE("one face turned round shows on each of its edges", "[geometry][health]") {
     Faces box = cube();
     std::reverse(box.corners.begin(), box.corners.begin() + 4);
-    const SurfaceHealth health = examined(box);
+    const SurfaceReport health = examined(box);
     CHECK(health.inconsistent_edges.size() == 4);
     CHECK(health.closed());
     CHECK_FALSE(health.components[0].oriented);
@@ -296,7 +298,7 @@ TEST_CASE("one face turned round shows on each of its edges", "[geometry][health
 }
 
 TEST_CASE("a Moebius strip cannot be oriented", "[geometry][health]") {
-    const SurfaceHealth health = examined(moebius_strip(12));
+    const SurfaceReport health = examined(moebius_strip(12));
     CHECK(health.n_usable() == 24);
     CHECK(health.inconsistent_edges.size() == 1);
     CHECK(health.n_holes == 1);
@@ -305,7 +307,7 @@ TEST_CASE("a Moebius strip cannot be oriented", "[geometry][health]") {
 }
 
 TEST_CASE("an edge of three faces is not manifold", "[geometry][health]") {
-    const SurfaceHealth health =
+    const SurfaceReport health =
         examined(faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
     REQUIRE(health.non_manifold_edges.size() == 1);
     CHECK(health.non_manifold_edges[0].n_faces == 3);
@@ -319,7 +321,7 @@ TEST_CASE("an edge of three faces is not manifold", "[geometry][health]") {
 TEST_CASE("two cubes along one edge enclose two volumes, along no edge they are two components", "[geometry][health]") {
     Faces touching = cube();
     append(touching, cube(), {1, 1, 0});  // an edge
-    SurfaceHealth health = examined(touching);
+    SurfaceReport health = examined(touching);
     CHECK(health.components.size() == 1);
     CHECK(health.non_manifold_edges.size() == 1);
     CHECK(health.closed());
@@ -343,7 +345,7 @@ TEST_CASE("a sphere with k faces removed has k holes", "[geometry][health]") {
         const auto loop = whole.soup().vertices_of(face);
         if (face % 64 != 3 || face / 64 >= k) pierced.add({loop.begin(), loop.end()});  // 64 faces to an octant
     }
-    const SurfaceHealth health = examined(pierced);
+    const SurfaceReport health = examined(pierced);
     CHECK(health.n_faces == 512 - k);
     CHECK(health.n_holes == k);
     CHECK(health.boundary_edges.size() == static_cast<std::size_t>(3 * k));
@@ -361,7 +363,7 @@ TEST_CASE("the volume inside a sphere of triangles approaches 4/3 pi as the squa
 
 TEST_CASE("two triangles that cross are found", "[geometry][health][intersections]") {
     const Faces crossing = two_triangles({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}});
-    const SurfaceHealth health = examined(crossing, {.self_intersections = true});
+    const SurfaceReport health = examined(crossing, {.self_intersections = true});
     CHECK(health.n_self_intersections == 1);
     CHECK(health.self_intersections == std::vector<IndexPair>{{0, 1}});
     CHECK_FALSE(examined(crossing).looked_for_self_intersections);
@@ -407,7 +409,7 @@ TEST_CASE("a sphere and a torus do not pass through themselves, a torus without 
 TEST_CASE("two spheres intersect in the faces that a test of every pair finds", "[geometry][health][intersections]") {
     Faces both = sphere(2);
     append(both, sphere(2), {0.9, 0.3, 0.2});
-    const SurfaceHealth health = examined(both, {.self_intersections = true, .max_listed_pairs = 3});
+    const SurfaceReport health = examined(both, {.self_intersections = true, .max_listed_pairs = 3});
     CHECK(health.self_intersections.size() == 3);
     const auto places = health.place;
     // Pair by pair: a soup of two faces has no candidates to miss.

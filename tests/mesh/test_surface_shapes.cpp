@@ -15,16 +15,16 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-geometry::SurfaceHealth checked(const SurfaceMesh& mesh) {
-    return geometry::examine(mesh.soup(), {.self_intersections = true});
+geometry::SurfaceReport checked(const SurfaceMesh& mesh) {
+    return geometry::check_surface(mesh.soup(), {.self_intersections = true});
 }
 double volume_of(const SurfaceMesh& mesh) {
-    const auto health = geometry::examine(mesh.soup());
+    const auto health = geometry::check_surface(mesh.soup());
     REQUIRE(health.components.size() == 1);
     return health.components[0].volume;
 }
 /// V - E + F = 2 - 2 genus.
-std::int32_t euler(const geometry::SurfaceHealth& health) { return health.n_vertices - health.n_edges + health.n_faces; }
+std::int32_t euler(const geometry::SurfaceReport& health) { return health.n_vertices - health.n_edges + health.n_faces; }
 
 /// One component, sound, every vertex used once.
 void check_closed(const SurfaceMesh& mesh, int genus) {
@@ -53,7 +53,7 @@ TEST_CASE("a torus is closed, of genus 1, and its volume tends to 2 pi^2 R r^2",
     CHECK(coarse > 0.0);
     CHECK(coarse / fine == Approx(4.0).epsilon(0.02));
     // The axis is the short way.
-    const auto box = geometry::examine(torus(16).soup()).box;
+    const auto box = geometry::check_surface(torus(16).soup()).box;
     for (int i = 0; i < 3; ++i) CHECK(box.upper[i] - box.lower[i] == Approx(i == axis ? 0.8 : 3.8).epsilon(1e-12));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("a sheet is one open piece that faces z and follows its waves", "[mesh
     for (const Vector<3>& x : sheet.vertices)
         CHECK(x.z() == Approx(0.1 * std::sin(3.0 * pi * x.x()) * std::cos(6.0 * pi * x.y())).margin(1e-14));
     const auto flat = sheet_surface({.amplitude = 0.0});
-    CHECK(geometry::examine(flat.soup()).area == Approx(1.0));
+    CHECK(geometry::check_surface(flat.soup()).area == Approx(1.0));
     std::vector<Vector<3>> corners;
     for (const std::int32_t v : flat.faces[0]) corners.push_back(flat.vertices[static_cast<std::size_t>(v)]);
     CHECK(geometry::face_normal<3>(corners).z() == Approx(1.0));
@@ -128,7 +128,7 @@ TEST_CASE("random triangles are those of their seed and fill their box evenly", 
     for (const Vector<3>& x : soup.vertices) mean += x / static_cast<double>(soup.vertices.size());
     // Of an even distribution over 2: variance 4/12, over 5000 centres; five standard deviations.
     for (int i = 0; i < 3; ++i) CHECK(mean[i] == Approx(2.0).margin(5.0 * std::sqrt(4.0 / 12.0 / 5000)));
-    const auto health = geometry::examine(soup.soup());
+    const auto health = geometry::check_surface(soup.soup());
     CHECK(health.n_usable() == 5000);
     CHECK(health.components.size() == 5000);
     // The first two numbers of the seed 1234567, as they are known for this generator: 6457827717110365317 and

@@ -93,7 +93,7 @@ std::string complaint_about(const std::filesystem::path& path, const SurfaceOpti
     return "nothing";
 }
 
-geometry::SurfaceHealth health_of(const SurfaceMesh& mesh) { return geometry::examine(mesh.soup()); }
+geometry::SurfaceReport health_of(const SurfaceMesh& mesh) { return geometry::check_surface(mesh.soup()); }
 
 /// Watertight, with that volume, and one body called like the file.
 void check_is_solid(const SurfaceMesh& mesh, double volume, const std::string& body) {
@@ -398,7 +398,7 @@ TEST_CASE("connected parts become bodies, welded or not", "[mesh][surface]") {
     std::vector<SurfaceMesh> tori = {torus_surface({.axis = 2}), torus_surface({.centre = {1, 0, 0}, .axis = 1})};
     SurfaceMesh both = combine(tori);
     CHECK(both.body_names == std::vector<std::string>{"torus.torus", "torus.torus_2"});
-    CHECK(geometry::examine(both.soup(), {.self_intersections = true}).sound());  // interlocked, apart
+    CHECK(geometry::check_surface(both.soup(), {.self_intersections = true}).sound());  // interlocked, apart
     name_connected_bodies(both);
     CHECK(both.body_names == std::vector<std::string>{"body_1", "body_2"});
     CHECK(std::count(both.face_body.begin(), both.face_body.end(), 1) == tori[1].faces.size());

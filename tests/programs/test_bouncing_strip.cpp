@@ -35,7 +35,8 @@ TEST_CASE("the first impulse of the bouncing strip converges to 2 rho L (v0 + g 
     CHECK(std::abs(number(fine, "impulse_first") - exact) < std::abs(number(coarse, "impulse_first") - exact));
 }
 
-TEST_CASE("the bouncing strip leaves the files of all programs that run a scene and says how far its foot gave way", "[programs]") {
+TEST_CASE("the bouncing strip leaves the files of all programs that run a scene and says how far its foot gave way",
+          "[programs]") {
     const auto outcome = run_well("bouncing_strip", "--steps 1200 --frames 3", "strip_files");
     for (const char* file :
          {"energy.csv", "energy.gp", "summary.json", "strip.pvd", "strip_surface.pvd", "strip_000002.vtu"})

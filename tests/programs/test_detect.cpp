@@ -223,7 +223,7 @@ TEST_CASE("a shape has about n faces, unless a count is given by its own key, an
     CHECK(make_shape("barrel:n_side=2,n_along=3").faces.size() == 8 * 2 * 3 + 4 * 2 * 2);
     CHECK(make_shape("barrel:n_side=2,n_along=3,closed=0").faces.size() == 8 * 2 * 3);
     const auto volume = [](const std::string& text) {
-        return geometry::examine(make_shape(text).soup()).components.at(0).volume;
+        return geometry::check_surface(make_shape(text).soup()).components.at(0).volume;
     };
     CHECK(volume("sphere:n=1280,radius=2") == Approx(8.0 * volume("sphere:n=1280")));
     CHECK(volume("sphere:n=1280,flip=1") == Approx(-volume("sphere:n=1280")));

@@ -131,7 +131,8 @@ TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, 
 
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
-    options.boundary.free_face_rule = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
+    options.boundary.free_face_rule =
+        GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     solid::DirichletCondition<Dim> driven;
     driven.group = "xmin";
     SECTION("all components") {}
@@ -154,7 +155,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynam
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[dynamics][boundary]",
                        ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
-    options.boundary.free_face_rule = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
+    options.boundary.free_face_rule =
+        GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     solid::TractionCondition<Dim> pulse;
     pulse.group = "xmax";
     pulse.history = [](double t, const Vector<Dim>& x) {
@@ -180,7 +182,8 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
         mesh::box<Dim>({.lower = lower, .upper = upper, .size = Dim == 2 ? 0.2 : 0.35, .name = "lower"}),
         mesh::box<Dim>({.lower = other_lower, .upper = other_upper, .size = Dim == 2 ? 0.15 : 0.3, .name = "upper"}));
     auto options = bodies<Dim>(2);
-    options.boundary.free_face_rule = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
+    options.boundary.free_face_rule =
+        GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
     solid::DirichletCondition<Dim> fixed, driven;
     fixed.group = "lower." + axis + "min";
     driven.group = "upper." + axis + "max";

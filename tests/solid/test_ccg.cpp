@@ -361,7 +361,7 @@ TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 
         const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];
         CHECK(solid.ccg().normal_stiffness(static_cast<BoundaryFace>(b)) == Approx(stiffness).epsilon(1e-13));
         CHECK(surface.stiffness[b] == Approx(stiffness).epsilon(1e-13));
-        CHECK(surface.depth[b] ==
+        CHECK(surface.cell_depth[b] ==
               Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));
     }
 }

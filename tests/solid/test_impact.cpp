@@ -58,7 +58,7 @@ std::set<std::pair<std::int32_t, std::int32_t>> touching_pairs(Scene<Dim>& scene
     std::set<std::pair<std::int32_t, std::int32_t>> touching;
     for (const auto& pair : reference.pairs()) {
         const double g = reference.gap(pair, u);
-        if (g >= 0.0 || g <= -surface.depth[pair.face_1] - surface.depth[pair.face_2]) continue;
+        if (g >= 0.0 || g <= -surface.cell_depth[pair.face_1] - surface.cell_depth[pair.face_2]) continue;
         if (reference.patch(pair, u).area > 0.0) touching.emplace(pair.face_1, pair.face_2);
     }
     return touching;

@@ -1,4 +1,4 @@
-#include "abut/geometry/places.hpp"
+#include "abut/geometry/merged_vertices.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ struct Place {
 }  // namespace
 
 template <int Dim>
-std::vector<std::int32_t> first_at_same_place(std::span<const Vector<Dim>> vertices) {
+std::vector<std::int32_t> merged_vertices(std::span<const Vector<Dim>> vertices) {
     std::vector<std::int32_t> first(vertices.size());
     std::iota(first.begin(), first.end(), 0);
     std::vector<Place<Dim>> places;
@@ -38,7 +38,7 @@ std::vector<std::int32_t> first_at_same_place(std::span<const Vector<Dim>> verti
     return first;
 }
 
-template std::vector<std::int32_t> first_at_same_place<2>(std::span<const Vector<2>>);
-template std::vector<std::int32_t> first_at_same_place<3>(std::span<const Vector<3>>);
+template std::vector<std::int32_t> merged_vertices<2>(std::span<const Vector<2>>);
+template std::vector<std::int32_t> merged_vertices<3>(std::span<const Vector<3>>);
 
 }  // namespace abut::geometry
