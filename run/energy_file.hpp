@@ -7,7 +7,7 @@
 namespace abut::run {
 
 /// The ledger of a run as CSV: a row per entry, 17 significant digits, so that every bit comes back; the columns are those of
-/// dynamics::ledger_columns, in SI units. It is written as it goes, and is called <path>.partial until `finish`.
+/// dynamics::ledger_columns, in SI units. It is written as it goes, and is called `path`.partial until `finish`.
 template <int Dim>
 class EnergyFile : public Observer<Dim> {
 public:

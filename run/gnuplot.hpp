@@ -7,14 +7,14 @@ namespace abut::run {
 /// A script of gnuplot without its beginning: terminal, size, what the file is called and the looks that all pictures share
 /// are put in front of it.
 struct Picture {
-    std::string name;     ///< of the files: <name>.gp and <name>.png
+    std::string name;     ///< of the files: NAME.gp and NAME.png
     std::string purpose;  ///< one line, ends the first comment of the script
     int width = 1200;     ///< [pixels]
     int height = 1000;
     std::string script;
 };
 
-/// <name>.gp in a folder, and <name>.png, which the program gnuplot makes of it. Says why there is no picture; empty if there
+/// NAME.gp in a folder, and NAME.png, which the program gnuplot makes of it. Says why there is no picture; empty if there
 /// is one. Throws BadInput if the script cannot be written.
 [[nodiscard]] std::string draw(const std::filesystem::path& directory, const Picture& picture);
 

@@ -29,8 +29,8 @@ struct Frame {
     std::vector<Field<Dim>> boundary_fields{};    ///< each of boundary_faces.size(), in that order
 };
 
-/// The mesh in motion, as files for ParaView: <basename>_000000.vtu, ... with the cells and
-/// <basename>_surface_000000.vtp, ... with the boundary faces, and <basename>.pvd and <basename>_surface.pvd that list
+/// The mesh in motion, as files for ParaView: BASENAME_000000.vtu, ... with the cells and
+/// BASENAME_surface_000000.vtp, ... with the boundary faces, and BASENAME.pvd and BASENAME_surface.pvd that list
 /// them with their times (open these two).
 ///
 /// Both carry the cell array "body". The displacement is written on cells and, averaged over the cells around a vertex, on
