@@ -8,28 +8,12 @@
 
 #include "abut/contact/options.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/report.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "abut/contact/step.hpp"
 #include "abut/contact/surface.hpp"
 
 namespace abut::contact {
-
-/// What happened since the start, for the reader of a run.
-struct ContactReport {
-    std::int64_t candidates = 0;  ///< pairs in the current list
-    std::int64_t candidates_max = 0;
-    std::int64_t active_pairs = 0;  ///< pairs active in the last step; here and below a part of a step counts as one
-    std::int64_t active_pairs_max = 0;
-    std::int64_t events = 0;                 ///< openings, closings and changes of overlap inside steps, all steps
-    std::int64_t rebuilds = 0;               ///< candidate lists made
-    std::int64_t missed_contacts = 0;        ///< pairs first seen with A > 0 and -D < g < 0: must stay 0
-    std::int64_t inadmissible_overlaps = 0;  ///< pairs of the current list with A > 0 and g < 0 that are no contacts
-    std::int64_t compressed_steps = 0;       ///< steps with |g|/D above the warning
-    double compression_max = 0.0;            ///< largest |g|/D
-    double sliding_ratio_max = 0.0;          ///< largest |g| |dA/ds| over the smaller face of a pair
-    std::int64_t slipped_pairs = 0;          ///< slid off each other while pressed in, all steps (StepReport)
-    double slipped_compression_max = 0.0;    ///< their largest |g|/D
-};
 
 /// Which force of a step a scheme takes.
 enum class TakenForce {

@@ -24,7 +24,7 @@ struct CandidateOptions {
     double facing_cosine = -0.5;
     /// [m] >= 0: gaps up to this count besides contact. Contact itself needs 0
     double distance = 0.0;
-    /// [m] how far two faces may move together, each by half of it, before the list is made anew; 0: begins with half the
+    /// [m] how far two faces may move together, each by half of it, before the list is rebuilt; 0: begins with half the
     /// mean size of a face, and is then chosen from the numbers of faces and pairs and from the motion, so that a step costs
     /// least (docs/detection.md)
     double skin = 0.0;

@@ -382,19 +382,17 @@ std::vector<std::vector<Vector<Dim>>> overlap_polygons(const SurfaceView<Dim>& s
     return polygons;
 }
 
-template void find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>, AreaMethod,
-                               Overlaps<2>&);
-template void find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>, AreaMethod,
-                               Overlaps<3>&);
-template Overlaps<2> find_overlaps<2>(const SurfaceView<2>&, std::span<const Vector<2>>, std::span<const IndexPair>,
-                                      AreaMethod);
-template Overlaps<3> find_overlaps<3>(const SurfaceView<3>&, std::span<const Vector<3>>, std::span<const IndexPair>,
-                                      AreaMethod);
-template std::vector<Vector<2>> overlap_polygon<2>(const SurfaceView<2>&, std::span<const Vector<2>>, IndexPair);
-template std::vector<std::vector<Vector<2>>> overlap_polygons<2>(const SurfaceView<2>&, std::span<const Vector<2>>,
-                                                                 std::span<const IndexPair>);
-template std::vector<Vector<3>> overlap_polygon<3>(const SurfaceView<3>&, std::span<const Vector<3>>, IndexPair);
-template std::vector<std::vector<Vector<3>>> overlap_polygons<3>(const SurfaceView<3>&, std::span<const Vector<3>>,
-                                                                 std::span<const IndexPair>);
+#define ABUT_INSTANTIATE(Dim)                                                                                           \
+    template void find_overlaps<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>, std::span<const IndexPair>, \
+                                     AreaMethod, Overlaps<Dim>&);                                                       \
+    template Overlaps<Dim> find_overlaps<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>,                    \
+                                              std::span<const IndexPair>, AreaMethod);                                  \
+    template std::vector<Vector<Dim>> overlap_polygon<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>,       \
+                                                           IndexPair);                                                  \
+    template std::vector<std::vector<Vector<Dim>>> overlap_polygons<Dim>(                                               \
+        const SurfaceView<Dim>&, std::span<const Vector<Dim>>, std::span<const IndexPair>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::contact

@@ -226,7 +226,7 @@ run::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
 
 Json to_json(const BounceOptions& options, std::int64_t steps) {
     Json json = {{"cells", options.cells}, {"gravity", options.gravity}, {"cfl", options.cfl}, {"steps", steps}};
-    json.update(examples::to_json(options.schemes));
+    json.update(apps::to_json(options.schemes));
     json["filter"] = options.filter ? "neutral" : "none";
     if (options.filter) json["patch"] = options.patch;
     json["out"] = options.out.string();
@@ -252,7 +252,7 @@ apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, co
                         });
 }
 
-void run(const BounceOptions& options) {
+void run_study(const BounceOptions& options) {
     check(options);
     apps::prepare_results(program, options.out);
     const auto n = static_cast<std::size_t>(options.cells);
@@ -283,5 +283,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     BounceOptions options;
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

@@ -10,6 +10,7 @@
 
 #include "abut/run/files.hpp"
 #include "apps/support/choices.hpp"
+#include "apps/support/run_options.hpp"
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/report.hpp"
 

@@ -129,12 +129,12 @@ run::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
 
 nlohmann::ordered_json to_json(const FpuOptions& options) {
     nlohmann::ordered_json json = {{"omega", options.omega}, {"dt", options.dt}, {"time", options.time}};
-    json.update(examples::to_json(options.schemes));
+    json.update(apps::to_json(options.schemes));
     json["out"] = options.out.string();
     return json;
 }
 
-void run(const FpuOptions& options) {
+void run_study(const FpuOptions& options) {
     apps::check(options.schemes);
     apps::prepare_results(program, options.out);
     const double omega = options.omega, root = std::sqrt(2.0);
@@ -165,5 +165,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     FpuOptions options;
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

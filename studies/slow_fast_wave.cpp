@@ -257,12 +257,12 @@ Json to_json(const WaveOptions& options) {
                  {"cfl", options.cfl},
                  {"ratio", options.ratio},
                  {"refinements", options.refinements}};
-    json.update(examples::to_json(options.schemes));
+    json.update(apps::to_json(options.schemes));
     json["out"] = options.out.string();
     return json;
 }
 
-void run(const WaveOptions& options) {
+void run_study(const WaveOptions& options) {
     check(options);
     apps::prepare_results(program, options.out, {"profile.csv"});
     apps::Comparison comparison{.options = to_json(options)};
@@ -286,5 +286,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     WaveOptions options;
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+
+#include "abut/base/error.hpp"
 
 namespace abut::benchmark {
 namespace {

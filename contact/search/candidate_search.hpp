@@ -34,7 +34,7 @@ template <int Dim>
 
 /// The pairs of faces that can touch: a list over any number of surfaces, that lives for many steps. docs/detection.md.
 ///
-/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches anew if need be.
+/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches again if need be.
 /// The faces of a body are kept in a spatial order from one search to the next, so that the packed tree is built in one
 /// sweep over them.
 template <int Dim>
@@ -56,7 +56,7 @@ public:
     /// corner came or went. The list holds no longer. Throws as the constructor.
     void surface_changed();
 
-    /// Makes the list anew for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
+    /// Rebuilds the list for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
     /// pair of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that way and as long
     /// as no face has moved by more than half the skin from u_0. Without a condition on facing (facing_cosine = 1) it is
     /// every pair of faces, whatever their normals, that can come as near as `distance` in space. Rigid faces never pair.

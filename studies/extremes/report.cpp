@@ -8,6 +8,7 @@
 
 #include "abut/run/files.hpp"
 #include "apps/support/csv.hpp"
+#include "apps/support/run_options.hpp"
 
 namespace abut::studies::extremes {
 namespace {

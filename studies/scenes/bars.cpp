@@ -23,43 +23,6 @@ using Json = nlohmann::ordered_json;
 const apps::Choices<BarBody> bodies = {
     {"chain", BarBody::chain}, {"strip2d", BarBody::strip2d}, {"strip3d", BarBody::strip3d}};
 
-template <int Dim>
-constexpr int axis = Dim - 1;
-template <int Dim>
-constexpr mesh::CellShape brick = Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron;
-
-/// A box of square cross-section along the axis, its middle at the origin of the others.
-template <int Dim>
-mesh::Mesh<Dim> strip(double bottom, double top, double width, int across, int along, const std::string& name) {
-    Vector<Dim> lower = Vector<Dim>::Constant(-0.5 * width), upper = -lower;
-    lower[axis<Dim>] = bottom;
-    upper[axis<Dim>] = top;
-    std::array<int, Dim> counts;
-    counts.fill(across);
-    counts[axis<Dim>] = along;
-    return mesh::structured_box<Dim>(lower, upper, counts, brick<Dim>, name);
-}
-
-/// Names of the sides of a box, all but its ends.
-template <int Dim>
-std::vector<std::string> side_names() {
-    if constexpr (Dim == 2)
-        return {"xmin", "xmax"};
-    else
-        return {"xmin", "xmax", "ymin", "ymax"};
-}
-
-template <int Dim>
-void add_rollers(solid::SolidOptions<Dim>& solid, const std::string& prefix = "") {
-    for (const std::string& side : side_names<Dim>())
-        solid.boundary.dirichlet.push_back({.group = prefix + side, .constraint = solid::Constraint::normal});
-}
-
-template <int Dim>
-double cross_section(double width) {
-    return Dim == 2 ? width : width * width;
-}
-
 std::string with_body(const BarOptions& options, int cells) {
     return fmt::format("{}, {} cells", options.body_name(), cells);
 }
@@ -74,13 +37,6 @@ std::vector<std::int64_t> nodes_at(const std::vector<double>& times, double dt) 
     std::vector<std::int64_t> nodes;
     for (const double time : times) nodes.push_back(std::llround(time / dt));
     return nodes;
-}
-
-/// Time after the node at which a gap that is linear in between vanishes. A gap that was not known begins at the node.
-double root_after(const ContactHistory& history, std::size_t node) {
-    const double from = history.gap[node], to = history.gap[node + 1];
-    const double dt = history.time[node + 1] - history.time[node];
-    return std::isfinite(from) && std::isfinite(to) ? history.time[node] + dt * from / (from - to) : history.time[node];
 }
 
 /// Keeps what a run of the chain shows.
@@ -132,7 +88,7 @@ public:
         std::array<double, 2> speed{}, momentum{};
         const auto motions = solid::body_motions<Dim>(view, solid);
         for (std::size_t body = 0; body < motions.size(); ++body) {
-            speed[body] = motions[body].velocity[axis<Dim>];
+            speed[body] = motions[body].velocity[bar_axis<Dim>];
             momentum[body] = speed[body] * motions[body].mass;
         }
         if (view.steps > 0) history.pressure.push_back(force(solid, momentum, view.time - history.time.back()) / area_);
@@ -146,7 +102,7 @@ public:
 private:
     /// Of the wall, or of the lower bar on the upper one: with nothing else acting on it, the change of its momentum.
     double force(const solid::Solid<Dim>& solid, const std::array<double, 2>& momentum, double dt) const {
-        if (!solid.options().obstacles.empty()) return -solid.obstacle_force(0)[axis<Dim>];
+        if (!solid.options().obstacles.empty()) return -solid.obstacle_force(0)[bar_axis<Dim>];
         return (momentum[1] - momentum_[1]) / dt;
     }
     void keep_profile(const dynamics::RunView<Dim>& view, const solid::Solid<Dim>& solid) {
@@ -157,7 +113,7 @@ private:
         run_.profiles.push_back({view.time, {}});
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
             run_.profiles.back().cells.push_back(
-                {mesh.cell_centroid[c][axis<Dim>], u[c][axis<Dim>], mesh.cell_measure[c] / volume});
+                {mesh.cell_centroid[c][bar_axis<Dim>], u[c][bar_axis<Dim>], mesh.cell_measure[c] / volume});
     }
 
     double area_;
@@ -233,151 +189,6 @@ void append_history(apps::Table& table, const ContactHistory& history, int cells
 }
 
 }  // namespace
-
-BarChain bar_chain(const BarOnWall& scene, int cells) {
-    using Bond = dynamics::Bond<dynamics::LineSpring>;
-    const double h = scene.bar.length / cells, stiffness = scene.bar.young / h, mass = scene.bar.density * h;
-    std::vector<Bond> bonds = {{Bond::fixed, 0, {.stiffness = 2.0 * stiffness, .one_sided = true}, Vector<1>(scene.gap)}};
-    for (std::int32_t i = 0; i + 1 < cells; ++i) bonds.push_back({i, i + 1, {.stiffness = stiffness}});
-    if (scene.held) bonds.push_back({cells - 1, Bond::fixed, {.stiffness = 2.0 * stiffness}});
-    const auto n = static_cast<std::size_t>(cells);
-    return {std::vector<double>(n, 1.0 / mass), bonds, std::vector<double>(n, -mass * scene.gravity)};
-}
-
-double strip_width(const Bar& bar, int cells) { return 2.0 * bar.length / cells; }
-
-template <int Dim>
-run::Scene<Dim> bar_strip(const BarOnWall& scene, int cells) {
-    const Bar& bar = scene.bar;
-    const Vector<Dim> up = Vector<Dim>::Unit(axis<Dim>);
-    const double width = strip_width(bar, cells), eta = scene.eta == 0.0 ? bar.young : scene.eta;
-    run::Scene<Dim> result;
-    result.mesh = strip<Dim>(scene.gap, scene.gap + bar.length, width, 2, cells, "bar");
-    result.solid.materials = {{.young = bar.young, .poisson = 0.0, .density = bar.density, .eta = eta}};
-    if (scene.gravity != 0.0) result.solid.acceleration = {Vector<Dim>(-scene.gravity * up)};
-    add_rollers(result.solid);
-    if (scene.held) result.solid.boundary.dirichlet.push_back({.group = Dim == 2 ? "ymax" : "zmax"});
-    result.solid.obstacles = {contact::plane_obstacle<Dim>(Vector<Dim>::Zero(), up, bar.length)};
-    result.velocity = {Vector<Dim>(-scene.speed * up)};
-    if (scene.displacement)
-        result.displacement = [u = scene.displacement, up](const Vector<Dim>& x) { return Vector<Dim>(u(x.dot(up)) * up); };
-    result.time = scene.time;
-    result.energy_scale = {"H0", scene.energy * cross_section<Dim>(width)};
-    result.remedy_if_overlapping = "The bar is one body.";
-    result.options = {{"cells", cells}, {"eta", eta}};
-    return result;
-}
-
-double two_strips_width(const Bar& bar, std::array<int, 2> cells) { return strip_width(bar, std::ranges::min(cells)); }
-
-template <int Dim>
-run::Scene<Dim> two_bar_strips(const TwoBars& scene, std::array<int, 2> cells) {
-    const Bar& bar = scene.bar;
-    const double width = two_strips_width(bar, cells), near = 0.5 * scene.gap;
-    const auto across = [&](int along) { return static_cast<int>(std::lround(width * along / bar.length)); };
-    run::Scene<Dim> result;
-    const std::vector<mesh::Mesh<Dim>> strips = {
-        strip<Dim>(-near - bar.length, -near, width, across(cells[0]), cells[0], "lower"),
-        strip<Dim>(near, near + bar.length, width, across(cells[1]), cells[1], "upper")};
-    result.mesh = mesh::combine<Dim>(strips);
-    result.mesh.name = "bars";
-    const Vector<Dim> up = Vector<Dim>::Unit(axis<Dim>);
-    for (std::size_t body = 0; body < 2; ++body) {
-        result.solid.materials.push_back({.young = bar.young, .poisson = 0.0, .density = bar.density, .eta = bar.young});
-        result.velocity.push_back((body == 0 ? 1.0 : -1.0) * scene.speed[body] * up);
-        add_rollers(result.solid, result.mesh.body_names[body] + ".");
-    }
-    result.time = scene.time;
-    result.remedy_if_overlapping = fmt::format("Raise the gap, it is {} m.", scene.gap);
-    result.options = {{"cells", cells}, {"speed", scene.speed}};
-    return result;
-}
-
-double ExactBounce::hit(int impact) const {
-    return gravity_ == 0.0 ? height / speed : speed / gravity_ + 0.5 * impact * period;
-}
-
-double ExactBounce::pressure_at(double time) const {
-    double t = time;
-    if (gravity_ != 0.0) {
-        t = std::fmod(time, period);
-        t = std::min(t, period - t);
-    }
-    return t <= hit() || t >= hit() + bar_.contact_time() ? 0.0 : pressure(t - hit());
-}
-
-double ExactBounce::height_at(double time) const {
-    const double release = hit() + bar_.contact_time();
-    if (gravity_ == 0.0) return std::max({0.0, height - speed * time, speed * (time - release)});
-    // There and back about the middle of the period, when the bar is as high as it gets between two impacts.
-    double t = std::fmod(time, period);
-    t = std::min(t, period - t);
-    if (t <= hit()) return height - 0.5 * gravity_ * t * t;
-    return t <= release ? 0.0 : flight(t - release);
-}
-
-double ExactBounce::velocity_at(double time) const {
-    double t = time, sign = 1.0;
-    if (gravity_ != 0.0) {
-        t = std::fmod(time, period);
-        if (t > 0.5 * period) t = period - t, sign = -1.0;
-    }
-    const double since = std::clamp(t - hit(), 0.0, bar_.contact_time());
-    const double from_wall = bar_.impedance() * since * (speed + 0.5 * gravity_ * since) / bar_.mass();
-    return sign * ((gravity_ == 0.0 ? -speed : 0.0) - gravity_ * t + from_wall);
-}
-
-double ExactBounce::impulse() const { return 2.0 * bar_.mass() * (speed + gravity_ * bar_.length / bar_.wave_speed()); }
-
-/// Between the impacts the bar vibrates: under its own weight it was pressed by 2 rho g (L - x) when it was released.
-double ExactBounce::flight(double since) const {
-    const double c = bar_.wave_speed(), length = bar_.length;
-    const double way = std::fmod(c * since, 2.0 * length), x = std::min(way, 2.0 * length - way);
-    const double vibration = -2.0 * gravity_ / (c * c) * (length * x - 0.5 * x * x);
-    return speed * since - 0.5 * gravity_ * since * since + vibration;
-}
-
-DispersedImpact dispersed_impact(const Bar& bar, BarBody body, int cells, double courant) {
-    // With F(y) = integral of Ai over (-y, infinity), F(0) = 1/3: F = 1/2 at y = 0.409603 =: r, and what is missing of the
-    // impulse is the integral of 2 F over (-infinity, 0) less that of 1 - 2 F over (0, r): -2 Ai'(0) - 0.071116 = 0.446523.
-    constexpr double late = 0.409603, missing = 0.446523;
-    const double h = bar.length / cells, beta = ((body == BarBody::chain ? 1.0 : 4.0) - courant * courant) / 24.0;
-    const double spread = std::cbrt(6.0 * beta * h * h * bar.length);
-    return {.delay = late * spread / bar.wave_speed(), .loss = missing * spread / bar.length};
-}
-
-std::vector<Impact> impacts(const ContactHistory& history, double pause) {
-    std::vector<Impact> found;
-    for (std::size_t n = 0; n + 1 < history.time.size(); ++n) {
-        const bool before = history.gap[n] < 0.0, after = history.gap[n + 1] < 0.0;
-        if (!before && !after) continue;
-        const double begin = before ? history.time[n] : root_after(history, n);
-        if (found.empty() || begin - found.back().end > pause) found.push_back({.begin = begin});
-        Impact& present = found.back();
-        present.end = after ? history.time[n + 1] : root_after(history, n);
-        present.impulse += history.pressure[n] * (history.time[n + 1] - history.time[n]);
-        present.speed = history.speed[n + 1];
-    }
-    if (!found.empty() && history.time.back() - found.back().end < pause) found.pop_back();
-    return found;
-}
-
-MiddlePressure middle_pressure(const ContactHistory& history, double begin, double duration,
-                               const std::function<double(double)>& exact) {
-    double whole = 0.0, sum = 0.0, square = 0.0, moment = 0.0, inertia = 0.0;
-    const double middle = begin + 0.5 * duration;
-    for (std::size_t n = 0; n + 1 < history.time.size(); ++n) {
-        const double dt = history.time[n + 1] - history.time[n], t = history.time[n] + 0.5 * dt, p = history.pressure[n];
-        if (std::abs(t - middle) > 0.4 * duration) continue;
-        whole += dt;
-        sum += p * dt;
-        square += (p - exact(t)) * (p - exact(t)) * dt;
-        moment += p * (t - middle) * dt;
-        inertia += (t - middle) * (t - middle) * dt;
-    }
-    const double mean = sum / whole, rise = 0.5 * duration * moment / inertia;
-    return {.mean = mean, .rms = std::sqrt(square / whole), .at_begin = mean - rise, .at_end = mean + rise};
-}
 
 std::string BarOptions::body_name() const { return apps::name_of(bodies, body); }
 
@@ -503,10 +314,5 @@ void run_study(const apps::Program& program, const BarOptions& options, const Ba
     if (bars.complete) bars.complete(study);
     report(program, options.run.out, study);
 }
-
-template run::Scene<2> bar_strip<2>(const BarOnWall&, int);
-template run::Scene<3> bar_strip<3>(const BarOnWall&, int);
-template run::Scene<2> two_bar_strips<2>(const TwoBars&, std::array<int, 2>);
-template run::Scene<3> two_bar_strips<3>(const TwoBars&, std::array<int, 2>);
 
 }  // namespace abut::studies

@@ -26,6 +26,15 @@ struct Bar {
     [[nodiscard]] double contact_time() const { return 2.0 * length / wave_speed(); }  ///< a wave's way up and down [s]
 };
 
+/// Along which a strip of cells lies.
+template <int Dim>
+inline constexpr int bar_axis = Dim - 1;
+/// Of a strip of this width [m^(Dim-1)]; in 3D it is square.
+template <int Dim>
+[[nodiscard]] double cross_section(double width) {
+    return Dim == 2 ? width : width * width;
+}
+
 /// How a bar is made of cells: masses and springs; or the full solver, two squares or 2 x 2 cubes across.
 enum class BarBody { chain, strip2d, strip3d };
 

@@ -84,7 +84,7 @@ run::Picture picture(const BarOptions& options) {
         .name = program.name, .purpose = "Pressure and velocity, from the .csv files beside this file", .script = script};
 }
 
-void run(const BarOptions& options) {
+void run_study(const BarOptions& options) {
     run_study(program, options,
               {.title = "an elastic bar hits a rigid wall at v0 = 10 m/s",
                .reference = "d'Alembert's solution: contact for 2L/c at the pressure v0 sqrt(E rho), rebound at v0",
@@ -102,5 +102,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     BarOptions options = default_bar_options(program, {50, 100, 200, 400});
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run_study(options); });
 }

@@ -105,7 +105,7 @@ run::Picture picture(const BarOptions& options) {
             .script = script};
 }
 
-void run(const BarOptions& options) {
+void run_study(const BarOptions& options) {
     run_study(program, options,
               {.title = "an elastic bar falls on a rigid wall and bounces",
                .reference = "closed form: p = rho c (v0 + g t) for 2L/c, backwards in every second impact; period 16/3 s",
@@ -123,5 +123,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     BarOptions options = default_bar_options(program, {50, 100, 200});
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run_study(options); });
 }

@@ -149,7 +149,7 @@ run::Picture picture(const BarOptions& options) {
         .name = program.name, .purpose = "Contact stress and field, from the .csv files beside this file", .script = script};
 }
 
-void run(const BarOptions& options) {
+void run_study(const BarOptions& options) {
     apps::Table profiles{.columns = {"cells", "time", "x", "u", "exact"}, .rows = {}};
     const auto run_and_keep_profiles = [&](std::size_t i) {
         BarRun run = run_bar(scene(), options, options.cells[i], profile_times);
@@ -175,5 +175,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     BarOptions options = default_bar_options(program, {50, 100, 200, 400}, unit_bar.length);
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run_study(options); });
 }

@@ -11,6 +11,7 @@
 #include "abut/run/scene.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/program.hpp"
+#include "apps/support/run_options.hpp"
 
 namespace abut::studies {
 

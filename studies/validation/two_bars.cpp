@@ -127,7 +127,7 @@ run::Picture picture(const Options& options) {
         .name = program.name, .purpose = "Pressure and velocities, from the .csv files beside this file", .script = script};
 }
 
-void run(const Options& options) {
+void run_study(const Options& options) {
     check(options);
     const auto add_options_used = [&](Study& study) {
         study.options["speed"] = options.speed;
@@ -151,5 +151,5 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     Options options;
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run(options); });
+        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
 }

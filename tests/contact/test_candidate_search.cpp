@@ -257,7 +257,7 @@ contact::Surface<3> together(contact::Surface<3> surface, const contact::Surface
     for (std::int32_t face = 0; face < other.size(); ++face) {
         std::vector<Vector<3>> corners;
         for (const std::int32_t v : other.view().vertices_of(face)) corners.push_back(other.vertices[v]);
-        surface.append(corners, other.depth[face], other.stiffness[face], other.body[face]);
+        surface.append(corners, other.cell_depth[face], other.stiffness[face], other.body[face]);
     }
     return surface;
 }

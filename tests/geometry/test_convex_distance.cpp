@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/geometry/convex_distance.hpp"
 
 using namespace abut;
