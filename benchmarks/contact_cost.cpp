@@ -157,7 +157,7 @@ void check_coarse(Choices choices) {
     check(coarse, first);
 }
 
-int run(int argc, char** argv) {
+int run_benchmark(int argc, char** argv) {
     Choices choices;
     CLI::App app{"What contact adds to a step of two colliding cylinders."};
     app.option_defaults()->always_capture_default();
@@ -210,4 +210,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return abut::benchmark::main(argc, argv, run); }
+int main(int argc, char** argv) { return abut::benchmark::main(argc, argv, run_benchmark); }

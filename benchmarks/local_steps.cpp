@@ -146,7 +146,7 @@ nlohmann::json compare(const Choices& choices) {
     return result;
 }
 
-int run(int argc, char** argv) {
+int run_benchmark(int argc, char** argv) {
     Choices choices;
     CLI::App app{"Local time steps against one step for all cells, of two bodies refined where they touch."};
     app.option_defaults()->always_capture_default();
@@ -181,4 +181,4 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return benchmark::main(argc, argv, run); }
+int main(int argc, char** argv) { return benchmark::main(argc, argv, run_benchmark); }

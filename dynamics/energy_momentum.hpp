@@ -85,7 +85,7 @@ private:
 
     /// dt^2/2 times the derivative of the mean force at the end of the path: - integral of tau K(q_0 + tau (q_1 - q_0)).
     void factorise(std::span<const double> q_0, std::span<const double> q_1) {
-        const geometry::Quadrature rule = geometry::gauss_legendre(3);
+        const Quadrature rule = gauss_legendre(3);
         stiffness_.clear();
         for (int k = 0; k < rule.size; ++k) {
             for (std::size_t i = 0; i < q_way_.size(); ++i) q_way_[i] = q_0[i] + rule.node[k] * (q_1[i] - q_0[i]);

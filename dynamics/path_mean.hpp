@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/quadrature.hpp"
 #include "abut/dynamics/system.hpp"
-#include "abut/geometry/quadrature.hpp"
 
 namespace abut::dynamics {
 
@@ -43,7 +43,7 @@ public:
                 system_.mean_force(q_0, q_1, time, dt, force);
                 return;
             }
-        const geometry::Quadrature rule = geometry::gauss_legendre(static_cast<int>(mean_));
+        const Quadrature rule = gauss_legendre(static_cast<int>(mean_));
         std::fill(force.begin(), force.end(), 0.0);
         for (int k = 0; k < rule.size; ++k) {
             for (std::size_t i = 0; i < q_.size(); ++i) q_[i] = q_0[i] + rule.node[k] * (q_1[i] - q_0[i]);

@@ -2,14 +2,11 @@
 
 #include <array>
 
+#include "abut/base/quadrature.hpp"
 #include "abut/contact/path/runs.hpp"
-#include "abut/geometry/quadrature.hpp"
 
 namespace abut::contact {
 namespace {
-
-using geometry::gauss_legendre;
-using geometry::Quadrature;
 
 /// The piece of a pair that holds tau, or null where the pair is not active.
 template <int Dim>

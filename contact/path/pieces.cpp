@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "abut/base/quadrature.hpp"
 #include "abut/contact/path/runs.hpp"
-#include "abut/geometry/quadrature.hpp"
 
 namespace abut::contact {
 namespace {
@@ -158,7 +158,7 @@ void PieceFinder<Dim>::append_piece(const PairList<Dim>& list, const ContactPair
 template <int Dim>
 void PieceFinder<Dim>::append_sampled_piece(const PairList<Dim>& list, const ContactPair<Dim>& pair,
                                             const PairMotion<Dim>& motion, Found& found) const {
-    const geometry::Quadrature rule = geometry::gauss_legendre(options_.quadrature);
+    const Quadrature rule = gauss_legendre(options_.quadrature);
     std::array<double, 3> area{};
     std::array<double, 3> penetration{};
     std::array<PlaneVector<Dim>, 3> gradient;

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <stdexcept>
 
-#include "abut/geometry/quadrature.hpp"
+#include "abut/base/quadrature.hpp"
 #include "studies/scenes/boxes.hpp"
 
 namespace abut::studies {
@@ -18,7 +20,7 @@ double det(const Vector<2>& a, const Vector<2>& b) { return a.x() * b.y() - a.y(
 /// Points and weights of the triangle between a cell's centre and one of its edges.
 template <class Visit>
 void visit_cone(const mesh::Mesh<2>& mesh, const Vector<2>& apex, std::span<const std::int32_t> edge, const Visit& visit) {
-    const auto rule = geometry::gauss_legendre(3);
+    const auto rule = gauss_legendre(3);
     const Vector<2> a = mesh.vertices[static_cast<std::size_t>(edge[0])] - apex;
     const Vector<2> b = mesh.vertices[static_cast<std::size_t>(edge[1])] - apex;
     const double measure = std::abs(det(a, b));
@@ -32,7 +34,7 @@ void visit_cone(const mesh::Mesh<2>& mesh, const Vector<2>& apex, std::span<cons
 /// The same of the pyramid between a cell's centre and one of its faces, a tetrahedron at a time.
 template <class Visit>
 void visit_cone(const mesh::Mesh<3>& mesh, const Vector<3>& apex, std::span<const std::int32_t> face, const Visit& visit) {
-    const auto rule = geometry::gauss_legendre(3);
+    const auto rule = gauss_legendre(3);
     const auto corner = [&](std::size_t i) { return Vector<3>(mesh.vertices[static_cast<std::size_t>(face[i])] - apex); };
     for (std::size_t v = 1; v + 1 < face.size(); ++v) {
         const Vector<3> a = corner(0), b = corner(v), c = corner(v + 1);

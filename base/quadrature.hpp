@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-namespace abut::geometry {
+namespace abut {
 
 /// Nodes and weights on [0, 1].
 struct Quadrature {
@@ -20,4 +20,4 @@ struct Quadrature {
     return {3, {0.5 - three, 0.5, 0.5 + three}, {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0}};
 }
 
-}  // namespace abut::geometry
+}  // namespace abut
