@@ -38,7 +38,7 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
     std::string says = "face 1";
     SECTION("arrays of different sizes") {
         surface.cell_depth.pop_back();
-        says = "`depth` has 1";
+        says = "`cell_depth` has 1";
     }
     SECTION("an empty row table") {
         surface.face_offsets.clear();
