@@ -45,7 +45,7 @@ struct HostStep {
 /// costs less than looking at all faces, gradients at the start of a step that are those at the end of the last one.
 ///
 /// Not safe to use from two threads at once; several objects are independent of each other. After an exception the object
-/// stays usable: the step did not happen, and no list holds if it came from a search.
+/// stays usable: the step did not happen (its counters may have seen it), and no list holds if it came from a search.
 template <int Dim>
 class Contact {
 public:
