@@ -14,6 +14,7 @@
 #include "abut/contact/pair_list.hpp"
 #include "abut/contact/path/measures.hpp"
 #include "abut/contact/path/pieces.hpp"
+#include "abut/contact/report_counters.hpp"
 
 namespace abut::contact {
 namespace {

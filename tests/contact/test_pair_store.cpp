@@ -180,8 +180,7 @@ TEMPLATE_TEST_CASE_SIG("a state that is damaged, of another version, dimension o
         refuses(std::move(other).finish(), "version 99, 1 is needed");
     }
     {
-        contact::Contact<5 - Dim> elsewhere(plates<5 - Dim>().view(), deep());
-        auto other_surface = plates<5 - Dim>();
+        const auto other_surface = plates<5 - Dim>();
         contact::Contact<5 - Dim> other(other_surface.view(), deep());
         refuses(other.state(), "it is one of contact " + std::to_string(5 - Dim) + "D");
     }
