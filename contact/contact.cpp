@@ -223,7 +223,7 @@ private:
         return false;
     }
 
-    /// Where A min(g, 0) = 0 the flag may change without a change of the potential: there, and only there, it is set anew.
+    /// Where A min(g, 0) = 0 the flag may change without a change of the potential: there, and only there, it is decided again.
     void update_admission(std::span<const Vector<Dim>> displacement) {
         report_.inadmissible_overlaps = 0;
         const std::span<PairMemory> memory = store_.memory();
