@@ -72,7 +72,7 @@ void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> 
     check_sizes(surface);
     if (displacement.size() != surface.area.size())
         throw BadInput("overlaps: `displacement` has " + std::to_string(displacement.size()) + " entries, " +
-                       std::to_string(surface.size()) + " are needed: one a face.");
+                       std::to_string(surface.size()) + " are needed: one per face.");
 }
 
 // One pair of any two faces, seen along its normal from a corner of face 1.

@@ -171,7 +171,7 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     const auto require_size = [&](std::size_t size, std::size_t expected, const char* array) {
         if (size != expected)
             throw BadInput(std::string("contact surface: `") + array + "` has " + std::to_string(size) + " entries, " +
-                           std::to_string(expected) + " are needed: one a face" + (expected == n ? "." : ", and one more."));
+                           std::to_string(expected) + " are needed: one per face" + (expected == n ? "." : ", and one more."));
     };
     require_size(surface.face_offsets.size(), n + 1, "face_offsets");
     require_size(surface.centroid.size(), n, "centroid");

@@ -309,7 +309,7 @@ TEMPLATE_TEST_CASE_SIG("overlaps of wrong arrays or of faces that do not exist a
     const std::vector<geometry::IndexPair> pairs{{0, 1}, {9, 0}};
     CHECK_THROWS_WITH(contact::overlap_polygons<Dim>(surface.view(), u, pairs), Contains("pair 1 names face 9"));
     u.pop_back();
-    CHECK_THROWS_WITH(find<Dim>(surface, u, {}), Contains("`displacement` has 3 entries, 4 are needed: one a face."));
+    CHECK_THROWS_WITH(find<Dim>(surface, u, {}), Contains("`displacement` has 3 entries, 4 are needed: one per face."));
     auto broken = surface;
     broken.stiffness.pop_back();
     CHECK_THROWS_WITH(find<Dim>(broken, at_rest(surface), {}), Contains("`stiffness` has 3 entries"));
