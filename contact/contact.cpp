@@ -1,9 +1,10 @@
 #include "abut/contact/contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
@@ -20,6 +21,9 @@ namespace abut::contact {
 namespace {
 
 constexpr std::uint32_t state_version = 1;
+
+/// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
+static_assert(sizeof(ContactReport) == 13 * sizeof(double));
 
 template <int Dim>
 std::string state_kind() {
@@ -40,7 +44,8 @@ public:
 
     const ContactStep<Dim>& step(const HostStep<Dim>& host) {
         check_host_step(surface_, host);
-        if (!is_valid_for(motion_since_search(host.displacement_1))) {
+        if (!is_valid_for(motion_since_search(host.displacement_0)) ||
+            !is_valid_for(motion_since_search(host.displacement_1))) {
             search(host.displacement_0, host.displacement_1, host.coupling_of);
             searched_at_.assign(host.displacement_0.begin(), host.displacement_0.end());
         }
@@ -56,13 +61,16 @@ public:
 
     [[nodiscard]] bool is_valid_for(double motion) const { return list_holds_ && candidates_.is_valid_for(motion); }
 
-    void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of) {
-        list_holds_ = false;
+    void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf<Dim>& coupling_of) {
+        if (!coupling_of)
+            throw BadInput("contact: `search` asks for the coupling of the faces that it lists; give a function.");
+        if (!std::exchange(list_holds_, false)) list_stored_pairs();
         searched_at_.clear();
         candidates_.search(u_0, u_1);
         found_.clear();
         for (const auto& [face_1, face_2] : candidates_.candidates())
-            found_.push_back({SurfaceFace{face_1}, SurfaceFace{face_2}});
+            if (const FacePair pair{SurfaceFace{face_1}, SurfaceFace{face_2}}; !is_own_ || is_own_(pair))
+                found_.push_back(pair);
         keep_contacts(u_0);
         sort_unique(found_);
 
@@ -73,7 +81,7 @@ public:
             return PairMemory{is_admitted_at_first(list_[static_cast<std::int32_t>(i)], u_0)};
         });
         list_.list_faces(faces_);
-        step_.faces = faces_;
+        clear_step();
         coupling_ = coupling_of(faces_);
         check_coupling(coupling_, faces_.size());
         list_holds_ = has_searched_ = true;
@@ -115,11 +123,12 @@ public:
 
     [[nodiscard]] std::vector<AdmittedOverlap<Dim>> admitted_overlaps(std::span<const Vector<Dim>> displacement) const {
         require_list();
+        check_listed(displacement.size(), faces_.size());
         std::vector<AdmittedOverlap<Dim>> overlaps;
         for (std::int32_t p = 0; p < list_.size(); ++p) {
+            if (!is_admitted(p)) continue;
             const ContactPair<Dim>& pair = list_[p];
             const auto at = list_.position(surface_, pair, displacement[pair.listed_1], displacement[pair.listed_2]);
-            if (!is_admitted(p)) continue;
             if (const double area = list_.overlap(pair, at.tangential_offset, options_.area).area; area > 0.0)
                 overlaps.push_back({SurfaceFace{pair.face_1}, SurfaceFace{pair.face_2}, pair.frame.normal(), at.gap, area});
         }
@@ -127,14 +136,17 @@ public:
     }
 
     [[nodiscard]] const PairStore& pair_store() const { return store_; }
-    [[nodiscard]] PairStore release_pairs(const std::function<bool(FacePair)>& leaves) {
-        PairStore released = store_.release(leaves);
-        list_stored_pairs();
+    [[nodiscard]] PairStore release_pairs(std::function<bool(FacePair)> is_own) {
+        PairStore released;
+        if (is_own) released = store_.release([&](FacePair pair) { return !is_own(pair); });
+        is_own_ = std::move(is_own);
+        list_holds_ = false;
         return released;
     }
     void take_pairs(const PairStore& pairs) {
+        for (const FacePair pair : pairs.pairs()) check_taken(pair);
         store_.take(pairs);
-        list_stored_pairs();
+        list_holds_ = false;
         has_searched_ = true;
     }
 
@@ -164,10 +176,10 @@ public:
         store_ = std::move(store);
         report_ = report;
         has_searched_ = has_searched;
-        list_stored_pairs();
+        list_holds_ = false;
         searched_at_.clear();
         faces_.clear();
-        step_ = {};
+        clear_step();
     }
 
     [[nodiscard]] const SurfaceView<Dim>& surface() const { return surface_; }
@@ -200,12 +212,35 @@ private:
                 found_.push_back(store_.pairs()[static_cast<std::size_t>(p)]);
     }
 
-    /// The list of all that the store knows; faces are not numbered.
+    /// The list of all that the store knows, where something else than a search changed the store; faces are not numbered.
     void list_stored_pairs() {
-        list_holds_ = false;
         list_.clear();
         for (const auto& [face_1, face_2] : store_.pairs())
             list_.append(surface_, number_of(face_1), number_of(face_2), options_.weighting);
+    }
+
+    /// A list without a step so far.
+    void clear_step() {
+        step_.faces = faces_;
+        step_.pairs.clear();
+        step_.mean_correction.assign(faces_.size(), Vector<Dim>::Zero());
+        step_.mean_gradient.assign(faces_.size(), Vector<Dim>::Zero());
+        step_.mean_normal_force.assign(faces_.size(), 0.0);
+        step_.energy = 0.0;
+        step_.report = {};
+    }
+
+    void check_taken(FacePair pair) const {
+        const std::int32_t face_1 = number_of(pair.face_1), face_2 = number_of(pair.face_2);
+        const std::string name = "contact: pair (" + std::to_string(face_1) + ", " + std::to_string(face_2) + ") ";
+        if (face_1 < 0 || face_2 >= surface_.size())
+            throw BadInput(name + "is handed over, but there are " + std::to_string(surface_.size()) +
+                               " faces. Hand pairs over between Contacts of the same surface.",
+                           {.face_1 = face_1, .face_2 = face_2});
+        if (is_own_ && !is_own_(pair))
+            throw Misuse(
+                name + "is handed over, but is not this Contact's own. Call `release_pairs` with the new rule first.",
+                {.face_1 = face_1, .face_2 = face_2});
     }
 
     /// Whether A > 0 and g < 0.
@@ -290,6 +325,7 @@ private:
     Reconstruction<Dim> law_;
     ContactStep<Dim> step_;
     ContactReport report_;
+    std::function<bool(FacePair)> is_own_;  // empty: all are
     std::vector<FacePair> found_;           // work array of `search`
     std::vector<Vector<Dim>> searched_at_;  // all faces at the start of the step of the last search; of `step` alone
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // work arrays of `step`
@@ -315,7 +351,7 @@ bool Contact<Dim>::is_valid_for(double motion) const {
 }
 template <int Dim>
 void Contact<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
-                          const CouplingOf& coupling_of) {
+                          const CouplingOf<Dim>& coupling_of) {
     implementation_->search(u_0, u_1, coupling_of);
 }
 template <int Dim>
@@ -350,8 +386,8 @@ const PairStore& Contact<Dim>::pair_store() const {
     return implementation_->pair_store();
 }
 template <int Dim>
-PairStore Contact<Dim>::release_pairs(const std::function<bool(FacePair)>& leaves) {
-    return implementation_->release_pairs(leaves);
+PairStore Contact<Dim>::release_pairs(std::function<bool(FacePair)> is_own) {
+    return implementation_->release_pairs(std::move(is_own));
 }
 template <int Dim>
 void Contact<Dim>::take_pairs(const PairStore& pairs) {

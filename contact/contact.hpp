@@ -17,17 +17,20 @@ namespace abut::contact {
 
 /// Which force of a step a scheme takes.
 enum class TakenForce {
-    mean,  ///< the exact mean along the straight way: MEMM
+    mean,  ///< the exact mean along the straight path: MEMM
     end,   ///< that at the end of the step: central differences, Bilbao. What opens and closes inside the step is not seen
 };
+
+/// How the gradients of a host answer to corrections of these listed faces; asked after each search.
+template <int Dim>
+using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)>;
 
 /// One step as `Contact::step` wants it from a host.
 template <int Dim>
 struct HostStep {
     std::span<const Vector<Dim>> displacement_0;  ///< û of all faces of the surface at the start of the step (n_faces) [m]
     std::span<const Vector<Dim>> displacement_1;  ///< the same at its end
-    /// Asked after each search: how the host's gradients answer to corrections of the listed faces.
-    std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)> coupling_of;
+    CouplingOf<Dim> coupling_of;
     /// Asked at each step: y_f = dV/dũ_f at ũ = û, less |f| t_f, of the listed faces at both ends (n_listed) [N].
     std::function<void(std::span<const SurfaceFace> faces, std::span<Vector<Dim>> gradient_0,
                        std::span<Vector<Dim>> gradient_1)>
@@ -37,7 +40,7 @@ struct HostStep {
 
 /// The contact of a set of surfaces, for any solver that moves its bodies along straight lines during a step.
 ///
-/// A host calls `step` once a step. It adds `mean_correction` to the displacement of the listed faces in its own force
+/// A host calls `step` once per step. It adds `mean_correction` to the displacement of the listed faces in its own force
 /// evaluation at the middle of the step, adds `mean_gradient` to dV/dû of these faces, and takes both to its unknowns by the
 /// transpose of its reconstruction. docs/embedding.md walks through it; docs/method.md, Contact and Time, has the equations.
 ///
@@ -49,33 +52,31 @@ struct HostStep {
 template <int Dim>
 class Contact {
 public:
-    /// Keeps the view: the host's arrays must outlive it. Throws BadInput for a surface (see `check`) or an option that is no
-    /// good.
-    Contact(SurfaceView<Dim> surface, const ContactOptions& options);
+    /// Keeps the view: the host's arrays must outlive it. Throws BadInput naming what is wrong: a surface that `check`
+    /// refuses, or an option out of range.
+    explicit Contact(SurfaceView<Dim> surface, const ContactOptions& options = {});
     ~Contact();
     Contact(Contact&&) noexcept;
     Contact& operator=(Contact&&) noexcept;
 
-    /// What contact does in a step; searches first where the list of candidates no longer holds. Throws what `search` and
-    /// `integrate` throw, BadInput for arrays of the wrong size.
+    /// Contact along one step; searches first where the candidate list is no longer valid. Throws what `search` and
+    /// `integrate` throw, BadInput for arrays of the wrong size or a function that is not set.
     const ContactStep<Dim>& step(const HostStep<Dim>& host);
 
     /// Whether the candidate list is still a superset of all that can touch, when no face has moved by more than `motion`
     /// [m] since `search`.
     [[nodiscard]] bool is_valid_for(double motion) const;
 
-    /// How the host's gradients answer to corrections of the given faces; called after each search.
-    using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)>;
-
     /// Makes a new list for a step from u_0 to u_1, both of all faces (n_faces) [m]. Throws what CandidateSearch::search
     /// throws, and BadInput for a coupling out of range; no list holds then until a search ends well.
-    void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf& coupling_of);
+    void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf<Dim>& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.
     [[nodiscard]] std::span<const SurfaceFace> faces() const;
 
     /// Decides admission at the start of the step, then integrates along it. Throws TooDeep naming the faces when a pair is
-    /// pressed in deeper than `compression_limit`, Diverged when the path is not finite, Misuse without a list.
+    /// pressed in deeper than `compression_limit`, Diverged when the path is not finite, BadInput for a wrong size, Misuse
+    /// without a list.
     const ContactStep<Dim>& integrate(const FacePath<Dim>& path);
 
     /// For schemes that take the force at the end of a step alone: decides admission at its start as `integrate` does, then
@@ -83,24 +84,31 @@ public:
     const ContactStep<Dim>& follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
                                    std::span<const Vector<Dim>> gradient_1);
 
-    /// Corrections and pair forces of one state (a path without motion), with the admission as it stands; counts nothing.
+    /// Corrections and pair forces of one state (n_listed), as along a path without motion, with the admission as it stands;
+    /// counts nothing. Throws as `integrate`, except TooDeep.
     const ContactStep<Dim>& evaluate(std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> gradient);
 
-    /// What the last of these calls returned; empty before.
+    /// The result of the last of these calls; without pairs and forces after a search.
     [[nodiscard]] const ContactStep<Dim>& last() const;
 
-    /// The admitted pairs of the list that share area when the listed faces have these displacements, open or closed.
+    /// The admitted pairs of the list that share area when the listed faces have these displacements (n_listed) [m], open or
+    /// closed. Throws BadInput for a wrong size, Misuse without a list.
     [[nodiscard]] std::vector<AdmittedOverlap<Dim>> admitted_overlaps(std::span<const Vector<Dim>> displacement) const;
 
-    /// What the listed pairs remember. A host that hands pairs to another owner works on it between two steps; the next step
-    /// must then begin with a search, which `step` sees to.
+    /// What the listed pairs remember.
     [[nodiscard]] const PairStore& pair_store() const;
-    [[nodiscard]] PairStore release_pairs(const std::function<bool(FacePair)>& leaves);
+    /// Several Contacts of one surface can share its pairs: from here on this one lists only the pairs for which `is_own` is
+    /// true (empty: all), and returns what it remembers of the others, for `take_pairs` of their new owners. Between two
+    /// steps; the next one must begin with a search, which `step` sees to.
+    [[nodiscard]] PairStore release_pairs(std::function<bool(FacePair)> is_own);
+    /// Takes over what another Contact released. Throws BadInput for a face that the surface does not have, Misuse for a pair
+    /// that is not this one's own, or that it knows already; it stays as it is then.
     void take_pairs(const PairStore& pairs);
 
-    /// All that the next steps depend on, and the counters, as bytes: versioned, with a checksum. After `restore` of an object
-    /// made for the same surface with the same options the next steps have the same bits; they begin with a search. Throws
-    /// BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or surface.
+    /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After `restore` of an
+    /// object made for the same surface with the same options (and the same own pairs) the next steps have the same bits; they
+    /// begin with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or
+    /// surface.
     [[nodiscard]] std::vector<std::byte> state() const;
     void restore(std::span<const std::byte> state);
 

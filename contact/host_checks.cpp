@@ -48,8 +48,15 @@ void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
     for (const std::int32_t column : coupling.columns)
         if (column < 0 || static_cast<std::size_t>(column) >= n_faces)
             refuse("names face " + std::to_string(column) + " of " + std::to_string(n_faces) +
-                       "; columns are places in Contact::faces.",
+                       "; columns are indices into Contact::faces.",
                    {.value = static_cast<double>(column), .allowed = static_cast<double>(n_faces)});
+}
+
+void check_listed(std::size_t size, std::size_t n_faces) {
+    if (size != n_faces)
+        throw BadInput("contact: the path of the listed faces has an array of " + std::to_string(size) + " entries for " +
+                           std::to_string(n_faces) + " faces; give one for each of Contact::faces.",
+                       {.value = static_cast<double>(size), .allowed = static_cast<double>(n_faces)});
 }
 
 template <int Dim>
@@ -57,14 +64,11 @@ void check_path(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> fa
     const std::size_t n_faces = faces.size();
     for (const std::size_t size :
          {path.displacement_0.size(), path.displacement_1.size(), path.gradient_0.size(), path.gradient_1.size()})
-        if (size != n_faces)
-            throw BadInput("contact: the path of the listed faces has an array of " + std::to_string(size) +
-                               " entries for " + std::to_string(n_faces) + " faces; give one for each of Contact::faces.",
-                           {.value = static_cast<double>(size), .allowed = static_cast<double>(n_faces)});
+        check_listed(size, n_faces);
     for (std::size_t i = 0; i < n_faces; ++i)
         if (!path.displacement_0[i].allFinite() || !path.displacement_1[i].allFinite() || !path.gradient_0[i].allFinite() ||
             !path.gradient_1[i].allFinite())
-            throw Diverged("contact: displacement or force of " + face_name(surface, number_of(faces[i])) +
+            throw Diverged("contact: displacement or energy gradient of " + face_name(surface, number_of(faces[i])) +
                                " is not finite: the run has diverged. Take a smaller time step.",
                            {.face_1 = number_of(faces[i])});
 }
@@ -78,7 +82,9 @@ void check_host_step(const SurfaceView<Dim>& surface, const HostStep<Dim>& host)
                                " faces of the surface; give one each.",
                            {.value = static_cast<double>(size), .allowed = static_cast<double>(n)});
     if (!host.coupling_of || !host.gradients_of)
-        throw BadInput("contact: HostStep::coupling_of and HostStep::gradients_of are asked at every step; set both.");
+        throw BadInput(
+            "contact: HostStep::coupling_of (asked after each search) and HostStep::gradients_of (asked at each step) must "
+            "both be set.");
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                   \

@@ -7,8 +7,10 @@
 
 namespace abut::contact {
 
-/// What a host gives to a Contact, looked at. All throw BadInput; `check_path` throws Diverged where a value is not finite.
+/// Checks of a host's input. All throw BadInput; `check_path` throws Diverged where a value is not finite.
 void check_options(const ContactOptions& options);
+/// An array that should have one entry per listed face.
+void check_listed(std::size_t size, std::size_t n_faces);
 template <int Dim>
 void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces);
 template <int Dim>

@@ -30,7 +30,7 @@ struct Scene {
     }
     [[nodiscard]] Vector<Dim> motion(IndexPair pair) const { return displacement[pair.second] - displacement[pair.first]; }
     [[nodiscard]] Vector<Dim> apart(IndexPair pair) const {
-        return (surface.centroid[pair.second] - surface.centroid[pair.first]) + motion(pair);
+        return contact::apart(surface, pair.first, pair.second, displacement[pair.first], displacement[pair.second]);
     }
     [[nodiscard]] const Vector<Dim>& corner(std::int32_t face, int i) const {
         return surface.vertices[surface.face_vertices[surface.face_offsets[face] + i]];
@@ -58,7 +58,8 @@ template <int Dim>
 [[noreturn]] void refuse_pair(const SurfaceView<Dim>& surface, IndexPair pair, const std::string& name) {
     const bool is_first = pair.first < 0 || pair.first >= surface.size();
     throw BadInput("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
-                   ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.");
+                       ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.",
+                   {.face_1 = pair.first, .face_2 = pair.second});
 }
 
 template <int Dim>
@@ -72,7 +73,8 @@ void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> 
     check_sizes(surface);
     if (displacement.size() != surface.area.size())
         throw BadInput("overlaps: `displacement` has " + std::to_string(displacement.size()) + " entries, " +
-                       std::to_string(surface.size()) + " are needed: one per face.");
+                           std::to_string(surface.size()) + " are needed: one per face.",
+                       {.value = static_cast<double>(displacement.size()), .allowed = static_cast<double>(surface.size())});
 }
 
 // One pair of any two faces, seen along its normal from a corner of face 1.

@@ -10,13 +10,14 @@
 namespace abut::contact {
 
 /// The patch that two facing faces share, seen along their common normal.
-/// Law: swapping faces 1 and 2 reverses `normal` and `area_gradient` and changes nothing else (beyond rounding).
+/// Law: swapping faces 1 and 2 reverses `normal` and `area_gradient` and changes nothing else (beyond rounding), unless both
+/// faces are rigid: the normal is then that of face 2.
 template <int Dim>
 struct Overlap {
-    std::int32_t face_1;
+    std::int32_t face_1;  ///< index into the surface
     std::int32_t face_2;
     double area;                ///< A_12 [m^(Dim-1)], > 0
-    Vector<Dim> normal;         ///< n_12, unit, from face 1's body into face 2's: `pair_normal`
+    Vector<Dim> normal;         ///< n_12, unit, from face 1's body into face 2's: along n_1 - n_2, or that of the rigid face
     double gap;                 ///< g [m], between the centroids along the normal; > 0 apart
     Vector<Dim> area_gradient;  ///< dA/ds [m^(Dim-2)], orthogonal to the normal: what A gains as face 2 moves
 };
@@ -38,7 +39,7 @@ struct Overlaps {
 /// The narrow phase: of every pair of faces that faces each other, displaced, the overlap; pairs that share no area give
 /// none. Corners are projected in double arithmetic; whether the projected faces overlap is then decided exactly, by both
 /// methods. Faces that match to the last digit, displaced by the same or along an axis, meet in corners and edges to the
-/// last digit also in projection. The same bits for any number of threads. `displacement` has one vector a face [m].
+/// last digit also in projection. The same bits for any number of threads. `displacement` has one vector per face [m].
 /// `surface` must be one that `check` lets pass. Throws BadInput for arrays whose sizes disagree and for a
 /// pair that names a face that does not exist.
 template <int Dim>

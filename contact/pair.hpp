@@ -15,6 +15,13 @@ template <int Dim>
     return surface.normal[face_1].dot(surface.normal[face_2]) < facing_cosine;
 }
 
+/// From the centroid of face 1 to that of face 2, displaced by u_1 and u_2 [m].
+template <int Dim>
+[[nodiscard]] Vector<Dim> apart(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2,
+                                const Vector<Dim>& u_1, const Vector<Dim>& u_2) {
+    return (surface.centroid[face_2] - surface.centroid[face_1]) + (u_2 - u_1);
+}
+
 /// n_12 of any length: n_1 - n_2, or the normal of the face that is rigid, because an obstacle's face may be far larger than
 /// its partner and a gap read at its centroid along a tilted normal would mean nothing.
 template <int Dim>

@@ -90,8 +90,8 @@ void PairList<Dim>::number_faces(std::span<const SurfaceFace> faces) {
 template <int Dim>
 PairPosition<Dim> PairList<Dim>::position(const SurfaceView<Dim>& surface, const ContactPair<Dim>& pair,
                                           const Vector<Dim>& u_1, const Vector<Dim>& u_2) const {
-    const Vector<Dim> apart = (surface.centroid[pair.face_2] - surface.centroid[pair.face_1]) + (u_2 - u_1);
-    return {apart.dot(pair.frame.normal()), pair.frame.project(apart)};
+    const Vector<Dim> from_1_to_2 = apart(surface, pair.face_1, pair.face_2, u_1, u_2);
+    return {from_1_to_2.dot(pair.frame.normal()), pair.frame.project(from_1_to_2)};
 }
 
 template <int Dim>

@@ -1,10 +1,12 @@
 #include "abut/contact/pair_store.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/ids.hpp"
 
 namespace abut::contact {
 
@@ -14,15 +16,17 @@ const PairMemory* PairStore::find(FacePair pair) const {
 }
 
 void PairStore::follow(std::span<const FacePair> pairs, const std::function<PairMemory(std::size_t)>& of_new) {
+    std::vector<FacePair> followed(pairs.begin(), pairs.end());
     std::vector<PairMemory> memory;
     memory.reserve(pairs.size());
     std::size_t known = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
+        assert(i == 0 || pairs[i - 1] < pairs[i]);
         while (known < pairs_.size() && pairs_[known] < pairs[i]) ++known;
         const bool is_known = known < pairs_.size() && pairs_[known] == pairs[i];
         memory.push_back(is_known ? memory_[known] : of_new(i));
     }
-    pairs_.assign(pairs.begin(), pairs.end());
+    pairs_ = std::move(followed);
     memory_ = std::move(memory);
 }
 

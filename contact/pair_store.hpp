@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "abut/base/ids.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/contact/surface.hpp"
 
@@ -38,11 +37,11 @@ public:
     /// The memory of a pair; null if it has none.
     [[nodiscard]] const PairMemory* find(FacePair pair) const;
 
-    /// From here on the store is of these pairs, increasing and each once: known ones keep their memory, the others get
-    /// `of_new(i)` for the pair number i.
+    /// Replaces the pairs of the store by these, increasing and each once: known ones keep their memory, new ones get
+    /// `of_new(i)`. After an exception the store is as it was.
     void follow(std::span<const FacePair> pairs, const std::function<PairMemory(std::size_t i)>& of_new);
 
-    /// Moves the pairs that `leaves` out of the store into one of their own, for another owner.
+    /// Moves the pairs for which `leaves` is true into a store of their own, for another owner.
     [[nodiscard]] PairStore release(const std::function<bool(FacePair)>& leaves);
     /// Takes over the pairs of another store. Throws Misuse naming a pair that both have.
     void take(const PairStore& other);

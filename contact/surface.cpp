@@ -17,13 +17,13 @@
 namespace abut::contact {
 namespace {
 
-[[noreturn]] void refuse_named(const std::string& face, const std::string& what) {
-    throw BadInput("contact surface: " + face + " " + what);
+[[noreturn]] void refuse_named(const std::string& face, const std::string& what, const ErrorFacts& facts = {}) {
+    throw BadInput("contact surface: " + face + " " + what, facts);
 }
 
 template <int Dim>
 [[noreturn]] void refuse(const SurfaceView<Dim>& surface, std::int32_t face, const std::string& what) {
-    refuse_named(face_name(surface, face), what);
+    refuse_named(face_name(surface, face), what, {.face_1 = face});
 }
 
 /// What measures may be off by, over those of the face: 1e-10, and the rounding of coordinates far from the origin.
@@ -74,7 +74,7 @@ void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
                    " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
     if (!(surface.cell_depth[face] >= 0.0) || (surface.cell_depth[face] == 0.0 && !surface.is_rigid(face)))
         refuse(surface, face,
-               "has the depth " + number(surface.cell_depth[face]) +
+               "has the cell depth " + number(surface.cell_depth[face]) +
                    " m; it must be > 0 (>= 0 if rigid). Give the distance from the centroid of its cell to its plane.");
 }
 
@@ -171,7 +171,8 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     const auto require_size = [&](std::size_t size, std::size_t expected, const char* array) {
         if (size != expected)
             throw BadInput(std::string("contact surface: `") + array + "` has " + std::to_string(size) + " entries, " +
-                           std::to_string(expected) + " are needed: one per face" + (expected == n ? "." : ", and one more."));
+                           std::to_string(expected) + " are needed: one per face" +
+                           (expected == n ? "." : ", and one more."));
     };
     require_size(surface.face_offsets.size(), n + 1, "face_offsets");
     require_size(surface.centroid.size(), n, "centroid");

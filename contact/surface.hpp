@@ -10,7 +10,7 @@ namespace abut::contact {
 
 /// Index of a face of a surface, as its host numbers them.
 enum class SurfaceFace : std::int32_t {};
-/// Index of a face in the candidate list of a Contact: place in `Contact::faces()`.
+/// Index of a face in the candidate list of a Contact: index in `Contact::faces()`.
 enum class ListedFace : std::int32_t {};
 
 /// The boundary of the bodies at rest, as views of a host's own arrays: all that contact knows of a solid.
@@ -55,7 +55,7 @@ struct Surface {
     [[nodiscard]] SurfaceView<Dim> view() const;
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
     /// Appends one face from its corners: counter-clockwise seen from outside (3D), or with the outside on the right of
-    /// the way from the first to the second (2D). Measures follow from the corners. Throws BadInput for
+    /// the line from the first to the second (2D). Measures follow from the corners. Throws BadInput for
     /// other than 2 corners in 2D, 3 to geometry::max_polygon_vertices in 3D.
     void append(std::span<const Vector<Dim>> corners, double face_cell_depth, double face_stiffness, std::int32_t face_body);
 };
@@ -68,12 +68,13 @@ void check_sizes(const SurfaceView<Dim>& surface);
 /// Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an index
 /// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
 /// normal that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the
-/// corners (all within 1e-10 of the face, and what rounding adds far from the origin), a depth that is not > 0 (rigid: >=
-/// 0), a stiffness that is not > 0.
+/// corners (all within 1e-10 of the face, and what rounding adds far from the origin), a cell depth that is not > 0
+/// (rigid: >= 0), a stiffness that is not > 0.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 
-/// A number that two surfaces share only if they are the same, to the last bit: to tell whether a saved state fits.
+/// A 64-bit checksum of corners, cell depths, stiffnesses and bodies, to the last bit: tells whether a saved state fits. Two
+/// different surfaces share one by accident only.
 template <int Dim>
 [[nodiscard]] std::uint64_t fingerprint(const SurfaceView<Dim>& surface);
 

@@ -18,7 +18,7 @@ set mytics 1
 
 set origin 0,0.46
 set size 1,0.54
-set title "{}" font ",15" noenhanced
+set title '{}' font ",15" noenhanced
 set ylabel "energy [J]"
 set format x ""
 set yrange [*<0:*]
@@ -40,17 +40,25 @@ set ytics 1e-18,1e3,1
 unset mytics
 shown(x) = x < 1e-18 ? 1e-18 : x  # an exact zero has no logarithm
 plot "energy.csv" using "time":(shown((column("energy")-column("pseudo_energy"))/scale)) with lines lw 2 lc rgb "#eb6834" title "H − H̃", \
-     "" using "time":(shown(abs(column("pseudo_energy")-column("work")-H0)/scale)) with points pt 7 ps 0.5 lc rgb "#1b1b1a" title "|H̃ − H̃_0|"
+     "" using "time":(shown(abs(column("pseudo_energy")-column("work")-H0)/scale)) with points pt 7 ps 0.5 lc rgb "#1b1b1a" title "|H̃ − H̃_0 − work|"
 unset multiplot
 )gp";
+
+/// Between single quotes gnuplot takes everything as it is, and two of them for one.
+std::string quoted(const std::string& text) {
+    std::string doubled;
+    for (const char c : text) doubled.append(c == '\'' ? 2 : 1, c);
+    return doubled;
+}
 
 }  // namespace
 
 std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture) {
-    return draw(directory, {.name = "energy",
-                            .purpose = "Energies of a run, from energy.csv beside this file",
-                            .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, picture.title,
-                                                  picture.scale_name.substr(0, 1), picture.scale_name.substr(1))});
+    return draw(directory,
+                {.name = "energy",
+                 .purpose = "Energies of a run, from energy.csv beside this file",
+                 .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, quoted(picture.title),
+                                       picture.scale_name.substr(0, 1), picture.scale_name.substr(1))});
 }
 
 }  // namespace abut::run

@@ -71,8 +71,10 @@ void prepare_directory(const fs::path& directory) {
 void remove_earlier_results(const fs::path& directory, const std::string& series) {
     remove_files(directory, plain_results);
     std::vector<fs::path> frames;
-    for (const auto& entry : fs::directory_iterator(directory))
-        if (belongs_to_series(entry.path().filename().string(), series)) frames.push_back(entry.path());
+    std::error_code error;
+    for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))
+        if (belongs_to_series(entry->path().filename().string(), series)) frames.push_back(entry->path());
+    if (error) refuse_directory(directory, error.message());
     for (const auto& frame : frames) remove_result(frame);
 }
 

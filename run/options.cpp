@@ -16,6 +16,11 @@ std::string word_of(const std::array<Word<Choice>, N>& words, Choice choice) {
     return "";
 }
 
+/// More than any run takes; all of them are counted exactly in doubles and integers.
+constexpr double most_steps = 1e15;
+/// What a quotient of two times may be off by.
+constexpr double rounding = 1e-12;
+
 void append(NamedValues& values, const NamedValues& more) { values.insert(values.end(), more.begin(), more.end()); }
 
 }  // namespace
@@ -27,6 +32,18 @@ RunOptions with_defaults(RunOptions options) {
     if (options.interval == 0) options.interval = Dim == 2 ? 1 : 10;
     if (options.contact.quadrature == 0) options.contact.quadrature = Dim;
     return options;
+}
+
+std::int64_t steps_until(double time, double dt) {
+    const double steps = std::ceil(time / dt * (1.0 - rounding));
+    if (!(steps >= 1.0 && steps <= most_steps))
+        throw BadInput(
+            fmt::format(
+                "--time, --dt: {:g} s in steps of {:g} s are {:g} steps, 1 to {:g} are allowed. Give another end of the "
+                "run with --time or --steps, or another step with --dt or --cfl.",
+                time, dt, steps, most_steps),
+            {.value = steps, .allowed = most_steps});
+    return static_cast<std::int64_t>(steps);
 }
 
 void check(const RunOptions& options) {
@@ -79,6 +96,16 @@ NamedValues named_values(const RunOptions& options) {
                     {"out", options.out.string()},
                     {"interval", options.interval},
                     {"frames", options.frames}});
+    // What no program offers: said where a host of the library has changed it.
+    const auto append_changed = [&values](const char* name, auto value, auto by_default) {
+        if (value != by_default) values.push_back({name, value});
+    };
+    const contact::ContactOptions plain;
+    append_changed("self_contact", contact.search.self_contact, plain.search.self_contact);
+    append_changed("self_contact_rings", contact.search.self_contact_rings, plain.search.self_contact_rings);
+    append_changed("candidate_distance", contact.search.distance, plain.search.distance);
+    append_changed("largest_motion", contact.search.largest_motion, plain.search.largest_motion);
+    append_changed("compression_warning", contact.compression_warning, plain.compression_warning);
     return values;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -66,6 +67,10 @@ inline constexpr std::array<Word<bool>, 2> event_words{{{"on", true}, {"off", fa
 /// With what depends on the dimension, and on nothing else, filled in: `interval` and the quadrature of contact.
 template <int Dim>
 [[nodiscard]] RunOptions with_defaults(RunOptions options);
+
+/// The number of steps of dt [s] that reach `time` [s]; a last step of less than 1e-12 of the whole is not made. Throws
+/// BadInput if there are none, or too many to count.
+[[nodiscard]] std::int64_t steps_until(double time, double dt);
 
 /// Throws BadInput if options do not go together: a filter, levels or a gauge for a scheme that has none.
 void check(const RunOptions& options);

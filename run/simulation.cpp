@@ -28,40 +28,30 @@ using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
-constexpr int default_levels = 8;
-/// More than any run takes; all of them are counted exactly in doubles and integers.
-constexpr double most_steps = 1e15;
 
 template <int Dim>
 solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
     solid::SolidOptions<Dim> solid = scene.solid;
     solid.boundary.free_face_rule = options.neumann;
-    if (scene.contact) solid.contact = options.contact;
+    solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
     return solid;
 }
 
 double choose_step(const RunOptions& options, const dynamics::StableStep& stable) {
-    if (std::isnan(options.dt)) return options.cfl * stable.dt;
-    if (options.dt > stable.dt && !options.allow_unstable)
-        throw BadInput(fmt::format("--dt: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl; "
-                                   "--allow-unstable takes it all the same.",
-                                   options.dt, stable.dt),
-                       {.value = options.dt, .allowed = stable.dt});
-    return options.dt;
+    const bool by_cfl = std::isnan(options.dt);
+    const double dt = by_cfl ? options.cfl * stable.dt : options.dt;
+    if (!(dt <= stable.dt) && !options.allow_unstable)
+        throw BadInput(
+            fmt::format("{}: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl of at most "
+                        "1; --allow-unstable takes it all the same.",
+                        by_cfl ? "--cfl" : "--dt", dt, stable.dt),
+            {.value = dt, .allowed = stable.dt});
+    return dt;
 }
 
 std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
     if (std::isnan(options.time) && options.steps > 0) return options.steps;
-    const double time = std::isnan(options.time) ? time_of_scene : options.time;
-    const double steps = std::ceil(time / dt);
-    if (!(steps >= 1.0 && steps <= most_steps))
-        throw BadInput(
-            fmt::format(
-                "--time, --dt: {:g} s in steps of {:g} s are {:g} steps, 1 to {:g} are allowed. Give another end of the "
-                "run with --time or --steps, or another step with --dt or --cfl.",
-                time, dt, steps, most_steps),
-            {.value = steps, .allowed = most_steps});
-    return static_cast<std::int64_t>(steps);
+    return steps_until(std::isnan(options.time) ? time_of_scene : options.time, dt);
 }
 
 solid::SolidTimes difference(const solid::SolidTimes& a, const solid::SolidTimes& b) {
@@ -70,6 +60,8 @@ solid::SolidTimes difference(const solid::SolidTimes& a, const solid::SolidTimes
 
 EnergyScale known_scale(EnergyScale scale, double kinetic) {
     if (scale.value == 0.0) scale.value = kinetic;
+    if (scale.name.empty())
+        throw BadInput("Scene::energy_scale has no name. Give a letter and what stands below it, such as H0.");
     if (!(scale.value > 0.0))
         throw BadInput(fmt::format(
             "the kinetic energy at the start is {} J, above 0 J is needed to measure energies with. Raise the speed "
@@ -106,10 +98,11 @@ struct Start {
 
 private:
     void set_local_steps(const RunOptions& options) {
-        auto local = solid::local_steps(solid, result.stable,
-                                        {.most_levels = options.levels == 0 ? default_levels : options.levels,
-                                         .contact_margin = options.contact_margin,
-                                         .contact_levels = options.contact_levels});
+        auto local =
+            solid::local_steps(solid, result.stable,
+                               {.most_levels = options.levels == 0 ? solid::LocalStepOptions{}.most_levels : options.levels,
+                                .contact_margin = options.contact_margin,
+                                .contact_levels = options.contact_levels});
         local_steps = std::move(local.steps);
         result.level_cells = std::move(local.cells);
         result.dt *= local.dt / result.stable.dt;
@@ -247,7 +240,8 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
         const Stopwatch whole(seconds.total);
         {
             const Stopwatch watch(seconds.setup);
-            mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase);
+            if (scene.contact)
+                mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase);
             start.emplace(scene, options);
         }
         RunResult<Dim>& result = start->result;

@@ -6,12 +6,12 @@
 namespace abut::run {
 
 /// Runs a scene from its first step to its last. It writes and prints nothing: observers do (ResultFiles, Frames, EnergyFile).
-/// All of the result is known but the times of mesh and output. Of the scene, `after_step` is called before the observers.
+/// The result is complete except for the times of mesh and output. `Scene::after_step` is called before the observers.
 ///
-/// Throws BadInput with place, value, limit and remedy for options that do not go together or bodies that overlap, for a
-/// time step above the stable one, and where nothing moves and no `energy_scale` is given. An error within a step says in
-/// front of its text which step and time it was, and keeps its type, kind and facts: Diverged, TooDeep and what
-/// solid::Solid throws else.
+/// Throws BadInput with place, value, limit and remedy for options that do not go together, for bodies that overlap where the
+/// scene has contact, for a time step above the stable one, and where nothing moves and no `energy_scale` is given. An error
+/// within a step says in front of its text which step and time it was, and keeps its kind and facts, as the type of that kind:
+/// Diverged, TooDeep and whatever else solid::Solid throws.
 template <int Dim>
 [[nodiscard]] RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options, Observer<Dim>& observer);
 template <int Dim>

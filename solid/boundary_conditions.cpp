@@ -30,6 +30,12 @@ std::vector<BoundaryFace> boundary_faces_of(const mesh::Mesh<Dim>& mesh, const s
     return boundary;
 }
 
+template <int Dim>
+std::string face_name(const mesh::Mesh<Dim>& mesh, BoundaryFace face) {
+    return "face " + std::to_string(mesh_face(mesh, face)) + " of cell " +
+           std::to_string(mesh.cell_label[static_cast<std::size_t>(cell_of(mesh, face))]);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -42,9 +48,9 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
             const Matrix<Dim> added = projector(condition, mesh.face_normal[mesh_face(mesh, b)]);
             if (!(added * sorted.prescribed[b]).isZero(1e-12))
                 throw BadInput(
-                    "boundary condition on '" + condition.group + "': face " + std::to_string(mesh_face(mesh, b)) +
+                    "boundary condition on '" + condition.group + "': " + face_name(mesh, b) +
                         " already has a prescribed displacement in that direction. Prescribe each direction once.",
-                    {.face_1 = mesh_face(mesh, b)});
+                    {.face_1 = mesh_face(mesh, b), .cell = cell_of(mesh, b)});
             sorted.prescribed[b] += added;
             faces.push_back({b, added});
         }
@@ -53,9 +59,9 @@ FaceConditions<Dim> sort_to_faces(const mesh::Mesh<Dim>& mesh, const BoundaryCon
         sorted.traction.push_back(boundary_faces_of(mesh, condition.group));
         for (const BoundaryFace b : sorted.traction.back())
             if (sorted.prescribed[b].isIdentity(1e-12))
-                throw BadInput("traction on '" + condition.group + "': the displacement of face " +
-                                   std::to_string(mesh_face(mesh, b)) + " is fully prescribed. Give one or the other.",
-                               {.face_1 = mesh_face(mesh, b)});
+                throw BadInput("traction on '" + condition.group + "': the displacement of " + face_name(mesh, b) +
+                                   " is fully prescribed. Give one or the other.",
+                               {.face_1 = mesh_face(mesh, b), .cell = cell_of(mesh, b)});
     }
     return sorted;
 }

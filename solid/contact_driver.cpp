@@ -58,6 +58,11 @@ void ContactDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<cons
     set_end(q_1, time + dt);
 }
 
+template <int Dim>
+void ContactDriver<Dim>::follow_jump(std::span<const Vector<Dim>> q, double time) {
+    if (!is_valid_at(q, time)) search(q, q, time, 0.0);
+}
+
 /// By what no cell exceeds in the step: nothing is computed but a sum. Where it says no, `is_valid_at` decides.
 template <int Dim>
 bool ContactDriver<Dim>::is_surely_valid(double cell_motion, double time) {

@@ -37,6 +37,8 @@ public:
     /// From q_0 at `time` to q_1; no cell moves farther than `cell_motion` [m], infinity: not known.
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion, double time,
                 double dt);
+    /// Faces jump where they are, in q at `time`: from the loads at the start of the step to those at its end.
+    void follow_jump(std::span<const Vector<Dim>> q, double time);
     /// Whether the candidate list is valid in q, where the current step ends, at that time.
     [[nodiscard]] bool is_valid_at(std::span<const Vector<Dim>> q, double time);
     /// Rebuilds the candidate list for the current step, and sets the start of the path.

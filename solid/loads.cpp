@@ -43,17 +43,20 @@ BoundaryLoad<Dim> Loads<Dim>::mean() const {
 }
 
 template <int Dim>
-bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()>& potential, double& work) {
-    BoundaryLoad<Dim> changed = ccg_.load_at(time, time);
+bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()>& potential,
+                            const std::function<void()>& follow_jump, double& work) {
+    BoundaryLoad<Dim> changed = ccg_.load_at(time, time), next = ccg_.load_at(time + dt, time);
+    is_half_done_ = true;
+    start_ = end_;
     const bool jumps = changed.traction != end_.traction;
     if (jumps) {
         const double before = potential();
         end_ = std::move(changed);
+        follow_jump();
         work += potential() - before;
+        start_ = end_;
     }
-    is_half_done_ = true;
-    start_ = end_;
-    end_ = ccg_.load_at(time + dt, time);
+    end_ = std::move(next);
     return jumps;
 }
 

@@ -31,8 +31,10 @@ public:
     [[nodiscard]] BoundaryLoad<Dim> mean() const;
 
     /// For loads that vary: a step begins, and both ends are set. Where tractions jump at its start, the jump of `potential`,
-    /// evaluated with the loads `end()`, is added to `work` [J]. Whether they did.
-    bool begin_step(double time, double dt, const std::function<double()>& potential, double& work);
+    /// evaluated with the loads `end()`, is added to `work` [J]; in between `follow_jump` is called, with the loads from
+    /// before the jump in `start()` and those after it in `end()`. Returns whether they jumped.
+    bool begin_step(double time, double dt, const std::function<double()>& potential,
+                    const std::function<void()>& follow_jump, double& work);
     void end_step() { is_half_done_ = false; }
     /// Whether a step with loads that vary has begun and not ended.
     [[nodiscard]] bool is_half_done() const { return is_half_done_; }

@@ -162,8 +162,11 @@ template <int Dim>
 void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
     if (!loads_->vary()) return;
     const std::span<const double> q(q_0.data()->data(), q_0.size() * Dim);
+    const auto search_if_needed = [&] {
+        if (contact_) contact_->follow_jump(q_0, time);
+    };
     const bool tractions_jump = loads_->begin_step(
-        time, dt, [&] { return potential(q); }, work_);
+        time, dt, [&] { return potential(q); }, search_if_needed, work_);
     if (tractions_jump && contact_) contact_->set_start(q_0, time);
 }
 

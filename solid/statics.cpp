@@ -298,6 +298,19 @@ std::string text(Ending ending, const StaticOptions& options) {
 }
 
 template <int Dim>
+void check_start(const Solid<Dim>& solid, std::span<const double> q) {
+    if (q.size() != solid.size())
+        throw BadInput("statics: q_0 has " + std::to_string(q.size()) + " numbers, the solid has " +
+                           std::to_string(solid.size()) + " degrees of freedom. Give one per component of each cell.",
+                       {.value = static_cast<double>(q.size()), .allowed = static_cast<double>(solid.size())});
+    for (std::size_t i = 0; i < q.size(); ++i)
+        if (!std::isfinite(q[i]))
+            throw BadInput("statics: q_0 is not finite in cell " + std::to_string(solid.mesh().cell_label[i / Dim]) +
+                               ". Start from finite displacements.",
+                           {.cell = static_cast<std::int32_t>(i / Dim)});
+}
+
+template <int Dim>
 void require_held(Solid<Dim>& solid, std::span<const double> q) {
     if (const auto motion = free_rigid_motion(solid, q))
         throw BadInput("statics: " + *motion +
@@ -310,7 +323,7 @@ void require_held(Solid<Dim>& solid, std::span<const double> q) {
 template <int Dim>
 StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const StaticOptions& options) {
     check(options);
-    dynamics::detail::check_start(solid.size(), q_0, q_0);
+    check_start(solid, q_0);
     require_held<Dim>(solid, q_0);
     Objective<Dim> objective(solid, options, q_0);
     StaticReport& report = objective.report();

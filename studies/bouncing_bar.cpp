@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
+#include "abut/run/options.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/bars.hpp"
@@ -263,7 +264,7 @@ void run_study(const BounceOptions& options) {
                             .dt = dt,
                             .local_steps = apps::local_steps_of_first(options.schemes, n)};
     apps::Schedule schedule{.steps = options.steps, .energy_scale = impact_energy};
-    if (options.steps == 0) schedule.steps = apps::steps_until(options.gravity > 0.0 ? 3.0 * period : 2.0, dt);
+    if (options.steps == 0) schedule.steps = run::steps_until(options.gravity > 0.0 ? 3.0 * period : 2.0, dt);
     schedule.interval = apps::rows_interval(options.interval, schedule.steps);
     apps::Comparison comparison{
         .title = fmt::format("{} masses, {} steps of {:.6g} s (c dt/h = {:g}), gravity {:g} m/s^2, H0 = {:g} J", n,

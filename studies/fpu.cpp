@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "abut/dynamics/particles.hpp"
+#include "abut/run/options.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
 
@@ -142,7 +143,7 @@ void run_study(const FpuOptions& options) {
                             .p = {0.0, root, 0.0, 0.0, 0.0, 0.0},
                             .dt = options.dt,
                             .local_steps = apps::local_steps_of_first(options.schemes, 6)};
-    apps::Schedule schedule{.steps = apps::steps_until(options.time, options.dt),
+    apps::Schedule schedule{.steps = run::steps_until(options.time, options.dt),
                             .energy_scale = chain(omega).potential(start.q) + 1.0};
     schedule.interval = apps::rows_interval(options.interval, schedule.steps);
     apps::Comparison comparison{.title = fmt::format("{} steps of {:g} s, omega dt = {:g}, H0 = {:.9g} J", schedule.steps,

@@ -12,6 +12,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/dynamics/particles.hpp"
+#include "abut/run/options.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
 
@@ -136,7 +137,7 @@ Errors errors(const Mesh& mesh, std::span<const double> q, double time) {
 /// One scheme on one mesh, to the very end of the time.
 apps::SchemeRun run_on(const Mesh& mesh, apps::Scheme scheme, const WaveOptions& options) {
     const auto long_steps = static_cast<double>(
-        apps::steps_until(options.time, options.ratio * options.cfl * mesh.h / fast_speed));  // as many for all schemes
+        run::steps_until(options.time, options.ratio * options.cfl * mesh.h / fast_speed));  // as many for all schemes
     const int parts = scheme == apps::Scheme::memm_async ? 1 : options.ratio;
     apps::Start start{.dt = options.time / (long_steps * parts), .local_steps = mesh.local_steps(options.ratio)};
     for (std::size_t i = 0; i < mesh.size(); ++i) {

@@ -103,7 +103,7 @@ Json search_json(const DetectReport& report) {
     const auto& search = report.search;
     return {{"lists_made", search.searches},         {"skin", report.skin},
             {"box_pairs", search.box_pairs},         {"neighbours", search.neighbours},
-            {"not_facing", search.not_facing},       {"out_of_reach", search.out_of_reach},
+            {"not_facing", search.not_facing},       {"out_of_reach", search.too_far_apart},
             {"candidates", search.candidates},       {"candidates_max", search.candidates_max},
             {"seconds_boxes", search.seconds_boxes}, {"seconds_broad_phase", search.seconds_broad_phase}};
 }
@@ -159,7 +159,7 @@ void print_search(const DetectReport& report) {
     print_line("lists made", fmt::format("{}, the last with a skin of {:.4g} m", search.searches, report.skin));
     print_line("pairs of boxes, last list", fmt::format("{}", search.box_pairs));
     print_line("  left out: not facing, reach, neighbours",
-               fmt::format("{}, {}, {}", search.not_facing, search.out_of_reach, search.neighbours));
+               fmt::format("{}, {}, {}", search.not_facing, search.too_far_apart, search.neighbours));
     print_line("candidates", fmt::format("{} (at most {})", search.candidates, search.candidates_max));
 }
 

@@ -15,8 +15,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t about_rows = 10'000;
-constexpr double most_steps = 1e15;  // all of them are counted exactly
-constexpr double rounding = 1e-12;   // of an end that is a whole number of steps
 
 /// What is known of every run, then what its scene has found.
 std::vector<run::Finding> all_findings(const SchemeRun& run) {
@@ -108,15 +106,6 @@ void add_out_option(CLI::App& app, fs::path& out) {
 
 void add_interval_option(CLI::App& app, int& interval) {
     add_count(app, "--interval", interval, "steps between two rows of the files; 0: about 10,000 rows", 0)->group("Output");
-}
-
-std::int64_t steps_until(double time, double dt) {
-    const double steps = std::ceil(time / dt * (1.0 - rounding));
-    if (!(steps >= 1.0 && steps <= most_steps))
-        throw BadInput(fmt::format(
-            "{:g} s in steps of {:g} s are {:g} steps, 1 to {:g} are allowed. Give another end of the run or another step.",
-            time, dt, steps, most_steps));
-    return static_cast<std::int64_t>(steps);
 }
 
 std::int64_t rows_interval(int given, std::int64_t steps) {

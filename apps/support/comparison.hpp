@@ -189,9 +189,6 @@ void add_interval_option(CLI::App& app, int& interval);
 /// Steps between two rows of a file of about 10,000 rows, unless the user has given it.
 [[nodiscard]] std::int64_t rows_interval(int given, std::int64_t steps);
 
-/// Steps that reach the end of a run. Throws BadInput if there are none, or too many to count.
-[[nodiscard]] std::int64_t steps_until(double time, double dt);
-
 /// Makes the folder and removes what an earlier run of the program left: summary.json, a file of each scheme, the picture,
 /// and `more`.
 void prepare_results(const Program& program, const std::filesystem::path& out, std::vector<std::string> more = {});

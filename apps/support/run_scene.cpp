@@ -53,8 +53,8 @@ void run_scene(const Program& program, const run::RunOptions& options, const std
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
 
-    run::check(options);
     run::ResultFiles<Dim> files(options, program.name, program.series);
+    run::check(options);
     double seconds = 0.0;
     const run::Scene<Dim> scene = timed_scene(make_scene, seconds);
     run::RunResult<Dim> result = simulate_into(files, scene, options);

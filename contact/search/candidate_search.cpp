@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,19 +31,26 @@ using geometry::IndexPair;
 constexpr std::int64_t searches_an_order = 50;
 
 const CandidateOptions& checked(const CandidateOptions& options) {
-    const auto refuse = [](const std::string& what) { throw BadInput("contact options: " + what); };
+    const auto refuse = [](const std::string& what, double value) {
+        throw BadInput("contact options: " + what, {.value = value});
+    };
     if (!(options.facing_cosine > -1.0 && options.facing_cosine <= 1.0))
         refuse("facing_cosine is " + number(options.facing_cosine) +
-               "; it must lie above -1 and not above 1. -0.5 is the default, 1 lists faces whatever their normals.");
+                   "; it must lie above -1 and not above 1. -0.5 is the default, 1 lists faces whatever their normals.",
+               options.facing_cosine);
     if (!(options.distance >= 0.0) || !std::isfinite(options.distance))
-        refuse("distance is " + number(options.distance) + " m; it must be finite and >= 0. Contact needs 0.");
+        refuse("distance is " + number(options.distance) + " m; it must be finite and >= 0. Contact needs 0.",
+               options.distance);
     if (!(options.skin >= 0.0) || !std::isfinite(options.skin))
-        refuse("skin is " + number(options.skin) + " m; it must be finite and >= 0. Give 0 to let the library choose.");
+        refuse("skin is " + number(options.skin) + " m; it must be finite and >= 0. Give 0 to let the library choose.",
+               options.skin);
     if (options.self_contact_rings < 0)
-        refuse("self_contact_rings is " + std::to_string(options.self_contact_rings) +
-               "; it must be >= 0. 1 is the default.");
+        refuse(
+            "self_contact_rings is " + std::to_string(options.self_contact_rings) + "; it must be >= 0. 1 is the default.",
+            options.self_contact_rings);
     if (!(options.largest_motion > 0.0))
-        refuse("largest_motion is " + number(options.largest_motion) + "; it must be > 0. 1 is the default.");
+        refuse("largest_motion is " + number(options.largest_motion) + "; it must be > 0. 1 is the default.",
+               options.largest_motion);
     return options;
 }
 
@@ -53,7 +59,7 @@ struct Counts {
     std::int64_t box_pairs = 0;
     std::int64_t neighbours = 0;
     std::int64_t not_facing = 0;
-    std::int64_t out_of_reach = 0;
+    std::int64_t too_far_apart = 0;
 };
 
 /// Faces of one body.
@@ -104,7 +110,11 @@ public:
     [[nodiscard]] std::span<const IndexPair> candidates() const { return candidates_; }
     [[nodiscard]] double skin() const { return report_.searches > 0 ? list_skin_ : skin_.skin(); }
     [[nodiscard]] double next_skin() const { return skin_.skin(); }
-    void restore_skin(double skin) { skin_.restore(skin); }
+    void restore_skin(double skin) {
+        if (!(skin >= 0.0) || !std::isfinite(skin))
+            throw BadInput("contact: a saved skin is " + number(skin) + " m; it must be finite and >= 0.", {.value = skin});
+        skin_.restore(skin);
+    }
     [[nodiscard]] const CandidateReport& report() const { return report_; }
 
 private:
@@ -150,7 +160,8 @@ private:
         for (const std::size_t size : {u_0.size(), u_1.size()})
             if (size != n)
                 throw BadInput("contact: " + std::to_string(size) + " displacements are given for " + std::to_string(n) +
-                               " faces of the surface; give one each.");
+                                   " faces of the surface; give one each.",
+                               {.value = static_cast<double>(size), .allowed = static_cast<double>(n)});
         // NaN where one of the two displacements is not finite
         const auto motion = [&](std::ptrdiff_t face) {
             return u_0[face].allFinite() ? (u_1[face] - u_0[face]).norm() : std::numeric_limits<double>::quiet_NaN();
@@ -245,13 +256,13 @@ private:
             ++counts.not_facing;
             return false;
         }
-        if (!by_distance_alone()) {
+        if (!by_distance_alone(options_)) {
             if (!are_facing(surface_, face_1, face_2, options_.facing_cosine)) {
                 ++counts.not_facing;
                 return false;
             }
             if (!can_touch(surface_, options_, rest_1, rest_2, u_0, u_1, list_skin_)) {
-                ++counts.out_of_reach;
+                ++counts.too_far_apart;
                 return false;
             }
         }
@@ -262,20 +273,18 @@ private:
         return true;
     }
 
-    [[nodiscard]] bool by_distance_alone() const { return options_.facing_cosine == 1.0; }
-
     void add_up_counts() {
         Counts sum;
         for (const Counts& counts : counts_) {
             sum.box_pairs += counts.box_pairs;
             sum.neighbours += counts.neighbours;
             sum.not_facing += counts.not_facing;
-            sum.out_of_reach += counts.out_of_reach;
+            sum.too_far_apart += counts.too_far_apart;
         }
         report_.box_pairs = sum.box_pairs;
         report_.neighbours = sum.neighbours;
         report_.not_facing = sum.not_facing;
-        report_.out_of_reach = sum.out_of_reach;
+        report_.too_far_apart = sum.too_far_apart;
     }
 
     /// How many of the candidates half the skin would have found.
@@ -287,7 +296,8 @@ private:
             const std::int32_t i = index_of_face_[static_cast<std::size_t>(pair.first)];
             const std::int32_t j = index_of_face_[static_cast<std::size_t>(pair.second)];
             return boxes_[i].grown(-0.5 * list_skin_).overlaps(boxes_[j]) &&
-                   (by_distance_alone() || can_touch(surface_, options_, faces_[i], faces_[j], u_0, u_1, 0.5 * list_skin_));
+                   (by_distance_alone(options_) ||
+                    can_touch(surface_, options_, faces_[i], faces_[j], u_0, u_1, 0.5 * list_skin_));
         };
         return std::ranges::count_if(candidates_, remains);
     }

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "abut/contact/options.hpp"
 #include "abut/contact/surface.hpp"
@@ -16,21 +15,14 @@ struct CandidateReport {
     std::int64_t orderings = 0;        ///< of them, how many put the faces into a new spatial order first
     std::int64_t box_pairs = 0;        ///< pairs of boxes that overlapped, of bodies that may touch: the last search
     std::int64_t neighbours = 0;       ///< of them, left out because the faces are neighbours on one body
-    std::int64_t not_facing = 0;       ///< left out because the faces do not look at each other
-    std::int64_t out_of_reach = 0;     ///< left out because gap or shift rule contact out
+    std::int64_t not_facing = 0;       ///< left out because the faces do not look at each other, or are both rigid
+    std::int64_t too_far_apart = 0;    ///< left out because gap or tangential offset rule contact out
     std::int64_t candidates = 0;       ///< pairs in the list
     std::int64_t candidates_max = 0;   ///< over all searches
     double motion = 0.0;               ///< [m] the farthest that a face moved within the step of the last search
     double seconds_boxes = 0.0;        ///< all searches: making boxes
     double seconds_broad_phase = 0.0;  ///< all searches: finding the pairs, tests of faces included
 };
-
-/// A box around every face: its corners at the displacements u_0 and u_1, grown by all that an active pair can reach past
-/// its faces (2 d_f, the tilt against the pair normal), by half of `distance` and by half the skin. docs/method.md, Contact.
-template <int Dim>
-[[nodiscard]] std::vector<geometry::Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
-                                                          std::span<const Vector<Dim>> u_1, const CandidateOptions& options,
-                                                          double skin);
 
 /// The pairs of faces that can touch: a list over any number of surfaces, that lives for many steps. docs/detection.md.
 ///
@@ -41,8 +33,8 @@ template <int Dim>
 class CandidateSearch {
 public:
     /// Keeps the view: the host's arrays must outlive it, and stay as they are, or see `surface_changed`. Throws
-    /// BadInput for a surface (see `check`) or an option that is no good.
-    CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options);
+    /// BadInput naming what is wrong: a surface that `check` refuses, or an option out of range.
+    explicit CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options = {});
     ~CandidateSearch();
     CandidateSearch(CandidateSearch&&) noexcept;
     CandidateSearch& operator=(CandidateSearch&&) noexcept;
@@ -57,7 +49,7 @@ public:
     void surface_changed();
 
     /// Rebuilds the list for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
-    /// pair of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that way and as long
+    /// pair of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that path and as long
     /// as no face has moved by more than half the skin from u_0. Without a condition on facing (facing_cosine = 1) it is
     /// every pair of faces, whatever their normals, that can come as near as `distance` in space. Rigid faces never pair.
     /// Throws Diverged naming the face if a displacement is not finite, or a face moves farther within the step
@@ -68,8 +60,10 @@ public:
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads.
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const;
     [[nodiscard]] double skin() const;  ///< of the current list [m]; before the first search, of the first one
-    /// The skin of the next list [m], and going on from one that another search had come to: all that lists learn.
+    /// The skin of the next list [m]: all that a search learns from its lists.
     [[nodiscard]] double next_skin() const;
+    /// Continues with a skin that another search had come to, of the same surface and options. Throws BadInput unless it is
+    /// finite and >= 0.
     void restore_skin(double skin);
     [[nodiscard]] const CandidateReport& report() const;
 

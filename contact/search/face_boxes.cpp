@@ -2,15 +2,11 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "abut/contact/pair.hpp"
-#include "abut/contact/search/candidate_search.hpp"
 
 namespace abut::contact {
 namespace {
-
-using geometry::Box;
 
 /// Largest sine of the angle between a face and the plane of a pair it takes part in. Between deformable faces the pair
 /// normal halves the angle that facing allows; against a rigid face it is that face's own normal.
@@ -31,7 +27,7 @@ bool any_rigid(const SurfaceView<Dim>& surface) {
 template <int Dim>
 RestFaceMaker<Dim>::RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)
     : surface_(surface),
-      by_distance_alone_(options.facing_cosine == 1.0),
+      by_distance_alone_(by_distance_alone(options)),
       tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))) {}
 
 template <int Dim>
@@ -55,24 +51,9 @@ double mean_face_size(const SurfaceView<Dim>& surface) {
     return n > 0 ? size / n : 0.0;
 }
 
-template <int Dim>
-std::vector<Box<Dim>> swept_boxes(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> u_0,
-                                  std::span<const Vector<Dim>> u_1, const CandidateOptions& options, double skin) {
-    const RestFaceMaker<Dim> at_rest(surface, options);
-    std::vector<Box<Dim>> boxes;
-    boxes.reserve(static_cast<std::size_t>(surface.size()));
-    for (std::int32_t face = 0; face < surface.size(); ++face)
-        boxes.push_back(swept_box(at_rest(face), u_0[face], u_1[face], 0.5 * (options.distance + skin)));
-    return boxes;
-}
-
-#define ABUT_INSTANTIATE(Dim)                                                                              \
-    template class RestFaceMaker<Dim>;                                                                     \
-    template double mean_face_size<Dim>(const SurfaceView<Dim>&);                                          \
-    template std::vector<Box<Dim>> swept_boxes<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>, \
-                                                    std::span<const Vector<Dim>>, const CandidateOptions&, double);
-ABUT_INSTANTIATE(2)
-ABUT_INSTANTIATE(3)
-#undef ABUT_INSTANTIATE
+template class RestFaceMaker<2>;
+template class RestFaceMaker<3>;
+template double mean_face_size<2>(const SurfaceView<2>&);
+template double mean_face_size<3>(const SurfaceView<3>&);
 
 }  // namespace abut::contact

@@ -8,7 +8,10 @@
 
 namespace abut::contact {
 
-/// What of a face a search reads again and again.
+/// Whether faces pair whatever their normals.
+[[nodiscard]] inline bool by_distance_alone(const CandidateOptions& options) { return options.facing_cosine == 1.0; }
+
+/// The data of a face at rest that a search reads again and again.
 template <int Dim>
 struct RestFace {
     geometry::Box<Dim> corners;
@@ -30,7 +33,8 @@ private:
     double tilt_;  // largest sine of the angle between a face and the plane of a pair it takes part in
 };
 
-/// The box of a face on its way from u_0 to u_1, grown by what an active pair can reach and by `margin`.
+/// The box of a face on its path from u_0 to u_1, grown by all that an active pair can reach past its faces (2 d_f, the tilt
+/// against the pair normal) and by `margin`. docs/method.md, Contact.
 template <int Dim>
 [[nodiscard]] geometry::Box<Dim> swept_box(const RestFace<Dim>& rest, const Vector<Dim>& u_0, const Vector<Dim>& u_1,
                                            double margin) {

@@ -9,7 +9,7 @@
 
 namespace abut::contact {
 
-/// Whether g can come below `distance` where the faces share area: on the way from u_0 to u_1, or within a skin of u_0.
+/// Whether g can come below `distance` where the faces share area: on the path from u_0 to u_1, or within a skin of u_0.
 /// Faces that do not look at each other at all have no gap: their boxes decide.
 template <int Dim>
 [[nodiscard]] bool can_touch(const SurfaceView<Dim>& surface, const CandidateOptions& options, const RestFace<Dim>& rest_1,
@@ -20,9 +20,8 @@ template <int Dim>
     // m = |m| n_12: with squares nothing has to be normalised
     const Vector<Dim> m = pair_direction(surface, face_1, face_2);
     const double mm = m.squaredNorm();
-    const Vector<Dim> rest = surface.centroid[face_2] - surface.centroid[face_1];
-    const Vector<Dim> at_0 = rest + (u_0[face_2] - u_0[face_1]);
-    const Vector<Dim> at_1 = rest + (u_1[face_2] - u_1[face_1]);
+    const Vector<Dim> at_0 = apart(surface, face_1, face_2, u_0[face_1], u_0[face_2]);
+    const Vector<Dim> at_1 = apart(surface, face_1, face_2, u_1[face_1], u_1[face_2]);
     const double gap_0 = at_0.dot(m), gap_1 = at_1.dot(m);  // times |m|
     const auto exceeds = [mm](double gap, double limit) { return gap > 0.0 && gap * gap > limit * limit * mm; };
     if (exceeds(gap_0, options.distance + skin) && exceeds(gap_1, options.distance)) return false;

@@ -162,7 +162,8 @@ FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& ne
             if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
         if (near.size() < wanted) break;
     }
-    throw BadInput(mesh.name + ": face " + std::to_string(face) + " of cell " + std::to_string(cell) +
+    throw BadInput(mesh.name + ": face " + std::to_string(face) + " of cell " +
+                       std::to_string(mesh.cell_label[static_cast<std::size_t>(cell)]) +
                        ": the centroids of the cells near it span no simplex, so its displacement cannot be reconstructed. "
                        "The body is one cell thick there: put at least two cells across it.",
                    {.face_1 = face, .cell = cell});

@@ -285,7 +285,7 @@ TEST_CASE("neighbours on one body within the chosen rings are no candidates, and
     CHECK(std::ranges::equal(search.candidates(), expected));
     CHECK((search.report().neighbours > 0) == (rings > 0));
     CHECK(search.report().box_pairs == search.report().neighbours + search.report().not_facing +
-                                           search.report().out_of_reach + search.report().candidates);
+                                           search.report().too_far_apart + search.report().candidates);
     CHECK(all.size() > 100);
 }
 
@@ -337,7 +337,7 @@ TEST_CASE("any number of threads gives the same list and the same counts", "[con
             search.search(at_rest(surface), at_rest(surface));
             const auto& r = search.report();
             return std::pair(std::vector<IndexPair>(search.candidates().begin(), search.candidates().end()),
-                             std::array{r.box_pairs, r.neighbours, r.not_facing, r.out_of_reach});
+                             std::array{r.box_pairs, r.neighbours, r.not_facing, r.too_far_apart});
         });
     };
     const auto one = on_threads(1);

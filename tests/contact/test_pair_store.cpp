@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "abut/contact/contact.hpp"
-#include "contact/surfaces.hpp"
+#include "contact/plates.hpp"
 
 using namespace abut;
 using namespace abut::test;
@@ -22,64 +22,6 @@ PairStore store_of(const std::vector<FacePair>& pairs, bool admitted) {
     PairStore store;
     store.follow(pairs, [&](std::size_t) { return PairMemory{admitted}; });
     return store;
-}
-
-/// Two plates of tiles, one over the other: body 0 looks up, body 1 down, tiles shifted against each other by half a tile.
-template <int Dim>
-contact::Surface<Dim> plates(int n = 5) {
-    contact::Surface<Dim> surface;
-    for (int body = 0; body < 2; ++body)
-        for (int i = 0; i < n; ++i)
-            surface.append(tile<Dim>((i + 0.3 * body) * axis<Dim>(0), (body == 0 ? 1.0 : -1.0) * up<Dim>(), 0.5), 0.2,
-                           1.0 + body, body);
-    return surface;
-}
-
-/// Body 1 pressed in by `depth` and slid by `slip`, body 0 bent a little, so that pairs open and close one by one.
-template <int Dim>
-std::vector<Vector<Dim>> moved(const contact::Surface<Dim>& surface, double depth, double slip) {
-    std::vector<Vector<Dim>> u;
-    for (std::int32_t f = 0; f < surface.size(); ++f)
-        u.push_back(surface.body[f] == 0 ? Vector<Dim>(0.03 * f * up<Dim>())
-                                         : Vector<Dim>(slip * axis<Dim>(0) - depth * up<Dim>()));
-    return u;
-}
-
-/// A host whose faces answer to their own displacement, driven along a given path.
-template <int Dim>
-const contact::ContactStep<Dim>& drive(contact::Contact<Dim>& contact, const std::vector<Vector<Dim>>& u_0,
-                                       const std::vector<Vector<Dim>>& u_1) {
-    return contact.step({.displacement_0 = u_0,
-                         .displacement_1 = u_1,
-                         .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size(), 2.0); },
-                         .gradients_of =
-                             [](auto listed, auto y_0, auto y_1) {
-                                 for (std::size_t i = 0; i < listed.size(); ++i)
-                                     y_0[i] = y_1[i] = 0.1 * static_cast<double>(i) * Vector<Dim>::Ones();
-                             }});
-}
-
-/// The way of the plates: down to deeper than D = 0.4, sliding, and up again.
-template <int Dim>
-std::vector<std::vector<Vector<Dim>>> way(const contact::Surface<Dim>& surface) {
-    std::vector<std::vector<Vector<Dim>>> states;
-    for (int i = 0; i <= 60; ++i) {
-        const double t = i / 60.0;
-        states.push_back(moved(surface, -0.1 + 0.7 * std::sin(std::numbers::pi * t), 1.7 * t));
-    }
-    return states;
-}
-
-template <class T>
-bool same_bits(std::span<const T> a, std::span<const T> b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
-}
-
-contact::ContactOptions deep(double skin = 0.1) {
-    contact::ContactOptions options;
-    options.compression_limit = 10.0;
-    options.search.skin = skin;
-    return options;
 }
 
 }  // namespace
@@ -117,7 +59,7 @@ TEST_CASE("pairs go from one owner to another and back without a loss", "[contac
 TEMPLATE_TEST_CASE_SIG("after save and restore the next steps have the same bits, also with pairs deeper than D",
                        "[contact][store]", ((int Dim), Dim), 2, 3) {
     const auto surface = plates<Dim>();
-    const auto states = way(surface);
+    const auto states = path_of_plates(surface);
     contact::Contact<Dim> whole(surface.view(), deep());
     std::vector<std::vector<std::byte>> saved;
     for (std::size_t i = 0; i + 1 < states.size(); ++i) {
@@ -159,7 +101,7 @@ TEMPLATE_TEST_CASE_SIG("after save and restore the next steps have the same bits
 TEMPLATE_TEST_CASE_SIG("a state that is damaged, of another version, dimension or surface is refused, and nothing changes",
                        "[contact][store]", ((int Dim), Dim), 2, 3) {
     const auto surface = plates<Dim>();
-    const auto states = way(surface);
+    const auto states = path_of_plates(surface);
     contact::Contact<Dim> contact(surface.view(), deep());
     for (std::size_t i = 0; i < 20; ++i) drive(contact, states[i], states[i + 1]);
     const auto good = contact.state();
@@ -192,69 +134,4 @@ TEMPLATE_TEST_CASE_SIG("a state that is damaged, of another version, dimension o
     }
     CHECK_NOTHROW(contact.restore(good));
     CHECK(contact.state() == good);
-}
-
-TEMPLATE_TEST_CASE_SIG("one call a step does what search and integrate do", "[contact][step]", ((int Dim), Dim), 2, 3) {
-    const auto surface = plates<Dim>();
-    const auto states = way(surface);
-    contact::Contact<Dim> one_call(surface.view(), deep(0.5));
-    Mover<Dim> expert(surface, deep(0.5));
-    std::int64_t active = 0;
-    for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-        const auto& step = one_call.step({.displacement_0 = states[i],
-                                          .displacement_1 = states[i + 1],
-                                          .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
-                                          .gradients_of =
-                                              [](auto, auto y_0, auto y_1) {
-                                                  std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
-                                                  std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
-                                              }});
-        expert.search(states[i], states[i + 1]);
-        expert.move_to(states[i + 1]);
-        const auto& expected = expert.contact.last();
-        REQUIRE(step.pairs.size() == expected.pairs.size());
-        for (std::size_t p = 0; p < step.pairs.size(); ++p) CHECK(step.pairs[p].force == expected.pairs[p].force);
-        CHECK(step.energy == expected.energy);
-        active += static_cast<std::int64_t>(step.pairs.size());
-    }
-    CHECK(active > 50);
-    CHECK(one_call.report().rebuilds < expert.contact.report().rebuilds);  // lists live for several steps
-}
-
-TEMPLATE_TEST_CASE_SIG("a host that gives nothing to ask, or a motion that is no number, is told so", "[contact][step]",
-                       ((int Dim), Dim), 2, 3) {
-    const auto surface = plates<Dim>();
-    contact::Contact<Dim> contact(surface.view(), deep());
-    const auto u = at_rest(surface);
-    CHECK_THROWS_WITH(contact.step({.displacement_0 = u, .displacement_1 = u}), Contains("coupling_of"));
-    auto lost = u;
-    lost[2][0] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_NOTHROW(drive(contact, u, u));
-    CHECK_THROWS_AS(drive(contact, u, lost), Diverged);
-    try {
-        drive(contact, u, lost);
-    } catch (const Error& error) {
-        CHECK(error.kind() == ErrorKind::diverged);
-        CHECK(error.facts().face_1 == 2);
-    }
-    CHECK_NOTHROW(drive(contact, u, u));
-}
-
-TEMPLATE_TEST_CASE_SIG("an error of depth says which faces, how deep and what is allowed as numbers", "[contact][errors]",
-                       ((int Dim), Dim), 2, 3) {
-    const auto surface = plates<Dim>(1);
-    contact::ContactOptions options = deep();
-    options.compression_limit = 0.5;
-    contact::Contact<Dim> contact(surface.view(), options);
-    drive(contact, moved(surface, -0.1, 0.0), moved(surface, 0.1, 0.0));
-    try {
-        drive(contact, moved(surface, 0.1, 0.0), moved(surface, 0.3, 0.0));
-        FAIL("0.3 of D = 0.4 is more than half");
-    } catch (const TooDeep& error) {
-        CHECK(error.kind() == ErrorKind::too_deep);
-        CHECK(error.facts().face_1 == 0);
-        CHECK(error.facts().face_2 == 1);
-        CHECK(error.facts().value == Approx(0.75).epsilon(1e-13));
-        CHECK(error.facts().allowed == 0.5);
-    }
 }

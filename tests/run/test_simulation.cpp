@@ -137,3 +137,34 @@ TEST_CASE("options that do not go together are refused before anything is run", 
                                            run::RunOptions{.levels = 3}, run::RunOptions{.gauge = 1.0}})
         CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options)), BadInput);
 }
+
+TEST_CASE("a scene without contact has none, whatever the options of its solid say", "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.time = 4.0;
+    scene.solid.contact.emplace();
+    scene.contact = false;
+    scene.solid.obstacles.clear();
+    const auto result = run::simulate<2>(scene);
+    CHECK(result.skin == 0.0);
+    CHECK(result.end.front().velocity.y() == Approx(-0.01).epsilon(1e-12));  // it goes on through where the plane was
+}
+
+TEST_CASE("a step above the stable one is refused, whether dt or cfl asks for it", "[run]") {
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, {.cfl = 1.2})), Catch::Matchers::StartsWith("--cfl: "));
+    CHECK_NOTHROW(static_cast<void>(run::simulate<2>(scene, {.steps = 1, .cfl = 1.2, .allow_unstable = true})));
+}
+
+TEST_CASE("a run takes as many steps as reach its end, rounding aside", "[run]") {
+    CHECK(run::steps_until(0.07, 0.01) == 7);  // 0.07 / 0.01 is 7.000000000000001 in doubles
+    CHECK(run::steps_until(0.0701, 0.01) == 8);
+    CHECK(run::steps_until(0.01, 1.0) == 1);
+    CHECK_THROWS_AS(run::steps_until(0.0, 0.01), BadInput);
+    CHECK_THROWS_AS(run::steps_until(1.0, 1e-300), BadInput);
+}
+
+TEST_CASE("energies of a scene are measured by something that has a name", "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.energy_scale.name.clear();
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, {.steps = 1})), BadInput);
+}

@@ -1,0 +1,243 @@
+// A step of contact as a host asks for it, and how several Contacts share the pairs of a surface.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <limits>
+
+#include "abut/contact/contact.hpp"
+#include "contact/plates.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using Catch::Matchers::Contains;
+using contact::FacePair;
+using contact::PairStore;
+using contact::SurfaceFace;
+
+namespace {
+
+/// A host whose gradients are constant and do not answer to corrections: what a pair does depends on nothing but itself.
+template <int Dim>
+contact::HostStep<Dim> constant_host(const std::vector<Vector<Dim>>& u_0, const std::vector<Vector<Dim>>& u_1,
+                                     contact::TakenForce take = contact::TakenForce::mean) {
+    return {.displacement_0 = u_0,
+            .displacement_1 = u_1,
+            .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size(), 0.0); },
+            .gradients_of =
+                [](auto, auto y_0, auto y_1) {
+                    std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
+                    std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
+                },
+            .take = take};
+}
+
+template <int Dim>
+void check_same_pair(const contact::PairStep<Dim>& a, const contact::PairStep<Dim>& b) {
+    CHECK(a.face_1 == b.face_1);
+    CHECK(a.face_2 == b.face_2);
+    CHECK(a.gap_1 == b.gap_1);
+    CHECK(a.area == b.area);
+    CHECK(a.force == b.force);
+}
+
+bool is_even(FacePair pair) { return (number_of(pair.face_1) + number_of(pair.face_2)) % 2 == 0; }
+bool is_odd(FacePair pair) { return !is_even(pair); }
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("one call per step does what search and integrate do", "[contact][step]", ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>();
+    const auto states = path_of_plates(surface);
+    contact::Contact<Dim> one_call(surface.view(), deep(0.5));
+    Mover<Dim> expert(surface, deep(0.5));
+    std::int64_t active = 0;
+    for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+        const auto& step = one_call.step({.displacement_0 = states[i],
+                                          .displacement_1 = states[i + 1],
+                                          .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
+                                          .gradients_of =
+                                              [](auto, auto y_0, auto y_1) {
+                                                  std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
+                                                  std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
+                                              }});
+        expert.search(states[i], states[i + 1]);
+        expert.move_to(states[i + 1]);
+        const auto& expected = expert.contact.last();
+        REQUIRE(step.pairs.size() == expected.pairs.size());
+        for (std::size_t p = 0; p < step.pairs.size(); ++p) CHECK(step.pairs[p].force == expected.pairs[p].force);
+        CHECK(step.energy == expected.energy);
+        active += static_cast<std::int64_t>(step.pairs.size());
+    }
+    CHECK(active > 50);
+    CHECK(one_call.report().rebuilds < expert.contact.report().rebuilds);  // lists live for several steps
+}
+
+TEMPLATE_TEST_CASE_SIG("a host that gives nothing to ask, or a motion that is no number, is told so", "[contact][step]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>();
+    contact::Contact<Dim> contact(surface.view(), deep());
+    const auto u = at_rest(surface);
+    CHECK_THROWS_WITH(contact.step({.displacement_0 = u, .displacement_1 = u}), Contains("coupling_of"));
+    auto lost = u;
+    lost[2][0] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_NOTHROW(drive(contact, u, u));
+    CHECK_THROWS_AS(drive(contact, u, lost), Diverged);
+    try {
+        drive(contact, u, lost);
+    } catch (const Error& error) {
+        CHECK(error.kind() == ErrorKind::diverged);
+        CHECK(error.facts().face_1 == 2);
+    }
+    CHECK_NOTHROW(drive(contact, u, u));
+}
+
+TEMPLATE_TEST_CASE_SIG("an error of depth says which faces, how deep and what is allowed as numbers", "[contact][errors]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>(1);
+    contact::ContactOptions options = deep();
+    options.compression_limit = 0.5;
+    contact::Contact<Dim> contact(surface.view(), options);
+    drive(contact, moved(surface, -0.1, 0.0), moved(surface, 0.1, 0.0));
+    try {
+        drive(contact, moved(surface, 0.1, 0.0), moved(surface, 0.3, 0.0));
+        FAIL("0.3 of D = 0.4 is more than half");
+    } catch (const TooDeep& error) {
+        CHECK(error.kind() == ErrorKind::too_deep);
+        CHECK(error.facts().face_1 == 0);
+        CHECK(error.facts().face_2 == 1);
+        CHECK(error.facts().value == Approx(0.75).epsilon(1e-13));
+        CHECK(error.facts().allowed == 0.5);
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("the force at the end of a step is that of search and follow", "[contact][step]", ((int Dim), Dim), 2,
+                       3) {
+    const auto surface = plates<Dim>();
+    const auto states = path_of_plates(surface);
+    contact::Contact<Dim> one_call(surface.view(), deep(0.5)), expert(surface.view(), deep(0.5)),
+        mean(surface.view(), deep(0.5));
+    std::int64_t active = 0, differs = 0;
+    for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+        const auto& step = one_call.step(constant_host<Dim>(states[i], states[i + 1], contact::TakenForce::end));
+        const auto& of_mean = mean.step(constant_host<Dim>(states[i], states[i + 1]));
+        expert.search(states[i], states[i + 1], [](auto listed) { return uncoupled<Dim>(listed.size(), 0.0); });
+        std::vector<Vector<Dim>> u_0, u_1;
+        for (const SurfaceFace f : expert.faces()) {
+            u_0.push_back(states[i][static_cast<std::size_t>(f)]);
+            u_1.push_back(states[i + 1][static_cast<std::size_t>(f)]);
+        }
+        const std::vector<Vector<Dim>> y(u_0.size(), Vector<Dim>::Ones());
+        const auto& expected = expert.follow(u_0, u_1, y);
+        REQUIRE(step.pairs.size() == expected.pairs.size());
+        for (std::size_t p = 0; p < step.pairs.size(); ++p) {
+            check_same_pair(step.pairs[p], expected.pairs[p]);
+            CHECK(step.pairs[p].events == 0);
+        }
+        active += static_cast<std::int64_t>(step.pairs.size());
+        differs += step.pairs.size() != of_mean.pairs.size() ||
+                   (!step.pairs.empty() && step.pairs[0].area != of_mean.pairs[0].area);
+    }
+    CHECK(active > 50);
+    CHECK(differs > 10);  // it is not the mean
+    CHECK(one_call.search_report().searches == one_call.report().rebuilds);
+    CHECK(one_call.search_report().searches < expert.search_report().searches);
+}
+
+TEMPLATE_TEST_CASE_SIG("a step that begins where no step ended is searched for, too", "[contact][step]", ((int Dim), Dim), 2,
+                       3) {
+    const auto surface = plates<Dim>();
+    contact::Contact<Dim> contact(surface.view(), deep(0.1));
+    const auto apart = moved(surface, -2.0, 0.0), together = moved(surface, 0.02, 0.0);
+    drive(contact, apart, apart);
+    CHECK(contact.faces().empty());
+    CHECK_FALSE(drive(contact, together, apart).pairs.empty());  // its end alone is within the list
+    CHECK_FALSE(contact.faces().empty());
+}
+
+TEMPLATE_TEST_CASE_SIG("after a search there is no step yet: no pairs, and zeros for the faces of the new list",
+                       "[contact][step]", ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>();
+    contact::Contact<Dim> contact(surface.view(), deep());
+    REQUIRE(drive(contact, moved(surface, -0.1, 0.0), moved(surface, 0.1, 0.0)).is_active());
+    const auto u = moved(surface, 0.1, 0.0);
+    contact.search(u, u, [](auto listed) { return uncoupled<Dim>(listed.size()); });
+    const auto& last = contact.last();
+    CHECK_FALSE(last.is_active());
+    CHECK(last.energy == 0.0);
+    CHECK(last.report.compression == 0.0);
+    REQUIRE(std::ranges::equal(last.faces, contact.faces()));
+    REQUIRE_FALSE(last.faces.empty());
+    CHECK(last.mean_correction.size() == last.faces.size());
+    CHECK(last.mean_normal_force.size() == last.faces.size());
+    for (const auto& gradient : last.mean_gradient) CHECK(gradient.isZero(0.0));
+}
+
+TEMPLATE_TEST_CASE_SIG("two Contacts share the pairs of a surface, swap them, and find together what one finds",
+                       "[contact][store]", ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>();
+    const auto states = path_of_plates(surface);
+    contact::Contact<Dim> whole(surface.view(), deep()), first(surface.view(), deep()), second(surface.view(), deep());
+    contact::Contact<Dim> forgetful(surface.view(),
+                                    deep());  // gets the same pairs as `second`, but not what is known of them
+    CHECK(first.release_pairs(is_even).size() == 0);
+    CHECK(second.release_pairs(is_odd).size() == 0);
+    CHECK(forgetful.release_pairs(is_odd).size() == 0);
+    std::size_t handed_over = 0, active = 0, losses = 0;
+    for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+        if (i % 10 == 5) {
+            const bool is_swapped = i % 20 == 5;
+            const PairStore of_first = first.release_pairs(is_swapped ? is_odd : is_even);
+            const PairStore of_second = second.release_pairs(is_swapped ? is_even : is_odd);
+            static_cast<void>(forgetful.release_pairs(is_swapped ? is_even : is_odd));
+            first.take_pairs(of_second);
+            second.take_pairs(of_first);
+            handed_over += static_cast<std::size_t>(of_first.size() + of_second.size());
+        }
+        const auto& expected = whole.step(constant_host<Dim>(states[i], states[i + 1]));
+        const auto& a = first.step(constant_host<Dim>(states[i], states[i + 1]));
+        const auto& b = second.step(constant_host<Dim>(states[i], states[i + 1]));
+        losses += b.pairs.size() - forgetful.step(constant_host<Dim>(states[i], states[i + 1])).pairs.size();
+        REQUIRE(a.pairs.size() + b.pairs.size() == expected.pairs.size());
+        auto of_a = a.pairs.begin(), of_b = b.pairs.begin();
+        for (const auto& pair : expected.pairs) {
+            const bool is_of_a = of_a != a.pairs.end() && of_a->face_1 == pair.face_1 && of_a->face_2 == pair.face_2;
+            check_same_pair(is_of_a ? *of_a++ : *of_b++, pair);
+        }
+        active += expected.pairs.size();
+    }
+    CHECK(active > 50);
+    CHECK(handed_over > 20);
+    CHECK(first.report().missed_contacts + second.report().missed_contacts == whole.report().missed_contacts);
+    CHECK(losses > 5);  // what was handed over is what makes the difference
+    CHECK(forgetful.report().missed_contacts + forgetful.report().inadmissible_overlaps > 0);  // and one is told
+}
+
+TEMPLATE_TEST_CASE_SIG("pairs that cannot be taken over are refused by their faces, and nothing changes", "[contact][store]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>(), larger = plates<Dim>(8);
+    contact::Contact<Dim> contact(surface.view(), deep()), of_larger(larger.view(), deep()), other(surface.view(), deep());
+    for (auto* each : {&contact, &other}) drive(*each, moved(surface, -0.1, 0.0), moved(surface, 0.1, 0.0));
+    drive(of_larger, moved(larger, -0.1, 0.0), moved(larger, 0.1, 0.0));
+    const auto nothing = [](FacePair) { return false; };
+    const auto before = contact.state();
+    CHECK_THROWS_AS(contact.take_pairs(of_larger.release_pairs(nothing)), BadInput);
+    const PairStore released = other.release_pairs(nothing);
+    REQUIRE(released.size() > 0);
+    CHECK_THROWS_AS(contact.take_pairs(released), Misuse);  // it knows them already
+    CHECK_THROWS_WITH(other.take_pairs(released), Contains("not this Contact's own"));
+    CHECK(contact.state() == before);
+    CHECK(other.pair_store().size() == 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("arrays of a wrong size and functions that are not set are refused", "[contact][step]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto surface = plates<Dim>();
+    contact::Contact<Dim> contact(surface.view());
+    const auto u = moved(surface, 0.01, 0.0);
+    CHECK_THROWS_AS(contact.search(u, u, {}), BadInput);
+    drive(contact, u, u);
+    std::vector<Vector<Dim>> listed(contact.faces().size(), Vector<Dim>::Zero());
+    CHECK_NOTHROW(contact.admitted_overlaps(listed));
+    listed.pop_back();
+    CHECK_THROWS_AS(contact.admitted_overlaps(listed), BadInput);
+}
