@@ -64,8 +64,8 @@ public:
     IdVector(std::size_t n, const T& value) : values_(n, value) {}
     explicit IdVector(std::vector<T> values) : values_(std::move(values)) {}
 
-    [[nodiscard]] T& operator[](Id id) { return values_[static_cast<std::size_t>(id)]; }
-    [[nodiscard]] const T& operator[](Id id) const { return values_[static_cast<std::size_t>(id)]; }
+    [[nodiscard]] T& operator[](Id id) { return values_[index_of(id)]; }
+    [[nodiscard]] const T& operator[](Id id) const { return values_[index_of(id)]; }
     void push_back(const T& value) { values_.push_back(value); }
     void assign(std::size_t n, const T& value) { values_.assign(n, value); }
     void resize(std::size_t n) { values_.resize(n); }
@@ -80,6 +80,11 @@ public:
     [[nodiscard]] std::span<const T> values() const { return values_; }
 
 private:
+    [[nodiscard]] std::size_t index_of(Id id) const {
+        assert(number_of(id) >= 0 && static_cast<std::size_t>(id) < values_.size());
+        return static_cast<std::size_t>(id);
+    }
+
     std::vector<T> values_;
 };
 

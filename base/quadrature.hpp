@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace abut {
@@ -13,6 +14,7 @@ struct Quadrature {
 
 /// Gauss-Legendre with 1, 2 or 3 points: exact up to degree 1, 3, 5.
 [[nodiscard]] inline Quadrature gauss_legendre(int points) {
+    assert(points >= 1 && points <= 3);
     const double two = 0.5 / std::sqrt(3.0);
     const double three = 0.5 * std::sqrt(0.6);
     if (points == 1) return {1, {0.5}, {1.0}};

@@ -20,7 +20,7 @@ using Lanes = double __attribute__((vector_size(32)));
 using Lanes = double __attribute__((vector_size(16)));
 #endif
 
-/// One answer a lane, all bits set for yes: of a comparison of Lanes. `mask ? a : b` picks lane by lane.
+/// One answer per lane, all bits set for yes: of a comparison of Lanes. `mask ? a : b` picks lane by lane.
 using LaneMask = decltype(Lanes{} < Lanes{});
 
 inline constexpr int lane_count = sizeof(Lanes) / sizeof(double);

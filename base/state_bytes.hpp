@@ -22,8 +22,7 @@ private:
     std::uint64_t value_ = 14695981039346656037u;
 };
 
-/// A state as bytes: what it is of, its version, its content, a checksum. Little-endian machines only, as all that Debian
-/// builds Abut for.
+/// A state as bytes: its kind, its version, its content, a checksum. Little-endian machines only.
 class StateWriter {
 public:
     /// `kind` says what the state is of: "contact 3D".

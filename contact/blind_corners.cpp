@@ -13,22 +13,22 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of cosines: a tip of just the limiting angle is blind
 
-/// A face at a corner, sorted by place and body.
+/// A face at a corner, sorted by merged vertex and body.
 struct FaceAtCorner {
-    std::int32_t place;
+    std::int32_t merged_vertex;
     std::int32_t body;
     std::int32_t face;
 };
 
 template <int Dim>
 std::vector<FaceAtCorner> faces_at_corners(const SurfaceView<Dim>& surface) {
-    const std::vector<std::int32_t> place = geometry::merged_vertices<Dim>(surface.vertices);
+    const std::vector<std::int32_t> merged_vertex = geometry::merged_vertices<Dim>(surface.vertices);
     std::vector<FaceAtCorner> all;
     all.reserve(surface.face_vertices.size());
     for (std::int32_t face = 0; face < surface.size(); ++face)
         for (const std::int32_t v : surface.vertices_of(face))
-            all.push_back({place[static_cast<std::size_t>(v)], surface.body[face], face});
-    std::ranges::sort(all, {}, [](const FaceAtCorner& at) { return std::tie(at.place, at.body, at.face); });
+            all.push_back({merged_vertex[static_cast<std::size_t>(v)], surface.body[face], face});
+    std::ranges::sort(all, {}, [](const FaceAtCorner& at) { return std::tie(at.merged_vertex, at.body, at.face); });
     return all;
 }
 
@@ -82,11 +82,11 @@ private:
     }
 
     [[nodiscard]] bool sticks_out(const Vector<Dim>& d) const {
-        const Vector<Dim>& tip = surface_.vertices[faces_.front().place];
+        const Vector<Dim>& tip = surface_.vertices[faces_.front().merged_vertex];
         return std::ranges::all_of(faces_, [&](const FaceAtCorner& at) {
             return std::ranges::all_of(surface_.vertices_of(at.face), [&](std::int32_t v) {
-                const Vector<Dim> way = surface_.vertices[v] - tip;
-                return way.dot(d) <= rounding * way.norm();
+                const Vector<Dim> to_corner = surface_.vertices[v] - tip;
+                return to_corner.dot(d) <= rounding * to_corner.norm();
             });
         });
     }
@@ -104,10 +104,11 @@ std::vector<std::int32_t> blind_corners(const SurfaceView<Dim>& surface, double 
     const std::vector<FaceAtCorner> all = faces_at_corners(surface);
     std::vector<std::int32_t> blind;
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-        while (end < all.size() && all[end].place == all[begin].place && all[end].body == all[begin].body) ++end;
+        while (end < all.size() && all[end].merged_vertex == all[begin].merged_vertex && all[end].body == all[begin].body)
+            ++end;
         if (Corner<Dim>(surface, std::span(all).subspan(begin, end - begin), -facing_cosine).is_blind() &&
-            (blind.empty() || blind.back() != all[begin].place))
-            blind.push_back(all[begin].place);
+            (blind.empty() || blind.back() != all[begin].merged_vertex))
+            blind.push_back(all[begin].merged_vertex);
     }
     return blind;
 }

@@ -6,17 +6,18 @@
 
 namespace abut::contact {
 
-/// Corners that contact cannot see: sticking out so sharply that a flat face may come straight at one of them while it faces,
-/// by `facing_cosine`, none of the faces around it. A body enters others there without a contact. With n_i the outward normals
-/// around a corner v, such a face has a normal -d for which
+/// Corners that contact cannot see: sticking out so sharply that a flat face may come straight at one of them while it
+/// faces, by `facing_cosine`, none of the faces around it. A body enters others there without a contact. With n_i the
+/// outward normals around a corner v, such a face has a normal -d for which
 ///
 ///     (w - v) . d <= 0 for all corners w of these faces,      n_i . d <= -facing_cosine for all i.
 ///
 /// In 2D these are tips of at most 180 degrees - 2 acos(-facing_cosine): 60 degrees by default, where the corner of a cube
 /// (n_i . d = 0.577) is still seen. In 3D d is tried halfway between each two normals, and at equal angles to each three.
 ///
-/// Gives one index into SurfaceView::vertices a corner, increasing; corners of one body at exactly the same place are one.
-/// Only corners of two faces and more count. A lower |facing_cosine| sees sharper corners.
+/// Returns one index into SurfaceView::vertices per position with such a corner, increasing; corners of one body at exactly
+/// one position are one. Corners of a single face do not count. A lower |facing_cosine| (-1 < facing_cosine < 0) sees
+/// sharper corners. Throws BadInput for array sizes that disagree; otherwise the surface must be one that `check` lets pass.
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> blind_corners(const SurfaceView<Dim>& surface, double facing_cosine);
 

@@ -8,7 +8,7 @@
 
 namespace abut::contact {
 
-/// "face 61 (body 0, at (0.98, 0.21) m)": a host knows its faces by their place rather than by the number they have here.
+/// "face 61 (body 0, at (0.98, 0.21) m)": a host knows its faces by their position rather than by their number.
 template <int Dim>
 [[nodiscard]] std::string face_name(const SurfaceView<Dim>& surface, std::int32_t face) {
     std::string name = "face " + std::to_string(face) + " (body " + std::to_string(surface.body[face]) + ", at (";

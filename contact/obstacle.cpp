@@ -21,7 +21,7 @@ RigidObstacle<Dim> plane_obstacle(const Vector<Dim>& point, const Vector<Dim>& n
     const geometry::PlaneFrame<Dim> frame(normal.normalized());
     std::vector<Vector<Dim>> corners;
     if constexpr (Dim == 2) {
-        // The outside is on the right of the way from the first corner to the second.
+        // The outside is on the right of the line from the first corner to the second.
         const Vector<2> along = half_width * frame.tangents();
         corners = {point - along, point + along};
     } else {

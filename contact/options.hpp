@@ -6,7 +6,7 @@ namespace abut::contact {
 
 /// How the correction of a pair is shared by its two faces, theta_1 + theta_2 = 1. docs/method.md, Contact.
 enum class InterfaceWeighting {
-    half,       ///< theta = 1/2, the formula of the talk
+    half,       ///< theta = 1/2, whatever the stiffnesses; 0 for a rigid face
     stiffness,  ///< theta_1 = k_2 / (k_1 + k_2): the tractions of the massless interface balance
 };
 
@@ -19,8 +19,8 @@ enum class OverlapMode {
 /// Which pairs of faces a search for candidates lists, and what it may take.
 struct CandidateOptions {
     geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic;  ///< changes the cost alone
-    /// [-] n_1 . n_2 below this: the faces look at each other, and gap and shift tell what can touch. From above -1 to 1.
-    /// With 1 normals and the model of contact play no part: what counts is the distance of faces in space
+    /// [-] n_1 . n_2 below this: the faces look at each other, and gap and tangential offset tell what can touch. From above
+    /// -1 to 1. With 1 normals and the model of contact play no part: what counts is the distance of faces in space
     double facing_cosine = -0.5;
     /// [m] >= 0: gaps up to this count besides contact. Contact itself needs 0
     double distance = 0.0;
@@ -30,7 +30,7 @@ struct CandidateOptions {
     double skin = 0.0;
     bool self_contact = false;  ///< also pairs of faces of one body
     /// Faces of one body are no candidates within so many steps from face to face over common corners (corners at exactly
-    /// the same place are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each
+    /// the same position are common): 1 leaves out those that share a corner, 0 none. Two sides of a sharp edge face each
     /// other.
     int self_contact_rings = 1;
     /// [-] > 0: a face that moves farther within a step than this times the extent of all surfaces together has diverged
@@ -46,7 +46,7 @@ struct ContactOptions {
     OverlapMode overlap = OverlapMode::moving;
     InterfaceWeighting weighting = InterfaceWeighting::stiffness;
     bool events = true;                ///< cut the step where a pair opens, closes or changes its overlap formula
-    int quadrature = 0;                ///< Gauss-Legendre points a subinterval, 1 to 3; 0 means Dim, the exact number
+    int quadrature = 0;                ///< Gauss-Legendre points per subinterval, 1 to 3; 0 means Dim, the exact number
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
 };

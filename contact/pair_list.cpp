@@ -8,7 +8,7 @@
 namespace abut::contact {
 namespace {
 
-/// theta_1. The limit of the stiffness weighting for a rigid face 2 is 1, for a rigid face 1 it is 0, whatever the weighting.
+/// theta_1. Whatever the weighting, a rigid face 2 makes it 1 and a rigid face 1 makes it 0: the limits of `stiffness`.
 template <int Dim>
 double share_of_first(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2,
                       InterfaceWeighting weighting) {

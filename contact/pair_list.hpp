@@ -10,7 +10,8 @@
 
 namespace abut::contact {
 
-/// Two facing faces and all of them that does not change while they move without rotation. docs/method.md, Contact.
+/// Two facing faces, and everything about them that stays the same while they move without rotation. docs/method.md,
+/// Contact.
 template <int Dim>
 struct ContactPair {
     std::int32_t face_1;  ///< in the surface
@@ -20,9 +21,9 @@ struct ContactPair {
     double theta_2;
     double interaction_radius;   ///< sum of the circumradii of the projected faces: farther apart they share nothing [m]
     double admission_depth;      ///< D = d_1 + d_2 [m]
-    std::int32_t listed_1 = -1;  ///< the faces in the list of `PairList::list_faces`
+    std::int32_t listed_1 = -1;  ///< index of the face in the list of PairList::list_faces
     std::int32_t listed_2 = -1;
-    std::int32_t corners_1 = 0;  ///< where the projected corners of face 1 begin in PairList::corners
+    std::int32_t corners_1 = 0;  ///< where the projected corners of face 1 begin in the corners of the PairList
     std::int32_t corners_2 = 0;
     std::int32_t corners_end = 0;
 };
@@ -43,7 +44,7 @@ public:
     void clear();
     /// The faces of all pairs, increasing; then `number_faces`.
     void list_faces(std::vector<SurfaceFace>& faces);
-    /// Sets `listed_1` and `listed_2`: the places of the pairs' faces among these, increasing.
+    /// Sets `listed_1` and `listed_2`: the indices of the pairs' faces among these, which increase.
     void number_faces(std::span<const SurfaceFace> faces);
 
     [[nodiscard]] std::span<const ContactPair<Dim>> pairs() const { return pairs_; }

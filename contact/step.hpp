@@ -7,13 +7,13 @@
 
 namespace abut::contact {
 
-/// How the energy gradients of a host's faces answer to a correction: y_f = y_free,f + sum_f' Q_ff' delta_f', among the listed
-/// faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary faces
-/// of its cell, those of cells that share a stabilised interior face with it.
+/// How the energy gradients of a host's faces answer to a correction: y_f = y_free,f + sum_f' Q_ff' delta_f', among the
+/// listed faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary
+/// faces of its cell, those of cells that share a stabilised interior face with it.
 template <int Dim>
 struct FaceCoupling {
     std::vector<std::int32_t> offsets{0};  ///< (n + 1)
-    std::vector<std::int32_t> columns;     ///< places in the list of faces, increasing in each row
+    std::vector<std::int32_t> columns;     ///< indices into the list of faces, increasing in each row
     std::vector<Matrix<Dim>> blocks;       ///< Q_ff' [N/m]
 };
 
@@ -47,8 +47,8 @@ struct StepReport {
     std::int64_t events = 0;            ///< of all pairs
     double compression = 0.0;           ///< largest |g|/D of an active pair at the ends of the step
     std::int32_t most_compressed = -1;  ///< which pair it is, in `ContactStep::pairs`; -1: none
-    /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over that
-    /// which the whole face would carry.
+    /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over
+    /// that which the whole face would carry.
     double sliding_ratio = 0.0;
     /// Pairs whose faces slid off each other in this step while pressed in, and neither of which (except for faces of
     /// obstacles) has another partner at its end. Seen where the overlap moves and events are looked for; not where the area
@@ -57,7 +57,8 @@ struct StepReport {
     double slipped_compression = 0.0;  ///< their largest |g|/D when the overlap came to its end
 };
 
-/// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is zero.
+/// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is
+/// zero.
 template <int Dim>
 struct ContactStep {
     std::vector<SurfaceFace> faces;                     ///< the listed faces, increasing (n)

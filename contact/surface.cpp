@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "abut/base/error.hpp"
@@ -26,11 +25,10 @@ template <int Dim>
     refuse_named(face_name(surface, face), what, {.face_1 = face});
 }
 
-/// What measures may be off by, over those of the face: 1e-10, and the rounding of coordinates far from the origin.
+/// The allowed deviation of measures, over the size of the face.
 template <int Dim>
 double tolerance(const SurfaceView<Dim>& surface, std::int32_t face) {
-    const double size = Dim == 2 ? surface.area[face] : std::sqrt(surface.area[face]);
-    return 1e-10 + 16.0 * std::numeric_limits<double>::epsilon() * surface.centroid[face].norm() / size;
+    return geometry::face_tolerance<Dim>(surface.centroid[face], surface.area[face]);
 }
 
 /// A segment in 2D; a polygon with a limited number of corners in 3D.

@@ -33,7 +33,7 @@ public:
         : Integrator<EnergyMomentum, S>(system, std::move(q), dt),
           mean_force_(system, mean),
           matrix_(system.size(), mass_entries(system.inverse_mass())) {
-        for (auto* array : {&residual_, &change_, &q_way_}) array->resize(system.size());
+        for (auto* array : {&residual_, &change_, &q_on_path_}) array->resize(system.size());
         this->begin(p);
     }
 
@@ -88,8 +88,9 @@ private:
         const Quadrature rule = gauss_legendre(3);
         stiffness_.clear();
         for (int k = 0; k < rule.size; ++k) {
-            for (std::size_t i = 0; i < q_way_.size(); ++i) q_way_[i] = q_0[i] + rule.node[k] * (q_1[i] - q_0[i]);
-            this->system_.append_stiffness(q_way_, 0.5 * this->dt_ * this->dt_ * rule.weight[k] * rule.node[k], stiffness_);
+            for (std::size_t i = 0; i < q_on_path_.size(); ++i) q_on_path_[i] = q_0[i] + rule.node[k] * (q_1[i] - q_0[i]);
+            this->system_.append_stiffness(q_on_path_, 0.5 * this->dt_ * this->dt_ * rule.weight[k] * rule.node[k],
+                                           stiffness_);
         }
         matrix_.factorise(stiffness_);
     }
@@ -107,7 +108,7 @@ private:
     std::vector<MatrixEntry> stiffness_;
     std::vector<double> residual_;
     std::vector<double> change_;
-    std::vector<double> q_way_;
+    std::vector<double> q_on_path_;
 };
 
 }  // namespace abut::dynamics

@@ -2,7 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -23,21 +25,22 @@ template <int Dim>
 class RigidMotion {
 public:
     RigidMotion(std::span<const double> mass, std::span<const Vector<Dim>> position)
-        : mass_(mass), arm_(position.begin(), position.end()) {
+        : mass_(mass), lever_arm_(position.begin(), position.end()) {
         Vector<Dim> centre = Vector<Dim>::Zero();
         for (std::size_t i = 0; i < mass.size(); ++i) {
             total_ += mass[i];
             centre += mass[i] * position[i];
         }
         centre /= total_;
-        for (Vector<Dim>& arm : arm_) arm -= centre;
+        for (Vector<Dim>& lever_arm : lever_arm_) lever_arm -= centre;
         if constexpr (Dim == 3) {
             Matrix<3> inertia = Matrix<3>::Zero();
-            for (std::size_t i = 0; i < arm_.size(); ++i)
-                inertia += mass[i] * (arm_[i].squaredNorm() * Matrix<3>::Identity() - arm_[i] * arm_[i].transpose());
+            for (std::size_t i = 0; i < lever_arm_.size(); ++i)
+                inertia += mass[i] *
+                           (lever_arm_[i].squaredNorm() * Matrix<3>::Identity() - lever_arm_[i] * lever_arm_[i].transpose());
             inverse_inertia_ = pseudo_inverse(inertia);
         } else {
-            for (std::size_t i = 0; i < arm_.size(); ++i) inertia_ += mass[i] * arm_[i].squaredNorm();
+            for (std::size_t i = 0; i < lever_arm_.size(); ++i) inertia_ += mass[i] * lever_arm_[i].squaredNorm();
         }
     }
 
@@ -48,21 +51,22 @@ public:
         for (Vector<Dim>& v : velocity) v -= mean;
         if constexpr (Dim == 3) {
             Vector<3> momentum = Vector<3>::Zero();
-            for (std::size_t i = 0; i < velocity.size(); ++i) momentum += mass_[i] * arm_[i].cross(velocity[i]);
+            for (std::size_t i = 0; i < velocity.size(); ++i) momentum += mass_[i] * lever_arm_[i].cross(velocity[i]);
             const Vector<3> spin = inverse_inertia_ * momentum;
-            for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] -= spin.cross(arm_[i]);
+            for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] -= spin.cross(lever_arm_[i]);
         } else {
             double momentum = 0.0;
             for (std::size_t i = 0; i < velocity.size(); ++i)
-                momentum += mass_[i] * (arm_[i][0] * velocity[i][1] - arm_[i][1] * velocity[i][0]);
+                momentum += mass_[i] * (lever_arm_[i][0] * velocity[i][1] - lever_arm_[i][1] * velocity[i][0]);
             const double spin = inertia_ > 0.0 ? momentum / inertia_ : 0.0;
-            for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] -= spin * Vector<2>(-arm_[i][1], arm_[i][0]);
+            for (std::size_t i = 0; i < velocity.size(); ++i)
+                velocity[i] -= spin * Vector<2>(-lever_arm_[i][1], lever_arm_[i][0]);
         }
     }
 
 private:
     std::span<const double> mass_;
-    std::vector<Vector<Dim>> arm_;
+    std::vector<Vector<Dim>> lever_arm_;
     double total_ = 0.0;
     double inertia_ = 0.0;
     Matrix<3> inverse_inertia_ = Matrix<3>::Zero();
@@ -76,6 +80,13 @@ double mass_product(std::span<const double> mass, std::span<const Vector<Dim>> a
 }
 
 }  // namespace
+
+void detail::check_kappa(double kappa) {
+    if (!(kappa >= 0.0 && kappa <= 1.0))
+        throw BadInput("filter: kappa is " + number(kappa) +
+                           "; 0 to 1 is allowed. Give the part of the mode that is taken out at each step.",
+                       {.value = kappa, .allowed = kappa < 0.0 ? 0.0 : 1.0});
+}
 
 template <int Dim>
 void detail::filter_patch(const ContactPatch& patch, const PatchState<Dim>& state, double kappa) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/base/vector.hpp"
 #include "abut/dynamics/ledger.hpp"
 
 namespace abut::dynamics {
@@ -23,6 +24,9 @@ concept PatchSystem = PointSystem<S> && requires(S& system, std::span<const std:
 };
 
 namespace detail {
+
+/// Throws BadInput for a kappa that is not from 0 to 1.
+void check_kappa(double kappa);
 
 /// One patch and the arrays of the whole system.
 template <int Dim>
@@ -55,8 +59,9 @@ class NeutralFilter {
 public:
     static constexpr int Dim = S::dimension;
 
-    /// The system must outlive the filter.
-    explicit NeutralFilter(S& system, double kappa = 1.0) : system_(system), kappa_(kappa) {}
+    /// `kappa`: the part of the mode that is taken out at each step [-], 0 to 1. The system must outlive the filter. Throws
+    /// BadInput for a kappa outside.
+    explicit NeutralFilter(S& system, double kappa = 1.0) : system_(system), kappa_(kappa) { detail::check_kappa(kappa); }
 
     /// To be called after each step (Integrator::set_after_step).
     void operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after) {

@@ -29,8 +29,10 @@ void check_step(double dt) {
 
 void check_start(std::size_t size, std::span<const double> q, std::span<const double> p) {
     if (q.size() != size || p.size() != size)
-        throw BadInput("integrator: the state has " + std::to_string(q.size()) + " positions and " +
-                       std::to_string(p.size()) + " momenta, the system " + std::to_string(size) + " degrees of freedom.");
+        throw BadInput(
+            "integrator: the state has " + std::to_string(q.size()) + " positions and " + std::to_string(p.size()) +
+                " momenta, the system " + std::to_string(size) + " degrees of freedom.",
+            {.value = static_cast<double>(q.size() != size ? q.size() : p.size()), .allowed = static_cast<double>(size)});
     require_finite(q, "position", "m");
     require_finite(p, "momentum", "kg m/s");
 }

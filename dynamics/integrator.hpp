@@ -32,15 +32,15 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     void advance()                      from q_ at time_ to the next node
 ///     double conserved_energy(double V)   the energy that it conserves, V being V(q_) [J]
 ///     has_half_steps, takes_after_step    whether its momenta are at half steps; whether `set_after_step` is offered
-/// Calls to it are resolved when it is compiled. After an exception from `step` other than of its arguments a run is over,
-/// unless the scheme says more.
+/// Static polymorphism: no virtual calls. After an exception from `step`, except for a bad dt, the run is over unless the
+/// scheme says more.
 template <class Scheme, System S>
 class Integrator {
 public:
     /// Called at the end of each step with p^{n+1/2} and p^{n+3/2} at q^{n+1}; may change the latter (a filter).
     using AfterStep = std::function<void(std::span<const double> q, double dt, std::span<const double> p_before,
                                          std::span<double> p_after)>;
-    /// For schemes that take such a change as it is: of others what they keep besides would no longer fit.
+    /// Offered by schemes that keep nothing else which depends on p^{n+3/2}.
     void set_after_step(AfterStep after_step) requires(Scheme::takes_after_step) { after_step_ = std::move(after_step); }
 
     /// One step of the present dt.
@@ -61,7 +61,8 @@ public:
         step();
     }
 
-    /// Turns the motion round: from here on the same path is followed back. Time goes on.
+    /// Turns the motion round: a system whose force depends on q alone follows the same path back, up to rounding. Time
+    /// goes on.
     void reverse() {
         std::swap(p_before_, p_after_);
         for (auto* momenta : {&p_before_, &p_after_})
@@ -72,6 +73,7 @@ public:
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] double dt() const { return dt_; }
     [[nodiscard]] std::int64_t steps() const { return steps_; }
+    /// Views of the present state, valid until the next step: schemes swap their arrays.
     [[nodiscard]] std::span<const double> q() const { return q_; }
     [[nodiscard]] std::span<const double> p_before() const { return p_before_; }  ///< p^{n-1/2}
     [[nodiscard]] std::span<const double> p_after() const { return p_after_; }    ///< p^{n+1/2}
@@ -86,8 +88,7 @@ public:
     [[nodiscard]] double energy() { return kinetic_energy() + system_.potential(q_); }
     /// 1/2 p^{n-1/2} . M^-1 p^{n+1/2} [J]
     [[nodiscard]] double staggered_kinetic_energy() const { return 0.5 * mass_product(p_before_, p_after_); }
-    /// What the kinetic energy has more than the staggered one, 1/8 |p^{n+1/2} - p^{n-1/2}|^2_{M^-1} >= 0 [J]: of MEMM it is
-    /// H - H~, the size of what H~ does not see.
+    /// The kinetic energy less the staggered one, 1/8 |p^{n+1/2} - p^{n-1/2}|^2_{M^-1} >= 0 [J]: with MEMM it is H - H~.
     [[nodiscard]] double energy_excess() const {
         add_scaled(p_after_, -1.0, p_before_, scratch_);
         return 0.125 * mass_product(scratch_, scratch_);

@@ -1,10 +1,8 @@
 #include "abut/dynamics/ledger.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "abut/base/parallel.hpp"
 
@@ -15,11 +13,11 @@ template <int Dim>
 using Rotation = Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign>;
 
 template <int Dim>
-Rotation<Dim> moment(const Vector<Dim>& arm, const Vector<Dim>& momentum) {
+Rotation<Dim> moment(const Vector<Dim>& lever_arm, const Vector<Dim>& momentum) {
     if constexpr (Dim == 2)
-        return Rotation<2>(arm[0] * momentum[1] - arm[1] * momentum[0]);
+        return Rotation<2>(lever_arm[0] * momentum[1] - lever_arm[1] * momentum[0]);
     else
-        return arm.cross(momentum);
+        return lever_arm.cross(momentum);
 }
 
 template <int Dim, class Entry>

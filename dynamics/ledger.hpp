@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/vector.hpp"
 #include "abut/dynamics/integrator.hpp"
 
 namespace abut::dynamics {
@@ -54,7 +55,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<double> ledger_values(const LedgerEntry<Dim>& entry);
 
-/// An integrator of moving points, as far as its ledger and its output go: no scheme has its own.
+/// The state of an integrator of moving points as ledger and output read it, whatever the scheme. A view, valid until the
+/// next step.
 template <int Dim>
 class RunView {
 public:
@@ -119,8 +121,11 @@ public:
     [[nodiscard]] double energy_drift() const { return energy_drift_; }
     /// max (H - H~), H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double energy_excess() const { return energy_excess_; }
+    /// Largest |e_i| / m_i [m/s]
     [[nodiscard]] double parasitic() const { return parasitic_; }
+    /// max |P - P0| [kg m/s]; forces from outside are not taken out.
     [[nodiscard]] double momentum_drift() const { return momentum_drift_; }
+    /// max |L - L0| about the origin [kg m^2/s]; moments from outside are not taken out.
     [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
     /// Largest of |H|, kinetic energy and |V| in the run [J]: what drifts of loaded runs are quoted on.
     [[nodiscard]] double largest_energy() const { return largest_energy_; }

@@ -19,7 +19,7 @@ void check(std::size_t n, std::span<const MatrixEntry> mass) {
     for (const auto& [row, column, value] : mass)
         if (!inside(row) || !inside(column) || !std::isfinite(value))
             throw BadInput("mass: entry (" + std::to_string(row) + ", " + std::to_string(column) + ") is " + number(value) +
-                           "; a finite number within " + std::to_string(n) + " rows and " + "columns is allowed.");
+                           "; a finite number within " + std::to_string(n) + " rows and columns is allowed.");
 }
 
 double largest_entry(const Sparse& matrix) { return matrix.nonZeros() == 0 ? 0.0 : matrix.coeffs().abs().maxCoeff(); }
@@ -35,10 +35,11 @@ InverseMass::InverseMass(std::size_t n, std::span<const MatrixEntry> mass) : imp
     check(n, mass);
     impl_->matrix = assembled(n, mass);
     const double asymmetry = largest_entry(Sparse(impl_->matrix - Sparse(impl_->matrix.transpose())));
-    if (asymmetry > symmetry_tolerance * largest_entry(impl_->matrix))
-        throw BadInput("mass: the matrix differs from its transpose by up to " + number(asymmetry) +
-                           " kg; it must be symmetric. Give both of its triangles.",
-                       {.value = asymmetry, .allowed = 0.0});
+    const double allowed = symmetry_tolerance * largest_entry(impl_->matrix);
+    if (asymmetry > allowed)
+        throw BadInput("mass: the matrix differs from its transpose by up to " + number(asymmetry) + " kg, " +
+                           number(allowed) + " kg is allowed; it must be symmetric. Give both of its triangles.",
+                       {.value = asymmetry, .allowed = allowed});
     impl_->factors.compute(impl_->matrix);
     if (impl_->factors.info() != Eigen::Success)
         throw BadInput("mass: the matrix is not positive definite. Every degree of freedom needs a mass above 0 kg.");

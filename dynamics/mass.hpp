@@ -26,7 +26,7 @@ public:
     InverseMass& operator=(InverseMass&&) noexcept;
 
     [[nodiscard]] std::size_t size() const;
-    /// v = M^-1 p
+    /// v = M^-1 p, both (n): [m/s] from [kg m/s]; v must not be p.
     void apply(std::span<const double> p, std::span<double> v) const;
     /// The entries of M, each row and column once.
     [[nodiscard]] std::vector<MatrixEntry> mass() const;

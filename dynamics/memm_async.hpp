@@ -8,7 +8,7 @@
 
 namespace abut::dynamics {
 
-/// Who takes which part of the time step: level l takes `parts[l]` steps in one step of the scheme.
+/// The local steps of a run: level l takes `parts[l]` steps in one step of the scheme.
 struct LocalSteps {
     std::vector<std::int32_t> parts;  ///< 1 first, each a multiple of the one before: 1, 2, 4, 8
     std::vector<std::int32_t> level;  ///< of each degree of freedom

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/vector.hpp"
 #include "abut/dynamics/system.hpp"
 
 namespace abut::dynamics {
@@ -57,6 +58,7 @@ struct StringSegment {
         const double x = r.norm() - length;
         return 0.5 * stiffness * x * x;
     }
+    /// Not a number where both ends coincide: a string of no length has no direction.
     [[nodiscard]] Vector<2> tension(const Vector<2>& r) const { return stiffness * (1.0 - length / r.norm()) * r; }
     /// The discrete gradient of Simo, Tarnow and Wong: its product with r_1 - r_0 is V(r_1) - V(r_0), and it has no moment
     /// about the mean position.
@@ -96,13 +98,14 @@ public:
         const auto refuse = [](const std::string& what) { throw BadInput("particles: " + what); };
         if (size() % dim != 0 || (!load_.empty() && load_.size() != size()))
             refuse(std::to_string(size()) + " masses and " + std::to_string(load_.size()) + " loads are given; give " +
-                   std::to_string(dim) + " a particle, of loads that many or none.");
+                   std::to_string(dim) + " masses per particle, and as many loads or none.");
         const auto n = static_cast<std::int32_t>(size() / dim);
         for (const Bond<Law>& bond : bonds_)
             if (bond.first < Bond<Law>::fixed || bond.second < Bond<Law>::fixed || bond.first >= n || bond.second >= n ||
                 bond.first == bond.second)
                 refuse("a bond joins " + std::to_string(bond.first) + " and " + std::to_string(bond.second) + "; two of " +
                        std::to_string(n) + " particles are allowed, or one and Bond::fixed.");
+        level_.assign(size(), 0);
         by_level_.assign(1, all_bonds());
     }
 
@@ -135,8 +138,8 @@ public:
         }
     }
 
-    /// A bond goes with the higher level of its two particles. Levels of degrees of freedom: throws BadInput if
-    /// those of a particle disagree.
+    /// A bond goes with the higher level of its two particles; before the first call all are on level 0. Levels of degrees
+    /// of freedom: throws BadInput if those of a particle disagree.
     void set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
         const auto level_of = [&](std::int32_t particle) {
             return particle == Bond<Law>::fixed ? 0 : level[particle * dim];

@@ -28,7 +28,7 @@ struct HighestMode {
 inline constexpr double settled_change = 1e-4;      ///< of the quotient: then the iteration ends
 inline constexpr double lower_bound_margin = 1.02;  ///< of omega: a Rayleigh quotient never exceeds the largest eigenvalue
 
-/// What omega is taken for [rad/s].
+/// The frequency that steps are chosen for: the estimate times its margin [rad/s].
 [[nodiscard]] inline double bound_of(const HighestMode& mode) { return lower_bound_margin * std::sqrt(mode.quotient); }
 
 struct PowerIterationOptions {

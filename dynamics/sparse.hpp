@@ -1,5 +1,5 @@
 #pragma once
-// Private to the sources of this layer.
+// Private to the sources of the layers; not installed.
 #include <Eigen/SparseCore>
 #include <span>
 #include <vector>

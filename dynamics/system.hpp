@@ -5,12 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "abut/base/vector.hpp"
 #include "abut/dynamics/mass.hpp"
 
 namespace abut::dynamics {
 
-/// What an integrator steps: positions q with a mass and a potential. All arrays hold one double a degree of freedom.
+/// What an integrator steps: positions q with a mass and a potential. All arrays hold one double per degree of freedom.
 /// `inverse_mass` is a plain array of 1/m, or the factors of a sparse matrix (InverseMass).
 template <class S>
 concept System = requires(S& system, std::span<const double> q, std::span<double> force) {

@@ -21,7 +21,7 @@ struct Box {
             upper[i] = upper[i] > other.upper[i] || std::isnan(upper[i]) ? upper[i] : other.upper[i];
         }
     }
-    /// The box moved outwards by `margin` >= 0 [m] on every side.
+    /// The box with every side moved outwards by `margin` [m]; < 0 moves them inwards, and may leave an empty box.
     [[nodiscard]] Box grown(double margin) const {
         return {Vector<Dim>(lower.array() - margin), Vector<Dim>(upper.array() + margin)};
     }

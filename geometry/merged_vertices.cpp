@@ -10,10 +10,10 @@ namespace abut::geometry {
 namespace {
 
 template <int Dim>
-struct Place {
+struct Position {
     std::array<double, Dim> x;
     std::int32_t vertex;
-    friend auto operator<=>(const Place&, const Place&) = default;
+    friend auto operator<=>(const Position&, const Position&) = default;
 };
 
 }  // namespace
@@ -22,19 +22,19 @@ template <int Dim>
 std::vector<std::int32_t> merged_vertices(std::span<const Vector<Dim>> vertices) {
     std::vector<std::int32_t> first(vertices.size());
     std::iota(first.begin(), first.end(), 0);
-    std::vector<Place<Dim>> places;
-    places.reserve(vertices.size());
+    std::vector<Position<Dim>> positions;
+    positions.reserve(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (!vertices[i].allFinite()) continue;
-        Place<Dim>& place = places.emplace_back();
-        std::copy(vertices[i].begin(), vertices[i].end(), place.x.begin());
-        place.vertex = static_cast<std::int32_t>(i);
+        Position<Dim>& position = positions.emplace_back();
+        std::copy(vertices[i].begin(), vertices[i].end(), position.x.begin());
+        position.vertex = static_cast<std::int32_t>(i);
     }
     // No coordinate is NaN: the partial order of doubles is a total one, in which 0 and -0 are equal.
-    std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a < b; });
-    for (std::size_t i = 1; i < places.size(); ++i)
-        if (places[i].x == places[i - 1].x)
-            first[static_cast<std::size_t>(places[i].vertex)] = first[static_cast<std::size_t>(places[i - 1].vertex)];
+    std::sort(positions.begin(), positions.end(), [](const auto& a, const auto& b) { return a < b; });
+    for (std::size_t i = 1; i < positions.size(); ++i)
+        if (positions[i].x == positions[i - 1].x)
+            first[static_cast<std::size_t>(positions[i].vertex)] = first[static_cast<std::size_t>(positions[i - 1].vertex)];
     return first;
 }
 

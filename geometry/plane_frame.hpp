@@ -17,7 +17,7 @@ public:
     explicit PlaneFrame(const Vector<Dim>& normal) : normal_(normal), tangents_(tangents_of(normal)) {}
 
     [[nodiscard]] const Vector<Dim>& normal() const { return normal_; }
-    /// Shape (Dim, Dim - 1), one tangent a column.
+    /// Shape (Dim, Dim - 1), one tangent per column.
     [[nodiscard]] const Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign>& tangents() const { return tangents_; }
     [[nodiscard]] PlaneVector<Dim> project(const Vector<Dim>& point) const { return tangents_.transpose() * point; }
     /// The vector of space, orthogonal to the normal, that projects to `in_plane`.

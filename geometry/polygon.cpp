@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abut::geometry {
 namespace {
@@ -71,6 +72,12 @@ Vector<3> face_centroid<3>(FaceVertices<3> face) {
 }
 
 template <int Dim>
+double face_tolerance(const Vector<Dim>& centroid, double measure) {
+    const double size = Dim == 2 ? measure : std::sqrt(measure);
+    return 1e-10 + 16.0 * std::numeric_limits<double>::epsilon() * centroid.norm() / size;
+}
+
+template <int Dim>
 Vector<Dim> face_normal(FaceVertices<Dim> face) {
     return face_vector(face).stableNormalized();
 }
@@ -95,6 +102,8 @@ bool is_convex<3>(FaceVertices<3> face, double tolerance) {
 
 template double face_measure<2>(FaceVertices<2>);
 template double face_measure<3>(FaceVertices<3>);
+template double face_tolerance<2>(const Vector<2>&, double);
+template double face_tolerance<3>(const Vector<3>&, double);
 template Vector<2> face_normal<2>(FaceVertices<2>);
 template Vector<3> face_normal<3>(FaceVertices<3>);
 template double planarity_deviation<2>(FaceVertices<2>);

@@ -17,6 +17,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Vector<Dim> face_centroid(FaceVertices<Dim> face);
 
+/// The allowed deviation of corners and measures of a face, over its size [-]: 1e-10, plus the rounding of coordinates far
+/// from the origin. `measure` is face_measure, > 0; the size is its square root in 3D, and the length of the segment in 2D.
+template <int Dim>
+[[nodiscard]] double face_tolerance(const Vector<Dim>& centroid, double measure);
+
 /// Unit normal; the zero vector for a degenerate face. 3D: Newell's normal, the vertices run counter-clockwise about it.
 /// 2D: b - a turned by -90 degrees, so that a body whose boundary runs counter-clockwise has outward normals.
 template <int Dim>

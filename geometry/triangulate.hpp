@@ -7,7 +7,7 @@
 
 namespace abut::geometry {
 
-/// Three corners of a polygon by their place in it, in its sense of rotation.
+/// Three corners of a polygon by their index in it, in its sense of rotation.
 using LocalTriangle = std::array<std::int32_t, 3>;
 
 /// Cuts a polygon that is convex seen along its normal, flat or not, into n - 2 triangles without a new vertex: of all ways

@@ -107,7 +107,7 @@ public:
         auto non_planar = health_.non_planar_faces.begin();
         for (std::int32_t face = 0; face < mesh_.faces.size(); ++face) {
             if (health_.faults[at(face)] != FaceFault::none) continue;
-            const auto corners = corners_without_repeats(mesh_, health_.place, face);
+            const auto corners = corners_without_repeats(mesh_, health_.merged_vertices, face);
             const bool is_cut = non_planar != health_.non_planar_faces.end() && *non_planar == face;
             if (is_cut) ++non_planar;
             if (is_cut)

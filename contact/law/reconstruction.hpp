@@ -14,8 +14,9 @@ enum class Cuts {
     global,   ///< at the events of all pairs of the scene: the reference that `coupled` is tested against
 };
 
-/// The law of the modified reconstruction: corrections and energy gradients of the listed faces, integrated along one straight
-/// step, exactly: each pair force is cut where the formula of any pair coupled to it changes. docs/method.md, Contact and Time.
+/// The law of the modified reconstruction: corrections and energy gradients of the listed faces, integrated along one
+/// straight step, exactly: each pair force is cut where the formula of any pair coupled to it changes. docs/method.md,
+/// Contact and Time.
 ///
 /// An instance keeps its work arrays from step to step; after a few steps it allocates nothing.
 template <int Dim>
@@ -30,7 +31,7 @@ public:
 
 private:
     struct Term {             // one active pair on a face
-        std::int32_t active;  // place in the active pairs
+        std::int32_t active;  // index into the active pairs
         double weight;        // delta_f += weight h n_12, h = A min(g, 0)
     };
     struct Scratch {

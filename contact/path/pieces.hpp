@@ -52,7 +52,7 @@ struct PairMotion {
 /// The pairs that are active at some time of a step, in the order of the list.
 template <int Dim>
 struct ActivePairs {
-    std::vector<std::int32_t> pairs;          ///< places in the pair list, increasing (n)
+    std::vector<std::int32_t> pairs;          ///< indices into the pair list, increasing (n)
     std::vector<PairMotion<Dim>> motions;     ///< (n)
     std::vector<PathPiece<Dim>> pieces;       ///< of each pair, in the order of time
     std::vector<std::int32_t> piece_offsets;  ///< (n + 1)
@@ -76,7 +76,7 @@ class PieceFinder {
 public:
     explicit PieceFinder(const ContactOptions& options);
 
-    /// The active ones among the admitted pairs along the straight way from u_0 to u_1, displacements of the listed faces
+    /// The active ones among the admitted pairs along the straight path from u_0 to u_1, displacements of the listed faces
     /// [m]; `memory` is in the order of the list.
     const ActivePairs<Dim>& find(const SurfaceView<Dim>& surface, const PairList<Dim>& list,
                                  std::span<const PairMemory> memory, std::span<const Vector<Dim>> u_0,
@@ -88,7 +88,7 @@ private:
         PairMotion<Dim> motion;
     };
     struct Found {                              // what a run of penetrating pairs gave; runs are joined in order
-        std::vector<std::int32_t> penetrating;  // places in penetrating_
+        std::vector<std::int32_t> penetrating;  // indices into penetrating_
         std::vector<PathPiece<Dim>> pieces;
         std::vector<std::int32_t> n_pieces;
         std::vector<double> cuts;
@@ -111,7 +111,7 @@ private:
     ActivePairs<Dim> active_;
 };
 
-/// Points a subinterval for these options: as many as exactness needs where they leave it open.
+/// Points per subinterval for these options: as many as exactness needs where they leave it open.
 template <int Dim>
 [[nodiscard]] int quadrature_points(const ContactOptions& options) {
     return options.quadrature == 0 ? Dim : options.quadrature;

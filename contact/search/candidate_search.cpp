@@ -28,7 +28,7 @@ using geometry::Box;
 using geometry::IndexPair;
 
 // Faces keep their spatial order for so many searches: bodies that turn or bend lose it only slowly.
-constexpr std::int64_t searches_an_order = 50;
+constexpr std::int64_t searches_per_order = 50;
 
 const CandidateOptions& checked(const CandidateOptions& options) {
     const auto refuse = [](const std::string& what, double value) {
@@ -95,7 +95,7 @@ public:
         list_holds_ = false;
         candidates_.clear();
         check_motion(u_0, u_1);
-        if (report_.searches % searches_an_order == 0) order_faces(u_0);
+        if (report_.searches % searches_per_order == 0) order_faces(u_0);
         ++report_.searches;
         list_skin_ = skin_.skin();
         make_boxes(u_0, u_1);

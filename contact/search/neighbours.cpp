@@ -11,9 +11,9 @@ namespace abut::contact {
 template <int Dim>
 Neighbours::Neighbours(const SurfaceView<Dim>& surface, int rings)
     : rings_(rings), face_offsets_(surface.face_offsets.begin(), surface.face_offsets.end()) {
-    const std::vector<std::int32_t> place = geometry::merged_vertices<Dim>(surface.vertices);
+    const std::vector<std::int32_t> merged_vertex = geometry::merged_vertices<Dim>(surface.vertices);
     corners_.reserve(surface.face_vertices.size());
-    for (const std::int32_t v : surface.face_vertices) corners_.push_back(place[static_cast<std::size_t>(v)]);
+    for (const std::int32_t v : surface.face_vertices) corners_.push_back(merged_vertex[static_cast<std::size_t>(v)]);
     corner_offsets_.assign(surface.vertices.size() + 1, 0);
     for (const std::int32_t corner : corners_) ++corner_offsets_[static_cast<std::size_t>(corner) + 1];
     std::partial_sum(corner_offsets_.begin(), corner_offsets_.end(), corner_offsets_.begin());

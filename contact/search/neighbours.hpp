@@ -9,7 +9,7 @@
 namespace abut::contact {
 
 /// Which faces are neighbours on their surface: those with a common corner, up to a number of steps. Corners at exactly the
-/// same place are common, whatever their numbers.
+/// same position are common, whatever their numbers.
 class Neighbours {
 public:
     /// `rings` >= 1.
@@ -25,7 +25,7 @@ private:
 
     int rings_;
     std::vector<std::int32_t> face_offsets_;
-    std::vector<std::int32_t> corners_;  // of each face, by place
+    std::vector<std::int32_t> corners_;  // of each face, as merged vertices
     std::vector<std::int32_t> corner_offsets_;
     std::vector<std::int32_t> faces_;  // at each corner
 };

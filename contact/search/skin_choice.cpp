@@ -8,8 +8,8 @@ namespace abut::contact {
 namespace {
 
 // Cost of making a list, a face and a pair of it, in units of what a pair costs in a step: docs/detection.md.
-constexpr double cost_a_face = 4.0;
-constexpr double cost_a_pair = 10.0;
+constexpr double cost_per_face = 4.0;
+constexpr double cost_per_pair = 10.0;
 
 // Bounds of the skin in mean face sizes. Beyond the upper one lists are so rare that nothing is left to gain.
 constexpr double least = 0.02;
@@ -39,7 +39,7 @@ void SkinChoice::learn(std::int64_t pairs, std::int64_t pairs_at_half, std::int6
     const double at_skin = root(pairs), at_half = root(pairs_at_half), half = 0.5 * skin_;
     const auto cost_of_step = [&](double skin) {
         const double n = std::pow(std::max(0.0, at_half + (at_skin - at_half) * (skin - half) / half), dim_ - 1);
-        return 2.0 * motion / skin * (cost_a_face * static_cast<double>(faces) + cost_a_pair * n) + n;
+        return 2.0 * motion / skin * (cost_per_face * static_cast<double>(faces) + cost_per_pair * n) + n;
     };
     const double lower = std::max(skin_ / largest_change, least * face_size_);
     const double upper = std::min(skin_ * largest_change, most * face_size_);

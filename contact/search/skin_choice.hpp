@@ -4,14 +4,14 @@
 
 namespace abut::contact {
 
-/// The skin that costs least. A list with the skin s lives for s/(2 v) steps when faces move by v a step, and holds N(s)
-/// pairs. With the cost of making it, f a face and p a pair in units of what a pair costs in a step, n faces cost a step
+/// The skin that costs least. A list with the skin s lives for s/(2 v) steps when faces move by v per step, and holds N(s)
+/// pairs. To make it costs f per face and p per pair, in units of the cost of a pair in a step. Then n faces cost per step
 ///
 ///     2 v/s (f n + p N(s)) + N(s).
 ///
-/// Around a face lie as many others as fit into its reach: N is taken for the power Dim - 1 of a linear function, given by
-/// the numbers of pairs with the last skin and with half of it. These and v are counted at each search: no clock takes
-/// part, so that a run gives the same lists every time.
+/// Around a face lie as many others as fit into its interaction radius: N is taken for the power Dim - 1 of a linear
+/// function, given by the numbers of pairs with the last skin and with half of it. These and v are counted at each search:
+/// no clock takes part, so that a run gives the same lists every time.
 class SkinChoice {
 public:
     /// `fixed` > 0: always that [m]. `face_size`: the mean size of the faces [m]; the choice begins with half of it.

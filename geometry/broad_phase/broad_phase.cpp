@@ -121,7 +121,7 @@ BroadPhase chosen(BroadPhase method, std::size_t n_tests) {
 }
 
 // What a back end allocates for each box that takes part, its copy included [bytes]: measured, docs/detection.md.
-double bytes_a_box(BroadPhase method) {
+double bytes_per_box(BroadPhase method) {
     switch (method) {
         case BroadPhase::packed_tree:
         case BroadPhase::automatic:
@@ -142,7 +142,7 @@ double bytes_a_box(BroadPhase method) {
                            needed, allowed);
 }
 
-constexpr double bytes_a_pair = 2 * sizeof(IndexPair);  // as found, and sorted
+constexpr double bytes_per_pair = 2 * sizeof(IndexPair);  // as found, and sorted
 
 /// Pairs that may be found, and which of the limits says so.
 struct PairLimit {
@@ -152,9 +152,9 @@ struct PairLimit {
 };
 
 PairLimit pair_limit(const SearchLimits& limits, BroadPhase method, std::size_t n_boxes) {
-    const double trees = bytes_a_box(method) * static_cast<double>(n_boxes), allowed = static_cast<double>(limits.bytes);
+    const double trees = bytes_per_box(method) * static_cast<double>(n_boxes), allowed = static_cast<double>(limits.bytes);
     if (trees > allowed) refuse_bytes("the trees of " + std::to_string(n_boxes) + " boxes take", trees, allowed);
-    const double fitting = std::floor((allowed - trees) / bytes_a_pair);
+    const double fitting = std::floor((allowed - trees) / bytes_per_pair);
     const double most = std::min(static_cast<double>(limits.pairs), double{std::numeric_limits<std::uint32_t>::max()});
     return {static_cast<std::int64_t>(std::min(fitting, most)), trees, fitting < most};
 }
@@ -164,7 +164,7 @@ void check_number(const FoundPairs& found, const SearchLimits& limits, const Pai
     if (n <= limit.pairs) return;
     const std::string pairs = std::to_string(n) + " pairs of boxes or more overlap, ";
     if (limit.is_of_memory)
-        refuse_bytes(pairs + "with the trees they take", limit.bytes_of_trees + bytes_a_pair * static_cast<double>(n),
+        refuse_bytes(pairs + "with the trees they take", limit.bytes_of_trees + bytes_per_pair * static_cast<double>(n),
                      static_cast<double>(limits.bytes));
     throw SearchLimitError("broad phase: " + pairs + std::to_string(limit.pairs) +
                                " are allowed. Make the boxes smaller (skin, distance), or raise SearchLimits::pairs.",

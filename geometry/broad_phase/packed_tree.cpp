@@ -96,7 +96,7 @@ public:
         return levels_[static_cast<std::size_t>(node.level) + 1][node.block / width].box(
             static_cast<int>(node.block % width));
     }
-    /// Place in the list of boxes.
+    /// Index in the list of boxes.
     [[nodiscard]] std::int32_t box(Node leaf, int lane) const {
         return order_[leaf.block * width + static_cast<std::size_t>(lane)];
     }

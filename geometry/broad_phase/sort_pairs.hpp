@@ -18,8 +18,8 @@ namespace abut::geometry {
 template <class ForEach>
 [[nodiscard]] std::vector<IndexPair> sorted_pairs(std::size_t n, std::size_t n_first, const ForEach& for_each) {
     std::vector<IndexPair> pairs(n);
-    constexpr std::size_t rows_a_pair = 8;  // with fewer pairs than one in so many rows a general sort costs less
-    if (rows_a_pair * n < n_first) {
+    constexpr std::size_t rows_per_pair = 8;  // with fewer pairs than one in so many rows a general sort costs less
+    if (rows_per_pair * n < n_first) {
         auto next = pairs.begin();
         for_each([&](const IndexPair& pair) { *next++ = pair; });
         sort_unique(pairs);

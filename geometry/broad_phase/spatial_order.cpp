@@ -59,13 +59,13 @@ private:
 
     // Whether there was anything to do: nothing if all have the same digit.
     static bool scatter(std::span<const Key> from, std::span<Key> to, int shift) {
-        Counts place{};
+        Counts position{};
         const auto digit = [shift](const Key& key) { return key.cell >> shift & (std::tuple_size_v<Counts> - 1); };
-        for (const Key& key : from) ++place[digit(key)];
-        if (place[digit(from.front())] == from.size()) return false;
+        for (const Key& key : from) ++position[digit(key)];
+        if (position[digit(from.front())] == from.size()) return false;
         std::uint32_t sum = 0;
-        for (std::uint32_t& p : place) sum += std::exchange(p, sum);
-        for (const Key& key : from) to[place[digit(key)]++] = key;
+        for (std::uint32_t& p : position) sum += std::exchange(p, sum);
+        for (const Key& key : from) to[position[digit(key)]++] = key;
         return true;
     }
 
@@ -93,20 +93,20 @@ public:
     }
 
 private:
-    // False if the points all are at one place, as far as doubles can tell.
+    // False if the points all are at one position, as far as doubles can tell.
     bool number_cells(std::span<Key> keys) const {
         Box<Dim> box;
         for (const Key& key : keys) box.extend(points_[key.point]);
         // Halves: the extent of a box of the largest doubles would overflow.
         const Vector<Dim> lower = 0.5 * box.lower;
         constexpr double last_cell = (1 << bits_per_axis<Dim>)-1;
-        const double cells_a_metre = last_cell / (0.5 * box.upper - lower).maxCoeff();
-        if (!std::isfinite(cells_a_metre)) return false;
+        const double cells_per_metre = last_cell / (0.5 * box.upper - lower).maxCoeff();
+        if (!std::isfinite(cells_per_metre)) return false;
         for (Key& key : keys) {
             key.cell = 0;
             for (int axis = 0; axis < Dim; ++axis) {
-                const double place = (0.5 * points_[key.point][axis] - lower[axis]) * cells_a_metre;
-                key.cell |= spread<Dim>(static_cast<std::uint64_t>(std::min(place, last_cell))) << axis;
+                const double position = (0.5 * points_[key.point][axis] - lower[axis]) * cells_per_metre;
+                key.cell |= spread<Dim>(static_cast<std::uint64_t>(std::min(position, last_cell))) << axis;
             }
         }
         return true;

@@ -109,10 +109,10 @@ FaceFault fault_of_shape(const Corners& corners, bool comes_back_to_a_corner) {
     return is_measurable ? FaceFault::non_convex : FaceFault::too_small;
 }
 
-FaceFault fault_without_others(const FaceSoup& soup, std::span<const std::int32_t> places, std::int32_t face) {
+FaceFault fault_without_others(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices, std::int32_t face) {
     const FaceFault fault = fault_of_vertices(soup, soup.vertices_of(face));
     if (fault != FaceFault::none) return fault;
-    const std::vector<std::int32_t> loop = distinct_corners(soup, places, face);
+    const std::vector<std::int32_t> loop = distinct_corners(soup, merged_vertices, face);
     std::vector<std::int32_t> different = loop;
     sort_unique(different);
     if (different.size() < 3) return FaceFault::repeated_corner;
@@ -137,11 +137,11 @@ struct Loop {
     }
 };
 
-void mark_duplicates(const FaceSoup& soup, std::span<const std::int32_t> places, std::vector<FaceFault>& faults) {
+void mark_duplicates(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices, std::vector<FaceFault>& faults) {
     std::vector<Loop> loops;
     for (std::int32_t face = 0; face < soup.size(); ++face)
         if (faults[static_cast<std::size_t>(face)] == FaceFault::none)
-            loops.emplace_back(distinct_corners(soup, places, face), face);
+            loops.emplace_back(distinct_corners(soup, merged_vertices, face), face);
     std::sort(loops.begin(), loops.end());
     for (std::size_t i = 1; i < loops.size(); ++i)
         if (loops[i].repeats(loops[i - 1])) faults[static_cast<std::size_t>(loops[i].face)] = FaceFault::duplicate;
@@ -155,7 +155,7 @@ std::string describe_index(const FaceSoup& soup, std::span<const std::int32_t> v
 
 /// Of the first vertex that `is_bad`, its coordinates.
 template <class Predicate>
-std::string place_of_bad(const FaceSoup& soup, std::span<const std::int32_t> vertices, Predicate is_bad) {
+std::string position_of_bad(const FaceSoup& soup, std::span<const std::int32_t> vertices, Predicate is_bad) {
     for (const std::int32_t v : vertices) {
         const Vector<3>& x = soup.vertices[static_cast<std::size_t>(v)];
         if (is_bad(x))
@@ -186,19 +186,19 @@ void check_offsets(const FaceSoup& soup) {
                std::to_string(soup.face_vertices.size()) + " entries");
 }
 
-std::vector<std::int32_t> distinct_corners(const FaceSoup& soup, std::span<const std::int32_t> places, std::int32_t face) {
+std::vector<std::int32_t> distinct_corners(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices,
+                                           std::int32_t face) {
     std::vector<std::int32_t> loop;
     for (const std::int32_t v : soup.vertices_of(face)) {
-        const std::int32_t place = places[static_cast<std::size_t>(v)];
-        if (loop.empty() || loop.back() != place) loop.push_back(place);
+        const std::int32_t merged_vertex = merged_vertices[static_cast<std::size_t>(v)];
+        if (loop.empty() || loop.back() != merged_vertex) loop.push_back(merged_vertex);
     }
     while (loop.size() > 1 && loop.back() == loop.front()) loop.pop_back();
     return loop;
 }
 
 double shape_tolerance(std::span<const Vector<3>> corners) {
-    return 1e-10 + 16.0 * std::numeric_limits<double>::epsilon() * face_centroid<3>(corners).norm() /
-                       std::sqrt(face_measure<3>(corners));
+    return face_tolerance<3>(face_centroid<3>(corners), face_measure<3>(corners));
 }
 
 std::vector<FaceFault> face_faults(const FaceSoup& soup) {
@@ -206,12 +206,12 @@ std::vector<FaceFault> face_faults(const FaceSoup& soup) {
     return face_faults(soup, merged_vertices<3>(soup.vertices));
 }
 
-std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> places) {
+std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices) {
     check_offsets(soup);
     std::vector<FaceFault> faults(static_cast<std::size_t>(soup.size()), FaceFault::none);
     for (std::int32_t face = 0; face < soup.size(); ++face)
-        faults[static_cast<std::size_t>(face)] = fault_without_others(soup, places, face);
-    mark_duplicates(soup, places, faults);
+        faults[static_cast<std::size_t>(face)] = fault_without_others(soup, merged_vertices, face);
+    mark_duplicates(soup, merged_vertices, faults);
     return faults;
 }
 
@@ -258,11 +258,11 @@ std::string describe(const FaceSoup& soup, std::int32_t face, FaceFault fault) {
             return "has " + std::to_string(vertices.size()) + " corners, at most " + std::to_string(max_polygon_vertices) +
                    " are allowed";
         case FaceFault::not_finite:
-            return place_of_bad(soup, vertices, [](const Vector<3>& x) { return !x.allFinite(); }) +
+            return position_of_bad(soup, vertices, [](const Vector<3>& x) { return !x.allFinite(); }) +
                    ", finite numbers are needed";
         case FaceFault::too_large:
-            return place_of_bad(soup, vertices,
-                                [](const Vector<3>& x) { return !(x.cwiseAbs().maxCoeff() <= max_coordinate); }) +
+            return position_of_bad(soup, vertices,
+                                   [](const Vector<3>& x) { return !(x.cwiseAbs().maxCoeff() <= max_coordinate); }) +
                    ", coordinates up to " + number(max_coordinate) + " m are allowed";
         case FaceFault::repeated_corner:
             return "has fewer than 3 corners at different places";

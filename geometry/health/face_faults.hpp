@@ -17,7 +17,7 @@ enum class FaceFault : std::uint8_t {
     too_many_corners,    ///< more than max_polygon_vertices
     not_finite,          ///< a coordinate is NaN or infinite
     too_large,           ///< a coordinate beyond max_coordinate
-    repeated_corner,     ///< fewer than 3 corners at different places
+    repeated_corner,     ///< fewer than 3 corners at different positions
     zero_area,           ///< all corners on one line, decided exactly
     too_small,           ///< longest edge, or the area over it, below min_length: products of doubles vanish
     crossing,            ///< the polygon touches or crosses itself (a bow-tie), decided exactly in a coordinate plane
@@ -30,24 +30,25 @@ inline constexpr int n_face_faults = 12;
 inline constexpr double max_coordinate = 1e75;
 inline constexpr double min_length = 1e-75;
 
-/// The fault of each face (n). Corners at exactly one place count as one vertex, whatever their index. A needle that is not
-/// exactly collinear is usable, and so is a polygon that is not flat (to be cut into triangles) or a face that repeats an
-/// earlier one the other way round. Never throws for bad faces; BadInput for bad offsets. n log n.
+/// The fault of each face (n). Corners at exactly one position count as one vertex, whatever their index. A needle that is
+/// not exactly collinear is usable, and so is a polygon that is not flat (to be cut into triangles) or a face that repeats
+/// an earlier one the other way round. Never throws for bad faces; BadInput for bad offsets. n log n.
 [[nodiscard]] std::vector<FaceFault> face_faults(const FaceSoup& soup);
-/// The same for a caller that knows `places`, the result of merged_vertices(soup.vertices), already.
-[[nodiscard]] std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> places);
+/// The same for a caller that has the result of merged_vertices(soup.vertices) already.
+[[nodiscard]] std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices);
 
-/// The corners of a face by place, without those that repeat their predecessor. The face must name no vertex out of range.
-[[nodiscard]] std::vector<std::int32_t> distinct_corners(const FaceSoup& soup, std::span<const std::int32_t> places,
+/// The corners of a face as merged vertices, without those that repeat their predecessor. The face must name no vertex out
+/// of range.
+[[nodiscard]] std::vector<std::int32_t> distinct_corners(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices,
                                                          std::int32_t face);
 
-/// What the corners of a polygon may be off its plane, or outside its edges, in units of sqrt(area): 1e-10, and the rounding
-/// of coordinates far from the origin. That is what contact::check allows.
+/// The allowed distance of a corner from the plane of its polygon, or outside its edges, in units of sqrt(area):
+/// face_tolerance, as contact::check has it.
 [[nodiscard]] double shape_tolerance(std::span<const Vector<3>> corners);
 
 /// "index_out_of_range", ...
 [[nodiscard]] std::string_view name(FaceFault fault);
-/// What is wrong with that face, with its numbers, as a message goes on after its name: "names vertex 12, but there are 8".
+/// The fault of that face with its numbers, worded to follow the face's name: "names vertex 12, but there are 8".
 [[nodiscard]] std::string describe(const FaceSoup& soup, std::int32_t face, FaceFault fault);
 
 }  // namespace abut::geometry

@@ -7,9 +7,9 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/triangulate.hpp"
@@ -20,7 +20,7 @@ namespace {
 using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Exact::Point_3;
 
-/// A triangle of a face, by places. No two triangles of one face are tested against each other.
+/// A triangle of a face, by merged vertices. No two triangles of one face are tested against each other.
 struct Piece {
     std::array<std::int32_t, 3> corners;
     std::int32_t face;
@@ -48,8 +48,8 @@ public:
     }
 
 private:
-    [[nodiscard]] Point point(std::int32_t place) const {
-        const Vector<3>& x = vertices_[static_cast<std::size_t>(place)];
+    [[nodiscard]] Point point(std::int32_t vertex) const {
+        const Vector<3>& x = vertices_[static_cast<std::size_t>(vertex)];
         return {x.x(), x.y(), x.z()};
     }
     [[nodiscard]] Exact::Triangle_3 triangle(const Piece& piece) const {
@@ -64,10 +64,10 @@ private:
         int n_shared = 0;
         for (int i = 0; i < 3; ++i)
             for (int j = n_shared; j < 3; ++j) {
-                const auto place_1 = static_cast<std::size_t>(i), place_2 = static_cast<std::size_t>(j);
-                if (piece_1.corners[place_1] != piece_2.corners[place_2]) continue;
-                std::swap(piece_1.corners[place_1], piece_1.corners[static_cast<std::size_t>(n_shared)]);
-                std::swap(piece_2.corners[place_2], piece_2.corners[static_cast<std::size_t>(n_shared)]);
+                const auto index_1 = static_cast<std::size_t>(i), index_2 = static_cast<std::size_t>(j);
+                if (piece_1.corners[index_1] != piece_2.corners[index_2]) continue;
+                std::swap(piece_1.corners[index_1], piece_1.corners[static_cast<std::size_t>(n_shared)]);
+                std::swap(piece_2.corners[index_2], piece_2.corners[static_cast<std::size_t>(n_shared)]);
                 ++n_shared;
                 break;
             }
@@ -89,15 +89,15 @@ private:
     std::span<const Vector<3>> vertices_;
 };
 
-std::vector<Piece> pieces_of(const FaceSoup& soup, std::span<const std::int32_t> places, std::span<const FaceFault> faults,
-                             const PieceTest& test) {
+std::vector<Piece> pieces_of(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices,
+                             std::span<const FaceFault> faults, const PieceTest& test) {
     std::vector<Piece> pieces;
     std::vector<Vector<3>> corners;
     for (std::int32_t face = 0; face < soup.size(); ++face) {
         if (faults[static_cast<std::size_t>(face)] != FaceFault::none) continue;
-        const std::vector<std::int32_t> loop = distinct_corners(soup, places, face);
+        const std::vector<std::int32_t> loop = distinct_corners(soup, merged_vertices, face);
         corners.clear();
-        for (const std::int32_t place : loop) corners.push_back(soup.vertices[static_cast<std::size_t>(place)]);
+        for (const std::int32_t vertex : loop) corners.push_back(soup.vertices[static_cast<std::size_t>(vertex)]);
         for (const LocalTriangle& cut : cut_into_triangles(corners)) {
             Piece piece{{}, face};
             for (std::size_t i = 0; i < 3; ++i) piece.corners[i] = loop[static_cast<std::size_t>(cut[i])];
@@ -110,7 +110,7 @@ std::vector<Piece> pieces_of(const FaceSoup& soup, std::span<const std::int32_t>
 std::vector<Box<3>> boxes_of(std::span<const Vector<3>> vertices, const std::vector<Piece>& pieces) {
     std::vector<Box<3>> boxes(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i)
-        for (const std::int32_t place : pieces[i].corners) boxes[i].extend(vertices[static_cast<std::size_t>(place)]);
+        for (const std::int32_t vertex : pieces[i].corners) boxes[i].extend(vertices[static_cast<std::size_t>(vertex)]);
     return boxes;
 }
 
@@ -136,10 +136,10 @@ std::vector<IndexPair> intersecting_faces(const std::vector<IndexPair>& candidat
 
 }  // namespace
 
-std::vector<IndexPair> self_intersections(const FaceSoup& soup, std::span<const std::int32_t> places,
+std::vector<IndexPair> self_intersections(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices,
                                           std::span<const FaceFault> faults) {
     const PieceTest test(soup.vertices);
-    const std::vector<Piece> pieces = pieces_of(soup, places, faults, test);
+    const std::vector<Piece> pieces = pieces_of(soup, merged_vertices, faults, test);
     const std::vector<Box<3>> boxes = boxes_of(soup.vertices, pieces);
     return intersecting_faces(overlapping_pairs<3>({}, boxes), pieces, test);
 }

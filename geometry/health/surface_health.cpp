@@ -22,7 +22,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 /// One face along one edge.
 struct EdgeUse {
-    std::int32_t first, second;  ///< places, first < second
+    std::int32_t first, second;  ///< merged vertices, first < second
     std::int32_t face;
     bool forward;  ///< the face runs from first to second
 
@@ -34,104 +34,104 @@ struct EdgeUse {
 };
 
 /// Fills a report part by part.
-class Examination {
+class SurfaceCheck {
 public:
-    Examination(const FaceSoup& soup, const HealthOptions& options) : soup_(soup), options_(options) {
+    SurfaceCheck(const FaceSoup& soup, const HealthOptions& options) : soup_(soup), options_(options) {
         check_offsets(soup);
-        health_.n_faces = soup.size();
-        health_.n_vertices = static_cast<std::int32_t>(soup.vertices.size());
+        report_.n_faces = soup.size();
+        report_.n_vertices = static_cast<std::int32_t>(soup.vertices.size());
     }
 
     SurfaceReport report() && {
-        examine_vertices();
-        examine_faces();
+        check_vertices();
+        check_faces();
         measure_faces();
         find_flipped_duplicates();
         const std::vector<EdgeUse> uses = edge_uses();
         find_components(uses);
-        examine_edges(uses);
+        check_edges(uses);
         count_holes();
         measure_components();
         if (options_.self_intersections) find_self_intersections();
-        return std::move(health_);
+        return std::move(report_);
     }
 
 private:
-    [[nodiscard]] bool is_usable(std::int32_t face) const { return health_.faults[at(face)] == FaceFault::none; }
+    [[nodiscard]] bool is_usable(std::int32_t face) const { return report_.faults[at(face)] == FaceFault::none; }
     [[nodiscard]] std::vector<std::int32_t> loop_of(std::int32_t face) const {
-        return distinct_corners(soup_, health_.place, face);
+        return distinct_corners(soup_, report_.merged_vertices, face);
     }
     void corners_of(const std::vector<std::int32_t>& loop, std::vector<Vector<3>>& corners) const {
         corners.clear();
-        for (const std::int32_t place : loop) corners.push_back(soup_.vertices[at(place)]);
+        for (const std::int32_t v : loop) corners.push_back(soup_.vertices[at(v)]);
     }
 
-    void examine_vertices() {
-        health_.place = merged_vertices<3>(soup_.vertices);
+    void check_vertices() {
+        report_.merged_vertices = merged_vertices<3>(soup_.vertices);
         std::vector<char> is_named(soup_.vertices.size(), 0);
         for (const std::int32_t v : soup_.face_vertices)
-            if (v >= 0 && v < health_.n_vertices) is_named[at(v)] = 1;
-        for (std::int32_t v = 0; v < health_.n_vertices; ++v) {
-            if (is_named[at(v)] == 0) health_.unreferenced_vertices.push_back(v);
-            if (health_.place[at(v)] != v) ++health_.n_unwelded_vertices;
-            if (!soup_.vertices[at(v)].allFinite()) ++health_.n_bad_vertices;
+            if (v >= 0 && v < report_.n_vertices) is_named[at(v)] = 1;
+        for (std::int32_t v = 0; v < report_.n_vertices; ++v) {
+            if (is_named[at(v)] == 0) report_.unreferenced_vertices.push_back(v);
+            if (report_.merged_vertices[at(v)] != v) ++report_.n_unwelded_vertices;
+            if (!soup_.vertices[at(v)].allFinite()) ++report_.n_bad_vertices;
         }
     }
 
-    void examine_faces() {
-        health_.faults = face_faults(soup_, health_.place);
-        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
-            ++health_.n_faults[static_cast<std::size_t>(health_.faults[at(face)])];
-            if (!is_usable(face)) health_.unusable_faces.push_back(face);
+    void check_faces() {
+        report_.faults = face_faults(soup_, report_.merged_vertices);
+        for (std::int32_t face = 0; face < report_.n_faces; ++face) {
+            ++report_.n_faults[static_cast<std::size_t>(report_.faults[at(face)])];
+            if (!is_usable(face)) report_.unusable_faces.push_back(face);
         }
     }
 
     void measure_faces() {
         std::vector<Vector<3>> corners;
         double shortest = infinity;
-        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+        for (std::int32_t face = 0; face < report_.n_faces; ++face) {
             if (!is_usable(face)) continue;
             const std::vector<std::int32_t> loop = loop_of(face);
-            if (loop.size() < soup_.vertices_of(face).size()) health_.repeated_corner_faces.push_back(face);
+            if (loop.size() < soup_.vertices_of(face).size()) report_.repeated_corner_faces.push_back(face);
             corners_of(loop, corners);
             measure_edges(corners, shortest);
             const double area = face_measure<3>(corners);
-            health_.area += area;
+            report_.area += area;
             record_aspect(face, aspect_ratio(corners));
             if (corners.size() > 3) record_planarity(face, corners, area);
         }
-        if (health_.n_usable() > 0) health_.shortest_edge = shortest;
+        if (report_.n_usable() > 0) report_.shortest_edge = shortest;
     }
     void measure_edges(const std::vector<Vector<3>>& corners, double& shortest) {
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            health_.box.extend(corners[i]);
+            report_.box.extend(corners[i]);
             const double length = (corners[(i + 1) % corners.size()] - corners[i]).stableNorm();
-            health_.longest_edge = std::max(health_.longest_edge, length);
+            report_.longest_edge = std::max(report_.longest_edge, length);
             shortest = std::min(shortest, length);
         }
     }
     void record_aspect(std::int32_t face, double aspect) {
-        if (aspect > options_.sliver_aspect) health_.slivers.push_back(face);
+        if (aspect > options_.sliver_aspect) report_.slivers.push_back(face);
         constexpr auto last = static_cast<double>(std::tuple_size_v<decltype(SurfaceReport::aspect_decades)> - 1);
         const double decade = aspect < infinity ? std::clamp(std::floor(std::log10(aspect)), 0.0, last) : last;
-        ++health_.aspect_decades[static_cast<std::size_t>(decade)];
-        if (aspect <= health_.worst_aspect) return;
-        health_.worst_aspect = aspect;
-        health_.worst_aspect_face = face;
+        ++report_.aspect_decades[static_cast<std::size_t>(decade)];
+        if (aspect <= report_.worst_aspect) return;
+        report_.worst_aspect = aspect;
+        report_.worst_aspect_face = face;
     }
     void record_planarity(std::int32_t face, const std::vector<Vector<3>>& corners, double area) {
         const double deviation = planarity_deviation<3>(corners) / std::sqrt(area);
-        if (deviation > shape_tolerance(corners)) health_.non_planar_faces.push_back(face);
-        if (deviation <= health_.worst_planarity) return;
-        health_.worst_planarity = deviation;
-        health_.worst_planarity_face = face;
+        if (deviation > shape_tolerance(corners)) report_.non_planar_faces.push_back(face);
+        if (deviation <= report_.worst_planarity) return;
+        report_.worst_planarity = deviation;
+        report_.worst_planarity_face = face;
     }
 
     /// Sorted; every face has each of its edges once.
     [[nodiscard]] std::vector<EdgeUse> edge_uses() const {
         std::vector<EdgeUse> uses;
         uses.reserve(soup_.face_vertices.size());
-        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+        for (std::int32_t face = 0; face < report_.n_faces; ++face) {
             if (!is_usable(face)) continue;
             const std::vector<std::int32_t> loop = loop_of(face);
             for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -154,54 +154,54 @@ private:
     }
 
     void find_components(const std::vector<EdgeUse>& uses) {
-        DisjointSets sets(at(health_.n_faces));
+        DisjointSets sets(at(report_.n_faces));
         for_each_edge(uses, [&](std::span<const EdgeUse> along) {
             for (const EdgeUse& use : along.subspan(1)) sets.join(along[0].face, use.face);
         });
-        health_.face_component.assign(soup_.face_offsets.empty() ? 0 : at(health_.n_faces), -1);
-        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+        report_.face_component.assign(at(report_.n_faces), -1);
+        for (std::int32_t face = 0; face < report_.n_faces; ++face) {
             if (!is_usable(face)) continue;
             const std::int32_t first = sets.find(face);
             if (first == face) {
-                health_.face_component[at(face)] = static_cast<std::int32_t>(health_.components.size());
-                health_.components.push_back({.first_face = face});
+                report_.face_component[at(face)] = static_cast<std::int32_t>(report_.components.size());
+                report_.components.push_back({.first_face = face});
             }
-            health_.face_component[at(face)] = health_.face_component[at(first)];
-            ++health_.components[at(health_.face_component[at(face)])].n_faces;
+            report_.face_component[at(face)] = report_.face_component[at(first)];
+            ++report_.components[at(report_.face_component[at(face)])].n_faces;
         }
     }
 
-    void examine_edges(const std::vector<EdgeUse>& uses) {
+    void check_edges(const std::vector<EdgeUse>& uses) {
         for_each_edge(uses, [&](std::span<const EdgeUse> along) {
             const auto n = static_cast<std::int32_t>(along.size());
             const auto n_forward = static_cast<std::int32_t>(
                 std::count_if(along.begin(), along.end(), [](const EdgeUse& u) { return u.forward; }));
             const SurfaceEdge edge{along[0].first, along[0].second, along[0].face, n};
-            SurfaceComponent& component = health_.components[at(health_.face_component[at(edge.face)])];
-            ++health_.n_edges;
-            if (n == 1) health_.boundary_edges.push_back(edge);
-            if (n > 2) health_.non_manifold_edges.push_back(edge);
-            if (n == 2 && n_forward != 1) health_.inconsistent_edges.push_back(edge);
+            SurfaceComponent& component = report_.components[at(report_.face_component[at(edge.face)])];
+            ++report_.n_edges;
+            if (n == 1) report_.boundary_edges.push_back(edge);
+            if (n > 2) report_.non_manifold_edges.push_back(edge);
+            if (n == 2 && n_forward != 1) report_.inconsistent_edges.push_back(edge);
             if (n % 2 != 0) component.closed = false;
             if (n > 1 && std::abs(2 * n_forward - n) > n % 2) component.oriented = false;
         });
     }
 
     void count_holes() {
-        DisjointSets rims(at(health_.n_vertices));
-        for (const SurfaceEdge& edge : health_.boundary_edges) rims.join(edge.first, edge.second);
+        DisjointSets rims(at(report_.n_vertices));
+        for (const SurfaceEdge& edge : report_.boundary_edges) rims.join(edge.first, edge.second);
         std::vector<std::int32_t> found;
-        for (const SurfaceEdge& edge : health_.boundary_edges) found.push_back(rims.find(edge.first));
+        for (const SurfaceEdge& edge : report_.boundary_edges) found.push_back(rims.find(edge.first));
         sort_unique(found);
-        health_.n_holes = static_cast<std::int32_t>(found.size());
+        report_.n_holes = static_cast<std::int32_t>(found.size());
     }
 
     /// A sixth of the sum of the determinants about a corner of the component, so that a distant origin costs no digits.
     void measure_components() {
         std::vector<Vector<3>> corners;
-        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+        for (std::int32_t face = 0; face < report_.n_faces; ++face) {
             if (!is_usable(face)) continue;
-            SurfaceComponent& component = health_.components[at(health_.face_component[at(face)])];
+            SurfaceComponent& component = report_.components[at(report_.face_component[at(face)])];
             if (!component.closed || !component.oriented) continue;
             const Vector<3>& origin = soup_.vertices[at(soup_.vertices_of(component.first_face)[0])];
             corners_of(loop_of(face), corners);
@@ -209,7 +209,7 @@ private:
             for (std::size_t i = 1; i + 1 < corners.size(); ++i)
                 component.volume += apex.dot((corners[i] - origin).cross(corners[i + 1] - origin)) / 6.0;
         }
-        for (SurfaceComponent& component : health_.components) component.inside_out = component.volume < 0.0;
+        for (SurfaceComponent& component : report_.components) component.inside_out = component.volume < 0.0;
     }
 
     /// Of each set of corners the first face, whichever way it runs: at most one other is not a duplicate of it.
@@ -219,8 +219,8 @@ private:
             std::int32_t face = -1;
         };
         std::vector<Key> keys;
-        keys.reserve(at(health_.n_usable()));
-        for (std::int32_t face = 0; face < health_.n_faces; ++face) {
+        keys.reserve(at(report_.n_usable()));
+        for (std::int32_t face = 0; face < report_.n_faces; ++face) {
             if (!is_usable(face)) continue;
             std::vector<std::int32_t> loop = loop_of(face);
             std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
@@ -236,22 +236,22 @@ private:
         });
         for (std::size_t i = 1; i < keys.size(); ++i)
             if (keys[i].corners == keys[i - 1].corners)
-                health_.flipped_duplicates.push_back({keys[i].face, keys[i - 1].face});
-        std::sort(health_.flipped_duplicates.begin(), health_.flipped_duplicates.end(),
+                report_.flipped_duplicates.push_back({keys[i].face, keys[i - 1].face});
+        std::sort(report_.flipped_duplicates.begin(), report_.flipped_duplicates.end(),
                   [](const FlippedFace& a, const FlippedFace& b) { return a.face < b.face; });
     }
 
     void find_self_intersections() {
-        health_.looked_for_self_intersections = true;
-        health_.self_intersections = self_intersections(soup_, health_.place, health_.faults);
-        health_.n_self_intersections = static_cast<std::int64_t>(health_.self_intersections.size());
+        report_.looked_for_self_intersections = true;
+        report_.self_intersections = self_intersections(soup_, report_.merged_vertices, report_.faults);
+        report_.n_self_intersections = static_cast<std::int64_t>(report_.self_intersections.size());
         const std::size_t most = at(std::max(options_.max_listed_pairs, 0));
-        if (health_.self_intersections.size() > most) health_.self_intersections.resize(most);
+        if (report_.self_intersections.size() > most) report_.self_intersections.resize(most);
     }
 
     const FaceSoup& soup_;
     const HealthOptions& options_;
-    SurfaceReport health_;
+    SurfaceReport report_;
 };
 
 }  // namespace
@@ -286,7 +286,7 @@ bool SurfaceReport::sound() const {
 }
 
 SurfaceReport check_surface(const FaceSoup& soup, const HealthOptions& options) {
-    return Examination(soup, options).report();
+    return SurfaceCheck(soup, options).report();
 }
 
 }  // namespace abut::geometry

@@ -19,7 +19,7 @@ struct HealthOptions {
     std::int32_t max_listed_pairs = 100000;  ///< of faces that intersect; their count is complete
 };
 
-/// An edge by the places of its ends (SurfaceReport::place), first < second.
+/// An edge by its ends (SurfaceReport::merged_vertices), first < second.
 struct SurfaceEdge {
     std::int32_t first, second;
     std::int32_t face;     ///< the first face along it
@@ -41,9 +41,9 @@ struct SurfaceComponent {
     bool inside_out = false;  ///< volume < 0: turned round, or the wall of a cavity
 };
 
-/// What there is to know of a surface before it is used. Nothing is left out: what is not listed is counted. Faces are those
-/// of the input; "usable" are those without a fault, and all but the first part speaks of these only. Vertices at exactly
-/// one place are one for all but `n_unwelded_vertices`.
+/// What there is to know of a surface before it is used. Vectors list faults, counts are complete. "Usable" faces are those
+/// without a fault; except for the first block, all figures are theirs. Vertices at exactly one position are one, except for
+/// `n_unwelded_vertices`.
 struct SurfaceReport {
     std::int32_t n_faces = 0, n_vertices = 0;
 
@@ -51,8 +51,8 @@ struct SurfaceReport {
     std::array<std::int32_t, n_face_faults> n_faults{};  ///< by FaceFault; of `none` the usable faces
     std::vector<std::int32_t> unusable_faces;            ///< increasing
     std::vector<std::int32_t> unreferenced_vertices;     ///< that no face names, usable or not; increasing
-    std::vector<std::int32_t> place;                     ///< (n_vertices) merged_vertices
-    std::int32_t n_unwelded_vertices = 0;                ///< at the place of an earlier vertex
+    std::vector<std::int32_t> merged_vertices;           ///< (n_vertices) merged_vertices(vertices)
+    std::int32_t n_unwelded_vertices = 0;                ///< at the position of an earlier vertex
     std::int32_t n_bad_vertices = 0;                     ///< with a coordinate that is NaN or infinite
 
     Box<3> box;                  ///< of the usable faces; empty without any
@@ -61,7 +61,7 @@ struct SurfaceReport {
     double longest_edge = 0.0;   ///< [m]
 
     std::vector<FlippedFace> flipped_duplicates;      ///< usable; in the order of the faces
-    std::vector<std::int32_t> repeated_corner_faces;  ///< usable, but name a place twice in a row; increasing
+    std::vector<std::int32_t> repeated_corner_faces;  ///< usable, but name a vertex twice in a row; increasing
     std::vector<std::int32_t> non_planar_faces;       ///< to be cut into triangles; increasing
     double worst_planarity = 0.0;                     ///< distance of a corner from the plane of its face / sqrt(area)
     std::int32_t worst_planarity_face = -1;
@@ -93,14 +93,14 @@ struct SurfaceReport {
     [[nodiscard]] bool sound() const;
 };
 
-/// Throws BadInput for bad offsets, nothing for bad faces. The same bits for any number of threads.
+/// Throws BadInput for bad offsets and, if self-intersections are asked for, SearchLimitError for more than
+/// SearchLimits::pairs pairs of boxes; nothing for bad faces. The same bits for any number of threads.
 /// n log n, and in proportion to the pairs of faces whose boxes overlap if self-intersections are asked for.
 [[nodiscard]] SurfaceReport check_surface(const FaceSoup& soup, const HealthOptions& options = {});
 
-/// What `health`, check_surface(soup), says, in plain words: a line for each thing a reader should know, with counts and the first
-/// faces, without line ends. `labels` (n_faces) is what faces are called; empty: by their index. Throws
-/// BadInput if the sizes disagree.
-[[nodiscard]] std::vector<std::string> describe(const FaceSoup& soup, const SurfaceReport& health,
+/// `report`, made by check_surface(soup), in plain words: one line per finding, with counts and the first faces, without
+/// line ends. `labels` (n_faces) names the faces; empty: their indices are used. Throws BadInput if the sizes disagree.
+[[nodiscard]] std::vector<std::string> describe(const FaceSoup& soup, const SurfaceReport& report,
                                                 std::span<const std::int64_t> labels = {});
 
 /// Longest edge over smallest height (the smallest extent orthogonal to an edge) of a face with area; >= 2/sqrt(3) for a

@@ -20,8 +20,8 @@ std::string point(const Vector<3>& x) { return "(" + number(x[0]) + ", " + numbe
 
 class Description {
 public:
-    Description(const FaceSoup& soup, const SurfaceReport& health, std::span<const std::int64_t> labels)
-        : soup_(soup), health_(health), labels_(labels) {}
+    Description(const FaceSoup& soup, const SurfaceReport& report, std::span<const std::int64_t> labels)
+        : soup_(soup), report_(report), labels_(labels) {}
 
     std::vector<std::string> lines() && {
         add_size();
@@ -48,26 +48,26 @@ private:
     }
 
     void add_size() {
-        lines_.push_back(counted(health_.n_faces, "face", "faces") + ", " +
-                         counted(health_.n_vertices, "vertex", "vertices") + ", " +
-                         counted(static_cast<std::int64_t>(health_.components.size()), "component", "components"));
-        if (health_.n_usable() == 0) return;
-        lines_.push_back("from " + point(health_.box.lower) + " to " + point(health_.box.upper) + " m, area " +
-                         number(health_.area) + " m^2, edges of " + number(health_.shortest_edge) + " to " +
-                         number(health_.longest_edge) + " m");
+        lines_.push_back(counted(report_.n_faces, "face", "faces") + ", " +
+                         counted(report_.n_vertices, "vertex", "vertices") + ", " +
+                         counted(static_cast<std::int64_t>(report_.components.size()), "component", "components"));
+        if (report_.n_usable() == 0) return;
+        lines_.push_back("from " + point(report_.box.lower) + " to " + point(report_.box.upper) + " m, area " +
+                         number(report_.area) + " m^2, edges of " + number(report_.shortest_edge) + " to " +
+                         number(report_.longest_edge) + " m");
     }
 
     void add_closed() {
-        if (health_.n_usable() == 0) return;
-        if (health_.boundary_edges.empty() && health_.closed()) return lines_.push_back("closed" + volume());
-        if (health_.boundary_edges.empty()) return lines_.push_back("not closed: edges with an odd number of faces");
-        lines_.push_back("open: " + counted(health_.n_holes, "hole or rim", "holes or rims") + " of " +
-                         counted(static_cast<std::int64_t>(health_.boundary_edges.size()), "edge", "edges") +
-                         ", the first edge at " + face(health_.boundary_edges.front().face));
+        if (report_.n_usable() == 0) return;
+        if (report_.boundary_edges.empty() && report_.closed()) return lines_.push_back("closed" + volume());
+        if (report_.boundary_edges.empty()) return lines_.push_back("not closed: edges with an odd number of faces");
+        lines_.push_back("open: " + counted(report_.n_holes, "hole or rim", "holes or rims") + " of " +
+                         counted(static_cast<std::int64_t>(report_.boundary_edges.size()), "edge", "edges") +
+                         ", the first edge at " + face(report_.boundary_edges.front().face));
     }
     [[nodiscard]] std::string volume() const {
         double sum = 0.0;
-        for (const SurfaceComponent& component : health_.components) {
+        for (const SurfaceComponent& component : report_.components) {
             if (!component.oriented) return "";
             sum += component.volume;
         }
@@ -75,30 +75,30 @@ private:
     }
 
     void add_unusable() {
-        if (health_.unusable_faces.empty()) return lines_.push_back("every face can be used");
+        if (report_.unusable_faces.empty()) return lines_.push_back("every face can be used");
         std::string reasons;
-        for (std::size_t fault = 1; fault < health_.n_faults.size(); ++fault)
-            if (health_.n_faults[fault] > 0)
-                reasons += (reasons.empty() ? "" : ", ") + std::to_string(health_.n_faults[fault]) + " " +
+        for (std::size_t fault = 1; fault < report_.n_faults.size(); ++fault)
+            if (report_.n_faults[fault] > 0)
+                reasons += (reasons.empty() ? "" : ", ") + std::to_string(report_.n_faults[fault]) + " " +
                            std::string(name(static_cast<FaceFault>(fault)));
-        const auto n = static_cast<std::int64_t>(health_.unusable_faces.size());
+        const auto n = static_cast<std::int64_t>(report_.unusable_faces.size());
         lines_.push_back(counted(n, "face", "faces") + " cannot be used: " + reasons);
-        for (std::size_t i = 0; i < std::min(health_.unusable_faces.size(), most_faces); ++i) {
-            const std::int32_t bad = health_.unusable_faces[i];
-            lines_.push_back("  " + face(bad) + " " + describe(soup_, bad, health_.faults[at(bad)]));
+        for (std::size_t i = 0; i < std::min(report_.unusable_faces.size(), most_faces); ++i) {
+            const std::int32_t bad = report_.unusable_faces[i];
+            lines_.push_back("  " + face(bad) + " " + describe(soup_, bad, report_.faults[at(bad)]));
         }
         if (n > static_cast<std::int64_t>(most_faces))
             lines_.push_back("  and " + std::to_string(n - static_cast<std::int64_t>(most_faces)) + " more");
     }
 
     void add_vertices() {
-        const auto unreferenced = static_cast<std::int64_t>(health_.unreferenced_vertices.size());
+        const auto unreferenced = static_cast<std::int64_t>(report_.unreferenced_vertices.size());
         if (unreferenced > 0) lines_.push_back(counted(unreferenced, "vertex", "vertices") + " that no face names");
-        if (health_.n_unwelded_vertices > 0)
-            lines_.push_back(counted(health_.n_unwelded_vertices, "vertex", "vertices") +
+        if (report_.n_unwelded_vertices > 0)
+            lines_.push_back(counted(report_.n_unwelded_vertices, "vertex", "vertices") +
                              " at the place of an earlier one (counted as one)");
-        if (health_.n_bad_vertices > 0)
-            lines_.push_back(counted(health_.n_bad_vertices, "vertex", "vertices") +
+        if (report_.n_bad_vertices > 0)
+            lines_.push_back(counted(report_.n_bad_vertices, "vertex", "vertices") +
                              " with a coordinate that is not finite");
     }
 
@@ -108,63 +108,63 @@ private:
             lines_.push_back(counted(static_cast<std::int64_t>(edges.size()), "edge ", "edges ") + what + ", the first at " +
                              face(edges.front().face));
         };
-        add(health_.non_manifold_edges, "of three faces or more (not manifold)");
-        add(health_.inconsistent_edges, "along which two faces run the same way (orientation not consistent)");
+        add(report_.non_manifold_edges, "of three faces or more (not manifold)");
+        add(report_.inconsistent_edges, "along which two faces run the same way (orientation not consistent)");
     }
 
     void add_flipped() {
-        if (health_.flipped_duplicates.empty()) return;
-        const auto& [later, earlier] = health_.flipped_duplicates.front();
+        if (report_.flipped_duplicates.empty()) return;
+        const auto& [later, earlier] = report_.flipped_duplicates.front();
         lines_.push_back(
-            counted(static_cast<std::int64_t>(health_.flipped_duplicates.size()), "face repeats", "faces repeat") +
+            counted(static_cast<std::int64_t>(report_.flipped_duplicates.size()), "face repeats", "faces repeat") +
             " an earlier one the other way round: first " + face(later) + " that of " + face(earlier));
     }
 
     void add_components() {
         const auto inside_out = [](const SurfaceComponent& component) { return component.inside_out; };
-        const auto first = std::ranges::find_if(health_.components, inside_out);
-        if (first == health_.components.end()) return;
-        lines_.push_back(counted(std::ranges::count_if(health_.components, inside_out), "component is", "components are") +
+        const auto first = std::ranges::find_if(report_.components, inside_out);
+        if (first == report_.components.end()) return;
+        lines_.push_back(counted(std::ranges::count_if(report_.components, inside_out), "component is", "components are") +
                          " inside out (turned round, or the wall of a cavity), the first from " + face(first->first_face) +
                          " on");
     }
 
     void add_shapes() {
-        if (health_.n_usable() == 0) return;
-        lines_.push_back("worst aspect ratio " + number(health_.worst_aspect) + " (" + face(health_.worst_aspect_face) +
-                         "), " + counted(static_cast<std::int64_t>(health_.slivers.size()), "sliver", "slivers") +
-                         (health_.slivers.empty() ? "" : ": " + first_of(health_.slivers)));
-        if (!health_.repeated_corner_faces.empty())
-            lines_.push_back("a corner twice in a row: " + first_of(health_.repeated_corner_faces));
-        if (!health_.non_planar_faces.empty())
-            lines_.push_back("not flat: " + first_of(health_.non_planar_faces) + "; at worst " +
-                             number(health_.worst_planarity) + " face sizes (" + face(health_.worst_planarity_face) + ")");
+        if (report_.n_usable() == 0) return;
+        lines_.push_back("worst aspect ratio " + number(report_.worst_aspect) + " (" + face(report_.worst_aspect_face) +
+                         "), " + counted(static_cast<std::int64_t>(report_.slivers.size()), "sliver", "slivers") +
+                         (report_.slivers.empty() ? "" : ": " + first_of(report_.slivers)));
+        if (!report_.repeated_corner_faces.empty())
+            lines_.push_back("a corner twice in a row: " + first_of(report_.repeated_corner_faces));
+        if (!report_.non_planar_faces.empty())
+            lines_.push_back("not flat: " + first_of(report_.non_planar_faces) + "; at worst " +
+                             number(report_.worst_planarity) + " face sizes (" + face(report_.worst_planarity_face) + ")");
     }
 
     void add_self_intersections() {
-        if (!health_.looked_for_self_intersections) return;
-        if (health_.n_self_intersections == 0) return lines_.push_back("no self-intersection");
-        std::string line = counted(health_.n_self_intersections, "pair of faces intersects", "pairs of faces intersect");
-        if (!health_.self_intersections.empty())
-            line += ": first " + face(health_.self_intersections.front().first) + " and " +
-                    face(health_.self_intersections.front().second);
+        if (!report_.looked_for_self_intersections) return;
+        if (report_.n_self_intersections == 0) return lines_.push_back("no self-intersection");
+        std::string line = counted(report_.n_self_intersections, "pair of faces intersects", "pairs of faces intersect");
+        if (!report_.self_intersections.empty())
+            line += ": first " + face(report_.self_intersections.front().first) + " and " +
+                    face(report_.self_intersections.front().second);
         lines_.push_back(line);
     }
 
     const FaceSoup& soup_;
-    const SurfaceReport& health_;
+    const SurfaceReport& report_;
     std::span<const std::int64_t> labels_;
     std::vector<std::string> lines_;
 };
 
 }  // namespace
 
-std::vector<std::string> describe(const FaceSoup& soup, const SurfaceReport& health, std::span<const std::int64_t> labels) {
-    if (health.n_faces != soup.size() || (!labels.empty() && labels.size() != at(soup.size())))
-        throw BadInput("surface health: a report of " + std::to_string(health.n_faces) + " faces and " +
+std::vector<std::string> describe(const FaceSoup& soup, const SurfaceReport& report, std::span<const std::int64_t> labels) {
+    if (report.n_faces != soup.size() || (!labels.empty() && labels.size() != at(soup.size())))
+        throw BadInput("surface health: a report of " + std::to_string(report.n_faces) + " faces and " +
                        std::to_string(labels.size()) + " labels are given for " + std::to_string(soup.size()) +
                        " faces; give those of this surface.");
-    return Description(soup, health, labels).lines();
+    return Description(soup, report, labels).lines();
 }
 
 }  // namespace abut::geometry

@@ -7,8 +7,8 @@
 
 namespace abut::geometry {
 
-/// Pairs of triangles a and b in their common plane, one pair a column; all counter-clockwise. Both areas come out with the
-/// error that plain clipping has if b is the smaller triangle and lies near the origin.
+/// Pairs of triangles a and b in their common plane, one pair per column; all counter-clockwise. Both areas come out with
+/// the error that plain clipping has if b is the smaller triangle and lies near the origin.
 struct TriangleBatch {
     static constexpr int size = 8;
     using Row = std::array<double, size>;

@@ -48,7 +48,7 @@ Number area_of(const std::vector<Point>& polygon) {
     return CGAL::abs(area);
 }
 
-Number shared_area_of(const Triangle& triangle_1, const Triangle& triangle_2) {
+Number overlap_area_of(const Triangle& triangle_1, const Triangle& triangle_2) {
     const auto shared = CGAL::intersection(triangle_1, triangle_2);
     if (!shared) return 0;
     if (const auto* triangle = boost::get<Triangle>(&*shared)) return area_of(*triangle);
@@ -85,7 +85,7 @@ PlaneVector<3> shift_derivative_of(const std::vector<Point>& polygon_1, const st
 
 }  // namespace
 
-OverlapArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
+OverlapArea<2> exact_overlap_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
     const Number lower_1 = face_1[0].x(), upper_1 = face_1[1].x();
     const Number lower_2 = Number(face_2[0].x()) + shift.x(), upper_2 = Number(face_2[1].x()) + shift.x();
     const Number area = (std::min)(upper_1, upper_2) - (std::max)(lower_1, lower_2);
@@ -95,13 +95,13 @@ OverlapArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_
     return {rounded_up(area), PlaneVector<2>(derivative)};
 }
 
-OverlapArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+OverlapArea<3> exact_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
     const std::vector<Point> polygon_1 = exact_points(face_1, PlaneVector<3>::Zero()),
                              polygon_2 = exact_points(face_2, shift);
     const std::vector<Triangle> fan_1 = fan(polygon_1), fan_2 = fan(polygon_2);
     Number area = 0;
     for (const Triangle& triangle_1 : fan_1)
-        for (const Triangle& triangle_2 : fan_2) area += shared_area_of(triangle_1, triangle_2);
+        for (const Triangle& triangle_2 : fan_2) area += overlap_area_of(triangle_1, triangle_2);
     if (CGAL::is_zero(area)) return {};
     return {rounded_up(area), shift_derivative_of(polygon_1, polygon_2)};
 }

@@ -17,8 +17,8 @@ inline double cross(const PlaneVector<3>& a, const PlaneVector<3>& b) { return a
 enum class Arithmetic { doubles, exact };
 
 /// The reference: exact constructions, each result rounded once.
-OverlapArea<2> exact_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift);
-OverlapArea<3> exact_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift);
+OverlapArea<2> exact_overlap_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift);
+OverlapArea<3> exact_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift);
 
 /// The side of the line from a to b on which c + shift lies: 1 left, 0 on it, -1 right. Exact, the shift is added without
 /// rounding. Slow: to be asked where doubles cannot tell.

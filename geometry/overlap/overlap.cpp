@@ -222,8 +222,8 @@ PlaneVector<3> shift_derivative_of(const Clipped& overlap, const Polygon& polygo
     return {along.y(), -along.x()};
 }
 
-OverlapArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
-                                   Arithmetic& used) {
+OverlapArea<3> clipped_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
+                                    Arithmetic& used) {
     const Polygon polygon_1(face_1, face_1[0], PlaneVector<3>::Zero());
     const Polygon polygon_2(face_2, face_1[0], shift);
     const double extent = std::max(polygon_1.extent(), polygon_2.extent());
@@ -243,7 +243,7 @@ OverlapArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> fac
     }
     if (buffers[0].full || buffers[1].full) {
         used = Arithmetic::exact;
-        return exact_shared_area(face_1, face_2, shift);
+        return exact_overlap_area(face_1, face_2, shift);
     }
 
     double area = area_of(*overlap);
@@ -252,16 +252,16 @@ OverlapArea<3> clipped_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> fac
         return {};
     if (is_thin(polygon_1) || is_thin(polygon_2)) {
         used = Arithmetic::exact;
-        area = exact_shared_area(face_1, face_2, shift).area;
+        area = exact_overlap_area(face_1, face_2, shift).area;
     }
     const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
     return {std::max(area, std::numeric_limits<double>::min()),
             shift_derivative_of(*overlap, polygon_1, polygon_2, coincidence_distance)};
 }
 
-OverlapArea<3> fast_shared_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
+OverlapArea<3> fast_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift) {
     Arithmetic used = Arithmetic::doubles;
-    return clipped_shared_area(face_1, face_2, shift, used);
+    return clipped_overlap_area(face_1, face_2, shift, used);
 }
 
 // Whether a + b < c, without rounding: the rounded sum decides unless it is c itself.
@@ -275,7 +275,7 @@ bool interiors_meet(ProjectedFace<2> face_1, ProjectedFace<2> face_2, double shi
 // 1 where the end of segment 2 cuts segment 1, 0 where segment 1 ends first, half where both end together.
 double weight_of_end(double room, double tolerance) { return std::abs(room) <= tolerance ? 0.5 : (room > 0.0 ? 1.0 : 0.0); }
 
-OverlapArea<2> fast_shared_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
+OverlapArea<2> fast_overlap_area(ProjectedFace<2> face_1, ProjectedFace<2> face_2, const PlaneVector<2>& shift) {
     if (!interiors_meet(face_1, face_2, shift.x())) return {};
     const double length_1 = face_1[1].x() - face_1[0].x();
     const double lower_2 = (face_2[0].x() - face_1[0].x()) + shift.x();
@@ -293,7 +293,7 @@ OverlapArea<Dim> overlap_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face
                               AreaMethod method) {
     assert(face_1.size() >= Dim && face_1.size() <= max_polygon_vertices);
     assert(face_2.size() >= Dim && face_2.size() <= max_polygon_vertices);
-    return method == AreaMethod::fast ? fast_shared_area(face_1, face_2, shift) : exact_shared_area(face_1, face_2, shift);
+    return method == AreaMethod::fast ? fast_overlap_area(face_1, face_2, shift) : exact_overlap_area(face_1, face_2, shift);
 }
 
 template <>
@@ -305,7 +305,7 @@ std::vector<PlaneVector<2>> overlap_polygon<2>(ProjectedFace<2> face_1, Projecte
 template <>
 std::vector<PlaneVector<3>> overlap_polygon<3>(ProjectedFace<3> face_1, ProjectedFace<3> face_2) {
     const PlaneVector<3> no_shift = PlaneVector<3>::Zero();
-    if (fast_shared_area(face_1, face_2, no_shift).area == 0.0) return {};
+    if (fast_overlap_area(face_1, face_2, no_shift).area == 0.0) return {};
     const Polygon polygon_1(face_1, face_1[0], no_shift), polygon_2(face_2, face_1[0], no_shift);
     std::array<Clipped, 2> buffers;
     Clipped *overlap = &buffers[0], *clipped = &buffers[1];
@@ -322,7 +322,7 @@ std::vector<PlaneVector<3>> overlap_polygon<3>(ProjectedFace<3> face_1, Projecte
 OverlapArea<3> counted_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
                                     DecisionCounts& counts) {
     Arithmetic used = Arithmetic::doubles;
-    const OverlapArea<3> shared = clipped_shared_area(face_1, face_2, shift, used);
+    const OverlapArea<3> shared = clipped_overlap_area(face_1, face_2, shift, used);
     ++(used == Arithmetic::exact ? counts.by_exact_arithmetic : counts.by_scalar_path);
     return shared;
 }

@@ -1,9 +1,11 @@
 #pragma once
 // Surfaces made by hand for the tests of the contact layer.
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "abut/contact/contact.hpp"
@@ -70,10 +72,10 @@ std::vector<Vector<Dim>> random_face(std::mt19937& random, const Vector<Dim>& ce
 /// Body 0 below, faces looking up; body 1 above, looking down; every normal up to `tilt` away from the vertical, every
 /// face somewhere over a common ground. Not a closed surface: contact asks for none.
 template <int Dim>
-contact::Surface<Dim> random_surface(std::mt19937& random, int faces_a_body, double tilt = 0.3, double ground = 1.0) {
+contact::Surface<Dim> random_surface(std::mt19937& random, int faces_per_body, double tilt = 0.3, double ground = 1.0) {
     contact::Surface<Dim> surface;
     for (int body = 0; body < 2; ++body)
-        for (int i = 0; i < faces_a_body; ++i) {
+        for (int i = 0; i < faces_per_body; ++i) {
             Vector<Dim> normal = (body == 0 ? 1.0 : -1.0) * up<Dim>();
             for (int j = 0; j + 1 < Dim; ++j) normal[j] = uniform(random, -tilt, tilt);
             Vector<Dim> centre = random_vector<Dim>(random, ground);
@@ -84,7 +86,27 @@ contact::Surface<Dim> random_surface(std::mt19937& random, int faces_a_body, dou
     return surface;
 }
 
-/// Displacements of all faces of a random surface: body 1 comes down by about `approach`, every face in its own way.
+/// A sheet of 2 n^2 triangles over the unit square, its vertices at z = height(x, y); looks up.
+template <class Height>
+contact::Surface<3> sheet(int n, std::int32_t body, bool looks_up, const Height& height) {
+    contact::Surface<3> surface;
+    const auto point = [&](int i, int j) {
+        const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+        return Vector<3>(x, y, height(x, y));
+    };
+    const auto add = [&](Vector<3> a, Vector<3> b, const Vector<3>& c) {
+        if (!looks_up) std::swap(a, b);
+        surface.append(std::array{a, b, c}, 0.3 / n, 1.0, body);
+    };
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            add(point(i, j), point(i + 1, j), point(i, j + 1));
+            add(point(i + 1, j), point(i + 1, j + 1), point(i, j + 1));
+        }
+    return surface;
+}
+
+/// Displacements of all faces of a random surface: body 1 comes down by about `approach`, every face on its own path.
 template <int Dim>
 std::vector<Vector<Dim>> random_displacement(std::mt19937& random, const contact::Surface<Dim>& surface, double size,
                                              double approach = 0.0) {

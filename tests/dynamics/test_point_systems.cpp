@@ -1,6 +1,7 @@
 // Ledger, stable step and filter take any system of points; this one knows no mesh, no contact and no solid.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <random>
 
 #include "abut/dynamics/filter.hpp"
@@ -65,11 +66,12 @@ private:
 };
 
 template <int Dim>
-auto moment(const Vector<Dim>& arm, const Vector<Dim>& p) {
+auto moment(const Vector<Dim>& lever_arm, const Vector<Dim>& p) {
     if constexpr (Dim == 2)
-        return Vector<1>(arm[0] * p[1] - arm[1] * p[0]);
+        return Vector<1>(lever_arm[0] * p[1] - lever_arm[1] * p[0]);
     else
-        return Vector<3>(arm[1] * p[2] - arm[2] * p[1], arm[2] * p[0] - arm[0] * p[2], arm[0] * p[1] - arm[1] * p[0]);
+        return Vector<3>(lever_arm[1] * p[2] - lever_arm[2] * p[1], lever_arm[2] * p[0] - lever_arm[0] * p[2],
+                         lever_arm[0] * p[1] - lever_arm[1] * p[0]);
 }
 
 std::vector<double> random_values(std::mt19937& random, std::size_t n) {
@@ -168,5 +170,15 @@ TEMPLATE_TEST_CASE_SIG(
             CHECK(momentum.norm() > 1e-3 * size);  // it is not its own there
         }
         CHECK(e_after < e_given);
+    }
+}
+
+TEST_CASE("the filter refuses a part of the mode that is not from 0 to 1", "[dynamics][filter][errors]") {
+    Row<2> row({1.0, 2.0}, 3.0);
+    const auto make = [&](double kappa) { dynamics::NeutralFilter(row, kappa); };
+    for (const double kappa : {0.0, 0.5, 1.0}) CHECK_NOTHROW(make(kappa));
+    for (const double kappa : {-1e-9, 1.0 + 1e-9, std::nan("")}) {
+        CAPTURE(kappa);
+        CHECK_THROWS_WITH(make(kappa), Catch::Matchers::Contains("kappa") && Catch::Matchers::Contains("0 to 1"));
     }
 }

@@ -26,15 +26,13 @@ namespace {
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-SurfaceReport examined(const Faces& faces, const HealthOptions& options = {}) {
-    return check_surface(faces.soup(), options);
-}
+SurfaceReport checked(const Faces& faces, const HealthOptions& options = {}) { return check_surface(faces.soup(), options); }
 FaceFault fault_of(const Faces& faces, std::int32_t face = 0) {
     return face_faults(faces.soup())[static_cast<std::size_t>(face)];
 }
 FaceFault fault_of_corners(const std::vector<Vector<3>>& corners) { return fault_of(one_face(corners)); }
 std::int64_t n_intersections(const Faces& faces) {
-    return examined(faces, {.self_intersections = true}).n_self_intersections;
+    return checked(faces, {.self_intersections = true}).n_self_intersections;
 }
 std::vector<Vector<3>> regular_polygon(int n) {
     std::vector<Vector<3>> corners;
@@ -68,7 +66,7 @@ Faces unwelded(const Faces& faces) {
 
 }  // namespace
 
-TEST_CASE("no faces are examined without complaint, and are not sound", "[geometry][health]") {
+TEST_CASE("no faces are checked without complaint, and are not sound", "[geometry][health]") {
     const SurfaceReport health = check_surface({}, {.self_intersections = true});
     CHECK(health.n_faces == 0);
     CHECK(health.n_usable() == 0);
@@ -76,11 +74,11 @@ TEST_CASE("no faces are examined without complaint, and are not sound", "[geomet
     CHECK(health.box.empty());
     CHECK_FALSE(health.closed());
     CHECK_FALSE(health.sound());
-    CHECK(examined(faces({{0, 0, 0}, {1, 0, 0}}, {})).unreferenced_vertices == std::vector<std::int32_t>{0, 1});
+    CHECK(checked(faces({{0, 0, 0}, {1, 0, 0}}, {})).unreferenced_vertices == std::vector<std::int32_t>{0, 1});
 }
 
 TEST_CASE("one triangle is one open component with one rim of three edges", "[geometry][health]") {
-    const SurfaceReport health = examined(one_face({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
+    const SurfaceReport health = checked(one_face({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}));
     CHECK(health.n_usable() == 1);
     CHECK(health.n_edges == 3);
     CHECK(health.boundary_edges.size() == 3);
@@ -111,7 +109,7 @@ TEST_CASE("an index out of range is the first fault of a face", "[geometry][heal
     CHECK(faults[3] == FaceFault::none);
     CHECK(describe(bad.soup(), 0, faults[0]) == "names vertex 3, but there are 3");
     CHECK(describe(bad.soup(), 1, faults[1]) == "names vertex -1, but there are 3");
-    CHECK(examined(bad, {.self_intersections = true}).n_usable() == 1);
+    CHECK(checked(bad, {.self_intersections = true}).n_usable() == 1);
 }
 
 TEST_CASE("a face has 3 to max_polygon_vertices corners", "[geometry][health]") {
@@ -125,7 +123,7 @@ TEST_CASE("a corner that is NaN or infinite makes its faces unusable and no othe
     const double bad = GENERATE(as<double>{}, no_number, infinite, -infinite);
     CAPTURE(bad);
     const Faces soup = faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {bad, 1, 1}}, {{0, 1, 2}, {0, 1, 3}, {3, 3, 3}});
-    const SurfaceReport health = examined(soup, {.self_intersections = true});
+    const SurfaceReport health = checked(soup, {.self_intersections = true});
     CHECK(health.unusable_faces == std::vector<std::int32_t>{1, 2});
     CHECK(health.n_faults[static_cast<std::size_t>(FaceFault::not_finite)] == 2);
     CHECK(health.n_bad_vertices == 1);
@@ -152,7 +150,7 @@ TEST_CASE("a surface of any allowed size gives measures of that size", "[geometr
     const double size = GENERATE(1e-70, 1e-20, 1.0, 1e19, 1e70);
     Faces box = cube();
     for (Vector<3>& x : box.vertices) x *= size;
-    const SurfaceReport health = examined(box, {.self_intersections = true});
+    const SurfaceReport health = checked(box, {.self_intersections = true});
     CHECK(health.sound());
     CHECK(health.area == Approx(6.0 * size * size).margin(0.0));
     CHECK(health.components[0].volume == Approx(size * size * size).margin(0.0));
@@ -165,7 +163,7 @@ TEST_CASE("corners at fewer than three places make no face", "[geometry][health]
     CHECK(fault_of_corners({{0, 0, 0}, {1, 0, 0}, {-0.0, 0, 0}, {1, 0, 0}}) == FaceFault::repeated_corner);
     CHECK(fault_of(faces(corner_triangle(), {{0, 1, 1}})) == FaceFault::repeated_corner);
     // Three places are enough.
-    const SurfaceReport health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    const SurfaceReport health = checked(one_face({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     CHECK(health.n_usable() == 1);
     CHECK(health.repeated_corner_faces == std::vector<std::int32_t>{0});
     CHECK(health.n_edges == 3);
@@ -181,7 +179,7 @@ TEST_CASE("a triangle whose corners are exactly collinear has no area", "[geomet
 }
 
 TEST_CASE("a needle of aspect 1e12 is usable, and counted as a sliver of that decade", "[geometry][health]") {
-    const SurfaceReport health = examined(one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5e-12, 0}}));
+    const SurfaceReport health = checked(one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.5e-12, 0}}));
     CHECK(health.n_usable() == 1);
     CHECK(health.worst_aspect == Approx(2e12));
     CHECK(health.worst_aspect_face == 0);
@@ -194,12 +192,12 @@ TEST_CASE("aspect ratios are longest edge over smallest height", "[geometry][hea
     CHECK(aspect_ratio(one_face({{0, 0, 0}, {5, 0, 0}, {5, 1, 0}, {0, 1, 0}}).vertices) == Approx(5.0));
     Faces both = one_face({{0, 0, 0}, {1, 0, 0}, {0.5, 0.02, 0}});
     append(both, one_face(corner_triangle()), {0, 0, 1});
-    SurfaceReport health = examined(both, {.sliver_aspect = 49.0});
+    SurfaceReport health = checked(both, {.sliver_aspect = 49.0});
     CHECK(health.slivers == std::vector<std::int32_t>{0});
     CHECK(health.worst_aspect == Approx(50.0));
     CHECK(health.aspect_decades[0] == 1);
     CHECK(health.aspect_decades[1] == 1);
-    CHECK(examined(both, {.sliver_aspect = 51.0}).slivers.empty());
+    CHECK(checked(both, {.sliver_aspect = 51.0}).slivers.empty());
 }
 
 TEST_CASE("a bow-tie is told from a polygon that is not convex", "[geometry][health]") {
@@ -225,7 +223,7 @@ TEST_CASE("a polygon that is not flat is usable and listed with its deviation", 
     const double h = 1e-3;
     Faces soup = one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, h}, {0, 1, 0}});
     append(soup, one_face({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-12}, {0, 1, 0}}), {0, 0, 5});
-    const SurfaceReport health = examined(soup);
+    const SurfaceReport health = checked(soup);
     CHECK(health.n_usable() == 2);
     CHECK(health.non_planar_faces == std::vector<std::int32_t>{0});
     CHECK(health.worst_planarity == Approx(h / 4).epsilon(1e-3));
@@ -237,14 +235,14 @@ TEST_CASE("the second of two equal faces is a duplicate, from whichever corner i
     const Faces soup = faces(corner_triangle(), {{0, 1, 2}, {1, 2, 0}, {0, 1, 2}});
     CHECK(face_faults(soup.soup()) == std::vector{FaceFault::none, FaceFault::duplicate, FaceFault::duplicate});
     Faces apart = one_face(corner_triangle());
-    append(apart, one_face(corner_triangle()), Vector<3>::Zero());  // other indices, same places
+    append(apart, one_face(corner_triangle()), Vector<3>::Zero());  // other indices, same positions
     CHECK(fault_of(apart, 1) == FaceFault::duplicate);
     CHECK(fault_of(faces(corner_triangle(), {{0, 1, 9}, {0, 1, 9}}), 1) == FaceFault::index_out_of_range);
 }
 
 TEST_CASE("a face that repeats another the other way round is usable and reported by itself", "[geometry][health]") {
     const SurfaceReport health =
-        examined(faces(corner_triangle(), {{0, 1, 2}, {0, 2, 1}, {2, 1, 0}}), {.self_intersections = true});
+        checked(faces(corner_triangle(), {{0, 1, 2}, {0, 2, 1}, {2, 1, 0}}), {.self_intersections = true});
     CHECK(health.n_usable() == 2);
     CHECK(health.faults[2] == FaceFault::duplicate);  // of the flipped one
     REQUIRE(health.flipped_duplicates.size() == 1);
@@ -254,20 +252,20 @@ TEST_CASE("a face that repeats another the other way round is usable and reporte
     CHECK_FALSE(health.sound());
 }
 
-TEST_CASE("vertices that no face names, and such at one place, are counted", "[geometry][health]") {
+TEST_CASE("vertices that no face names, and such at one position, are counted", "[geometry][health]") {
     Faces soup = one_face(corner_triangle());
     soup.vertices.push_back({7, 7, 7});
     soup.vertices.push_back({1, 0, 0});
     soup.vertices.push_back({-0.0, 0, 0});
-    const SurfaceReport health = examined(soup);
+    const SurfaceReport health = checked(soup);
     CHECK(health.unreferenced_vertices == std::vector<std::int32_t>{3, 4, 5});
     CHECK(health.n_unwelded_vertices == 2);
-    CHECK(health.place == std::vector<std::int32_t>{0, 1, 2, 3, 1, 0});
+    CHECK(health.merged_vertices == std::vector<std::int32_t>{0, 1, 2, 3, 1, 0});
 }
 
 TEST_CASE("a cube is sound, welded or not", "[geometry][health]") {
     const bool weld = GENERATE(true, false);
-    const SurfaceReport health = examined(weld ? cube() : unwelded(cube()), {.self_intersections = true});
+    const SurfaceReport health = checked(weld ? cube() : unwelded(cube()), {.self_intersections = true});
     CHECK(health.sound());
     CHECK(health.n_edges == 12);
     CHECK(health.n_unwelded_vertices == (weld ? 0 : 24 - 8));
@@ -280,7 +278,7 @@ TEST_CASE("a closed surface that is turned inside out has a negative volume", "[
     for (std::int32_t face = 0; face < box.size(); ++face)
         std::reverse(box.corners.begin() + box.offsets[static_cast<std::size_t>(face)],
                      box.corners.begin() + box.offsets[static_cast<std::size_t>(face) + 1]);
-    const SurfaceReport health = examined(box);
+    const SurfaceReport health = checked(box);
     CHECK(health.closed());
     CHECK(health.components[0].inside_out);
     CHECK(health.components[0].volume == Approx(-1.0));
@@ -290,7 +288,7 @@ TEST_CASE("a closed surface that is turned inside out has a negative volume", "[
 TEST_CASE("one face turned round shows on each of its edges", "[geometry][health]") {
     Faces box = cube();
     std::reverse(box.corners.begin(), box.corners.begin() + 4);
-    const SurfaceReport health = examined(box);
+    const SurfaceReport health = checked(box);
     CHECK(health.inconsistent_edges.size() == 4);
     CHECK(health.closed());
     CHECK_FALSE(health.components[0].oriented);
@@ -298,7 +296,7 @@ TEST_CASE("one face turned round shows on each of its edges", "[geometry][health
 }
 
 TEST_CASE("a Moebius strip cannot be oriented", "[geometry][health]") {
-    const SurfaceReport health = examined(moebius_strip(12));
+    const SurfaceReport health = checked(moebius_strip(12));
     CHECK(health.n_usable() == 24);
     CHECK(health.inconsistent_edges.size() == 1);
     CHECK(health.n_holes == 1);
@@ -308,7 +306,7 @@ TEST_CASE("a Moebius strip cannot be oriented", "[geometry][health]") {
 
 TEST_CASE("an edge of three faces is not manifold", "[geometry][health]") {
     const SurfaceReport health =
-        examined(faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+        checked(faces({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
     REQUIRE(health.non_manifold_edges.size() == 1);
     CHECK(health.non_manifold_edges[0].n_faces == 3);
     CHECK(health.non_manifold_edges[0].first == 0);
@@ -321,14 +319,14 @@ TEST_CASE("an edge of three faces is not manifold", "[geometry][health]") {
 TEST_CASE("two cubes along one edge enclose two volumes, along no edge they are two components", "[geometry][health]") {
     Faces touching = cube();
     append(touching, cube(), {1, 1, 0});  // an edge
-    SurfaceReport health = examined(touching);
+    SurfaceReport health = checked(touching);
     CHECK(health.components.size() == 1);
     CHECK(health.non_manifold_edges.size() == 1);
     CHECK(health.closed());
     CHECK(health.components[0].volume == Approx(2.0));
     Faces apart = cube();
     append(apart, cube(), {1, 1, 1});  // a corner
-    health = examined(apart);
+    health = checked(apart);
     REQUIRE(health.components.size() == 2);
     CHECK(health.components[1].first_face == 6);
     CHECK(health.components[1].volume == Approx(1.0));
@@ -345,7 +343,7 @@ TEST_CASE("a sphere with k faces removed has k holes", "[geometry][health]") {
         const auto loop = whole.soup().vertices_of(face);
         if (face % 64 != 3 || face / 64 >= k) pierced.add({loop.begin(), loop.end()});  // 64 faces to an octant
     }
-    const SurfaceReport health = examined(pierced);
+    const SurfaceReport health = checked(pierced);
     CHECK(health.n_faces == 512 - k);
     CHECK(health.n_holes == k);
     CHECK(health.boundary_edges.size() == static_cast<std::size_t>(3 * k));
@@ -355,18 +353,18 @@ TEST_CASE("a sphere with k faces removed has k holes", "[geometry][health]") {
 
 TEST_CASE("the volume inside a sphere of triangles approaches 4/3 pi as the square of their size", "[geometry][health]") {
     const double exact = 4.0 / 3.0 * std::numbers::pi;
-    const double coarse = exact - examined(sphere(3)).components[0].volume;
-    const double fine = exact - examined(sphere(4)).components[0].volume;
+    const double coarse = exact - checked(sphere(3)).components[0].volume;
+    const double fine = exact - checked(sphere(4)).components[0].volume;
     CHECK(coarse > 0.0);
     CHECK(coarse / fine == Approx(4.0).epsilon(0.02));
 }
 
 TEST_CASE("two triangles that cross are found", "[geometry][health][intersections]") {
     const Faces crossing = two_triangles({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0}});
-    const SurfaceReport health = examined(crossing, {.self_intersections = true});
+    const SurfaceReport health = checked(crossing, {.self_intersections = true});
     CHECK(health.n_self_intersections == 1);
     CHECK(health.self_intersections == std::vector<IndexPair>{{0, 1}});
-    CHECK_FALSE(examined(crossing).looked_for_self_intersections);
+    CHECK_FALSE(checked(crossing).looked_for_self_intersections);
     CHECK(n_intersections(two_triangles({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, -1}, {2, 2, 1}, {3, 3, 0}})) == 0);
 }
 
@@ -409,9 +407,8 @@ TEST_CASE("a sphere and a torus do not pass through themselves, a torus without 
 TEST_CASE("two spheres intersect in the faces that a test of every pair finds", "[geometry][health][intersections]") {
     Faces both = sphere(2);
     append(both, sphere(2), {0.9, 0.3, 0.2});
-    const SurfaceReport health = examined(both, {.self_intersections = true, .max_listed_pairs = 3});
+    const SurfaceReport health = checked(both, {.self_intersections = true, .max_listed_pairs = 3});
     CHECK(health.self_intersections.size() == 3);
-    const auto places = health.place;
     // Pair by pair: a soup of two faces has no candidates to miss.
     std::int64_t n = 0;
     for (std::int32_t i = 0; i < 128; ++i)
@@ -427,7 +424,7 @@ TEST_CASE("what intersects does not depend on the number of threads", "[geometry
     const Faces knot = torus(32, 2.5);
     const auto found = [&](std::size_t n_threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, n_threads);
-        return examined(knot, {.self_intersections = true}).self_intersections;
+        return checked(knot, {.self_intersections = true}).self_intersections;
     };
     CHECK(found(1) == found(4));
 }
@@ -463,7 +460,7 @@ namespace {
 
 std::string described(const Faces& faces, const HealthOptions& options = {}, std::span<const std::int64_t> labels = {}) {
     std::string text;
-    for (const std::string& line : describe(faces.soup(), examined(faces, options), labels)) text += line + "\n";
+    for (const std::string& line : describe(faces.soup(), checked(faces, options), labels)) text += line + "\n";
     return text;
 }
 
@@ -502,6 +499,6 @@ TEST_CASE("the health of a bad surface in words: what is wrong, how often, and w
 
 TEST_CASE("a report of another surface is not put into words", "[geometry][health]") {
     const Faces one = one_face(corner_triangle());
-    CHECK_THROWS_WITH(describe(one.soup(), examined(cube())), Contains("a report of 6 faces") && Contains("for 1 faces"));
-    CHECK_THROWS_AS(describe(one.soup(), examined(one), std::vector<std::int64_t>{1, 2}), BadInput);
+    CHECK_THROWS_WITH(describe(one.soup(), checked(cube())), Contains("a report of 6 faces") && Contains("for 1 faces"));
+    CHECK_THROWS_AS(describe(one.soup(), checked(one), std::vector<std::int64_t>{1, 2}), BadInput);
 }
