@@ -73,7 +73,7 @@ Value ordered_sum(std::ptrdiff_t n, const Value& zero, const Term& term) {
 /// The larger of two; NaN if one of them is: a state that has diverged must not pass for a small one.
 inline double larger(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
-/// Largest value(i) >= 0 over [0, n), 0 for n = 0; NaN if one of them is. Concurrently where there are more than two `grain`.
+/// Largest value(i) >= 0 over [0, n), 0 for n = 0; NaN if one of them is. Concurrently for more than two `grain`.
 template <class Value>
 double largest(std::ptrdiff_t n, const Value& value, std::ptrdiff_t grain = parallel_grain) {
     const auto in_range = [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range, double so_far) {

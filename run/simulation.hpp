@@ -5,8 +5,9 @@
 
 namespace abut::run {
 
-/// Runs a scene from its first step to its last. It writes and prints nothing: observers do (ResultFiles, Frames, EnergyFile).
-/// All of the result is known but the times of mesh and output. Of the scene, `after_step` is called before the observers.
+/// Runs a scene from its first step to its last. It writes and prints nothing: observers do (ResultFiles, Frames,
+/// EnergyFile). All of the result is known except the times of mesh and output. Of the scene, `after_step` is called before
+/// the observers.
 ///
 /// Throws BadInput with place, value, limit and remedy for options that do not go together or bodies that overlap, for a
 /// time step above the stable one, and where nothing moves and no `energy_scale` is given. An error within a step says in
