@@ -29,7 +29,7 @@ struct CylinderOptions {
     mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;  ///< in those files
 };
 
-/// What was not given: size, eta, and the offset from that over the mean radius.
+/// Fills in what was not given: size, eta, and the offset as `offset_over_radius` times the mean radius.
 void fill_defaults(CylinderOptions& options, double offset_over_radius);
 
 /// Throws MeshError for a file that cannot be used.

@@ -1,10 +1,10 @@
 // What contact adds to a step: two cylinders collide off-centre, slip and rebound. It is the very scene of
 // slipping_cylinders --dim 3, 50,000 tetrahedra together.
 //
-// The same scene steps with and without contact (`options.contact` empty: the bodies pass through each other), once more with
-// the bodies far apart (the price of looking), and once more without contact (what the machine makes of two equal runs), in
-// turn, a few steps each, through the whole impact. Expected: contact and search add at most 20 % to the run, at most 2 % while
-// the bodies are apart.
+// The same scene steps with and without contact (`options.contact` empty: the bodies pass through each other), once more
+// with the bodies far apart (the price of looking), and once more without contact (what the machine makes of two equal
+// runs), in turn, a few steps each, through the whole impact. Expected: contact and search add at most 20 % to the run, at
+// most 2 % while the bodies are apart.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -172,7 +172,7 @@ int run_benchmark(int argc, char** argv) {
     app.add_option("--time", choices.time, "to run [s]; 0: as long as slipping_cylinders does")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--skin", choices.skin,
-                   "how far faces move before the candidate list is made anew; 0: the library's choice [m]");
+                   "how far faces move before the candidate list is rebuilt; 0: the library's choice [m]");
     app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
     app.add_option("--block", choices.block, "steps of one scene before it is the next one's turn")
         ->check(CLI::PositiveNumber);

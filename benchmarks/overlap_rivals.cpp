@@ -2,7 +2,7 @@
 // thread, and what becomes of degenerate pairs.
 //
 // Pairs as contact meets them: two triangulated wavy sheets on each other, all pairs of faces whose boxes overlap. Once the
-// meshes do not match; once they match to the last digit, so that every pair is degenerate; once they match but for a gap
+// meshes do not match; once they match to the last digit, so that every pair is degenerate; once they match except for a gap
 // and are flat, so that all corners that should coincide are a rounding error apart in projection.
 // Expected: find_overlaps, projection included, no slower than plain clipping of triangles that are projected already.
 #include <fmt/core.h>

@@ -2,8 +2,8 @@
 //
 // L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0, so waves run at c = sqrt(E/rho) = 30 m/s. From rest 5 m above the wall under
 // g = 10 m/s^2 it hits at t = 1 s with v = 10 m/s. A wave runs up and back in 2L/c; so long the wall presses with
-// rho c (v + g t), from 300 to 500 Pa: the impulse is 2 rho L (v + g L/c) = 266.667 N s/m^2. Here the bar is a strip of 100 x 2
-// squares on rollers, so that its waves are those of one dimension. It takes the impulse to 1 %.
+// rho c (v + g t), from 300 to 500 Pa: the impulse is 2 rho L (v + g L/c) = 266.667 N s/m^2. Here the bar is a strip of
+// 100 x 2 squares on rollers, so that its waves are those of one dimension. It takes the impulse to 1 %.
 #include <cmath>
 #include <cstdio>
 

@@ -1,8 +1,9 @@
 // Which faces of two meshes look at each other, how far apart, and how much area do they share?
 //
-// Two unit cubes, one of tetrahedra and one of hexahedra, are stacked 0.01 m apart; the upper one is shifted by 0.3 m along x.
-// Seen along z they share 0.7 m^2, whatever their faces are: the areas of all pairs add up to that, to round-off, and each
-// gap is 0.01 m. With two file names (OBJ, STL, PLY, OFF, VTP, VTU, MSH) it shows the pairs of those within 0.05 m instead.
+// Two unit cubes, one of tetrahedra and one of hexahedra, are stacked 0.01 m apart; the upper one is shifted by 0.3 m along
+// x. Seen along z they share 0.7 m^2, whatever their faces are: the areas of all pairs add up to that, to round-off, and
+// each gap is 0.01 m. With two file names (OBJ, STL, PLY, OFF, VTP, VTU, MSH) it shows the pairs of those within 0.05 m
+// instead.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

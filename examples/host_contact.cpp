@@ -1,13 +1,15 @@
 // Contact in a solver of one's own, step by step: two pucks of mass m whose faces sit on springs, k per area.
 //
-// Puck 0 flies at v = 1 m/s into puck 1 at rest. Each has a front of 1 m, of three faces and of four, that do not match. With
-// V = sum_f k |f| |ũ_f - u|^2 / 2 the corrections put half of the gap g on each side: V = k g^2 / 4, a spring of k/2 between
-// m/2. Exact: the pucks exchange their velocities, after a contact of pi sqrt(m/k) = 0.314159 s, pressed in by v sqrt(m/k) =
-// 0.1 m at most. The scheme keeps H~ and momentum to round-off.
+// Puck 0 flies at v = 1 m/s into puck 1 at rest. Each has a front of 1 m, of three faces and of four, that do not match.
+// With V = sum_f k |f| |ũ_f - u|^2 / 2 the corrections put half of the gap g on each side: V = k g^2 / 4, a spring of k/2
+// between m/2. Exact: the pucks exchange their velocities, after a contact of pi sqrt(m/k) = 0.314159 s, pressed in by
+// v sqrt(m/k) = 0.1 m at most. The scheme keeps H~ and momentum to round-off.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/contact/contact.hpp"
@@ -24,7 +26,7 @@ public:
     std::span<const double> inverse_mass() const { return inverse_mass_; }
     double potential(std::span<const double> q) { return step(q, q).energy; }
     void force(std::span<const double> q, std::span<double> f) { mean_force(q, q, 0.0, 0.0, f); }
-    /// The mean of F = -dV/dq over the straight way from q_0 to q_1. In dV/du the springs' answer to the corrections,
+    /// The mean of F = -dV/dq over the straight path from q_0 to q_1. In dV/du the springs' answer to the corrections,
     /// -k |f| delta_f, and what comes through û, +k |f| delta_f, cancel: the gradients of the pairs are left.
     void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
         const contact::ContactStep<2>& found = step(q_0, q_1);

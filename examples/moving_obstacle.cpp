@@ -1,9 +1,8 @@
 // A rigid wall that moves at constant speed runs into an elastic block at rest and throws it forward.
 //
-// L = 1 m, E = 100 Pa, rho = 1 kg/m^3, nu = 0, so c = 10 m/s; the wall comes at V = 0.5 m/s. Seen from the wall a block comes
-// and rebounds: the wall presses with rho c V for 2L/c, the block leaves it with 2V, and the wall has done the work
+// L = 1 m, E = 100 Pa, rho = 1 kg/m^3, nu = 0, so c = 10 m/s; the wall comes at V = 0.5 m/s. Seen from the wall a block
+// comes and rebounds: the wall presses with rho c V for 2L/c, the block leaves it with 2V, and the wall has done the work
 // rho c V * 2L/c * V = 2 m V^2 = m (2V)^2 / 2, all of it motion. The scheme counts this work, and H~ gains just as much.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -3,9 +3,11 @@
 // Both 1 m x 1 m, the upper one half as stiff (E = 200 and 100 Pa, nu = 0.3, plane strain), sides on rollers, p = 1 Pa from
 // above. Their meshes do not match: 4 faces meet 3. The contact has to carry p everywhere: in sum exactly (balance of
 // forces), face by face as well as the discretisation can; and the top sinks by p / (lambda + 2 mu) of each height.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"

@@ -16,7 +16,7 @@ inline constexpr double touching_tolerance = 1e-6;
 struct Interpenetration {
     std::array<std::int32_t, 2> bodies;  ///< bodies[0] < bodies[1]
     std::array<std::int32_t, 2> cells;   ///< one of each, index in the mesh
-    double depth;                        ///< [m], > 0: the shortest way that parts these two cells
+    double depth;                        ///< [m], > 0: the shortest translation that parts these two cells
 };
 
 /// All pairs of cells of different bodies that overlap, deepest first (equal depths by cells). Every cell is taken as the

@@ -36,9 +36,9 @@ using FaceKey = std::array<std::int32_t, max_face_vertices>;
     key.fill(-1);
     std::size_t count = 0;
     for (const std::int32_t vertex : vertices) {
-        std::size_t place = count++;
-        for (; place > 0 && key[place - 1] > vertex; --place) key[place] = key[place - 1];
-        key[place] = vertex;
+        std::size_t position = count++;
+        for (; position > 0 && key[position - 1] > vertex; --position) key[position] = key[position - 1];
+        key[position] = vertex;
     }
     return key;
 }

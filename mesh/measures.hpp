@@ -1,4 +1,5 @@
 #pragma once
+// Private to the layer; not installed.
 #include <array>
 #include <cmath>
 #include <cstdint>

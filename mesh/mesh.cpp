@@ -12,6 +12,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/checks.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/reorder.hpp"

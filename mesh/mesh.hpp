@@ -11,7 +11,7 @@
 
 namespace abut::mesh {
 
-/// Shape of a cell; the order of its vertices is Gmsh's. VTK's is the same but for prisms, of which VTK documents the two
+/// Shape of a cell; the order of its vertices is Gmsh's. VTK's is the same except for prisms, of which VTK documents the two
 /// triangles in the opposite order.
 enum class CellShape : std::uint8_t { triangle, quadrangle, tetrahedron, hexahedron, prism, pyramid };
 
@@ -58,7 +58,7 @@ struct BuildReport {
 /// Conforming mesh of one or several bodies that share no vertex, cell or face: polygons in 2D, polyhedra in 3D, with both
 /// sides of every face and all measures. Built by `build_mesh`; immutable by convention afterwards.
 ///
-/// Faces are numbered by their first cell (then by their place in it), so that a sweep over faces is a sweep over cells.
+/// Faces are numbered by their first cell (then by their position in it), so that a sweep over faces is a sweep over cells.
 /// `face_cells[f][0]` is the lower-numbered cell; `face_cells[f][1]` is -1 on the boundary. The normal of a face points out
 /// of `face_cells[f][0]`, and its vertices run counter-clockwise seen against the normal (3D).
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/checks.hpp"
 #include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include <cstdint>
+// Private to the layer; not installed.
 
 #include "abut/mesh/mesh.hpp"
 

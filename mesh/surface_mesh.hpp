@@ -62,10 +62,10 @@ struct CleanSurface {
 };
 
 /// The faces that can be used: flat and convex polygons of 3 to geometry::max_polygon_vertices corners at different places.
-/// `health` is check_surface(mesh.soup()). A polygon that is not flat is cut into triangles (geometry/triangulate.hpp); a corner
-/// that repeats the one before it is left out. Flipped duplicates, holes, slivers and all else stay as they are. Throws
-/// MeshError under `fail`, naming the first faces, their faults, how many there are and the remedy; under both if nothing
-/// is left; BadInput if `health` is that of another surface.
+/// `health` is check_surface(mesh.soup()). A polygon that is not flat is cut into triangles (geometry/triangulate.hpp); a
+/// corner that repeats the one before it is left out. Flipped duplicates, holes, slivers and all else stay as they are.
+/// Throws MeshError under `fail`, naming the first faces, their faults, how many there are and the remedy; under both if
+/// nothing is left; BadInput if `health` is that of another surface.
 [[nodiscard]] CleanSurface clean(const SurfaceMesh& mesh, const geometry::SurfaceReport& health, UnusableFaces policy);
 
 }  // namespace abut::mesh

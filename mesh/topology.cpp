@@ -1,16 +1,16 @@
 #include "abut/mesh/topology.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/checks.hpp"
 #include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
 namespace {
 
-/// One cell's side of a face. Half faces are numbered by cell, then by place in the cell.
+/// One cell's side of a face. Half faces are numbered by cell, then by position in the cell.
 struct HalfFace {
     std::array<std::int32_t, 3> other_vertices;  ///< the key without its smallest vertex
     std::int32_t number;

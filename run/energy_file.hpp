@@ -6,8 +6,8 @@
 
 namespace abut::run {
 
-/// The ledger of a run as CSV: a row per entry, 17 significant digits, so that every bit comes back; the columns are those of
-/// dynamics::ledger_columns, in SI units. It is written as it goes, and is called `path`.partial until `finish`.
+/// The ledger of a run as CSV: a row per entry, 17 significant digits, so that every bit comes back; the columns are those
+/// of dynamics::ledger_columns, in SI units. It is written as it goes, and is called `path`.partial until `finish`.
 template <int Dim>
 class EnergyFile : public Observer<Dim> {
 public:
@@ -21,7 +21,6 @@ public:
     void finish();
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-    [[nodiscard]] const std::filesystem::path& partial_path() const { return partial_; }
 
 private:
     void check() const;

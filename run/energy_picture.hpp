@@ -13,8 +13,8 @@ struct EnergyPicture {
 };
 
 /// energy.gp beside energy.csv, and energy.png, which gnuplot makes of it: above kinetic and potential energy, H and H~;
-/// below |H~ - H~0| and H - H~ over the scale, logarithmic. Says why there is no picture; empty if there
-/// is one. Throws BadInput if the script cannot be written.
+/// below |H~ - H~0 - work| and H - H~ over the scale, logarithmic. Says why there is no picture; empty if there is one.
+/// Throws BadInput if the script cannot be written.
 [[nodiscard]] std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture);
 
 }  // namespace abut::run

@@ -9,8 +9,8 @@ namespace abut::run {
 /// folder, the reason and what to do.
 void prepare_directory(const std::filesystem::path& directory);
 
-/// Removes what ResultFiles of an earlier run may have left: summary.json, energy.csv, its picture, and the lists and frames of `series`.
-/// Everything else stays. Throws BadInput naming the file.
+/// Removes what ResultFiles of an earlier run may have left: summary.json, energy.csv, its picture, and the lists and frames
+/// of `series`. Everything else stays. Throws BadInput naming the file.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
 
 /// Removes files of these names, and what they are called while they are written. Throws BadInput naming the file.

@@ -75,10 +75,10 @@ template <int Dim>
 /// Throws BadInput if options do not go together: a filter, levels or a gauge for a scheme that has none.
 void check(const RunOptions& options);
 
-/// The options by name, as given: either "dt" or "cfl", whichever decided. Of the end of the run, skin and threads only the
-/// run knows what they were.
+/// The options by name, as given; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are
+/// in RunResult.
 [[nodiscard]] NamedValues named_values(const RunOptions& options);
-/// Of these, what bodies at rest depend on, too: "weights", "area", "neumann".
+/// Those on which bodies at rest depend as well: "weights", "area", "neumann".
 [[nodiscard]] NamedValues model_values(const RunOptions& options);
 
 }  // namespace abut::run

@@ -27,8 +27,8 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
-    /// After the run. Adds the time of all output to `result.seconds`, that of the picture also to the total. Throws BadInput
-    /// if a file cannot be written; a picture that cannot be drawn is no error.
+    /// After the run. Adds the time of all output to `result.seconds`, that of the picture also to the total. Throws
+    /// BadInput if a file cannot be written; a picture that cannot be drawn is no error.
     void finish(const Scene<Dim>& scene, RunResult<Dim>& result);
 
     /// Whether energy.csv.partial holds records of a run: what is left of one that fails.

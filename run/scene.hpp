@@ -27,7 +27,7 @@ struct RunResult;
 template <int Dim>
 struct Scene {
     mesh::Mesh<Dim> mesh{};
-    solid::SolidOptions<Dim> solid{};     ///< all but the choices of RunOptions: contact and the rule of free faces
+    solid::SolidOptions<Dim> solid{};     ///< all except the choices of RunOptions: contact and the rule of free faces
     std::vector<Vector<Dim>> velocity{};  ///< at the start, one per body [m/s]
     std::function<Vector<Dim>(const Vector<Dim>& position)> displacement{};  ///< at the start [m]; empty: none
     bool contact = true;                  ///< false: bodies pass through each other, at no cost
@@ -63,7 +63,7 @@ struct RunResult {
     double skin = 0.0;  ///< of the last candidate list [m]
     int threads = 0;    ///< allowed
     contact::ContactReport contact;
-    std::int64_t inadmissible_overlaps_max = 0;  ///< most pairs at a record that face each other inside and are no contacts
+    std::int64_t inadmissible_overlaps_max = 0;  ///< largest number of `inadmissible_overlaps` at any record
     std::vector<Vector<Dim>> blind_corners;      ///< too sharp for contact to see them [m]
     std::int64_t contact_faces_left_out = 0;     ///< their displacement is prescribed
     solid::StencilReport stencils;               ///< of the faces between cells

@@ -5,8 +5,8 @@
 
 namespace abut::run {
 
-/// The text of summary.json: units are SI, drifts absolute and the largest of all records, "options" what was used. `program`
-/// is what it calls the run.
+/// The text of summary.json: units are SI, drifts absolute and the largest of all records, "options" what was used.
+/// `program` is what it calls the run.
 template <int Dim>
 [[nodiscard]] std::string summary_json(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result);
 

@@ -13,10 +13,12 @@ struct BodyMotion {
     double mass;           ///< [kg]
     Vector<Dim> velocity;  ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
 };
+/// Mass and mean velocity of each body, at the node of `run`; `solid` is that of the run.
 template <int Dim>
 [[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid);
 
-/// Momenta of bodies that move as a whole, one velocity per body [m/s].
+/// Momenta p (n_cells, Dim) [kg m/s] of bodies that move as a whole, one velocity per body [m/s]. Throws BadInput for
+/// another number of velocities than bodies.
 template <int Dim>
 [[nodiscard]] std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity);
 

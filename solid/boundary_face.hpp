@@ -24,6 +24,12 @@ template <int Dim>
     return mesh.face_cells[mesh_face(mesh, face)][0];
 }
 
+/// Distance [m] of a boundary face, by its index among all faces, from the centroid of its cell: (x_f - x_c) . n_f.
+template <int Dim>
+[[nodiscard]] double cell_depth(const mesh::Mesh<Dim>& mesh, std::int32_t face) {
+    return (mesh.face_centroid[face] - mesh.cell_centroid[mesh.face_cells[face][0]]).dot(mesh.face_normal[face]);
+}
+
 /// All boundary faces of a mesh.
 template <int Dim>
 [[nodiscard]] auto boundary_faces(const mesh::Mesh<Dim>& mesh) {

@@ -1,6 +1,5 @@
 #pragma once
 // Private to the sources of this layer.
-#include <cstdint>
 #include <span>
 #include <vector>
 

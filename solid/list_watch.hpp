@@ -28,9 +28,9 @@ public:
     [[nodiscard]] double motion_until(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
     /// The same, and remembers it as that of the end of the current step.
     [[nodiscard]] double measure(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load);
-    /// A larger bound that costs nothing, at the end of a step in which no cell moves farther than `cell_motion` [m]: from the
-    /// sum of these since `measure`. Nothing where it is not known: if loads vary, in the first step, and in one that is tried
-    /// again.
+    /// A larger bound that costs nothing, at the end of a step in which no cell moves farther than `cell_motion` [m]: from
+    /// the sum of these since `measure`. Nothing where it is not known: if loads vary, in the first step, and in one that is
+    /// tried again.
     [[nodiscard]] std::optional<double> add_step(double cell_motion);
     /// The current step has been made.
     void end_step() { is_at_last_end_ = true; }

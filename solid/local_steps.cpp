@@ -8,6 +8,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/power_iteration.hpp"
 
 namespace abut::solid {
@@ -109,8 +110,9 @@ std::vector<char> carriers(const Solid<Dim>& solid, const dynamics::HighestMode&
     return carries;
 }
 
-/// Until no mode of the cells of level l and coarser, and of some layers about them, is above `limit` [rad/s]: those that carry
-/// it, and as many layers about them, go to the next finer level. The highest frequency there is then; 0 without a cell.
+/// Until no mode of the cells of level l and coarser, and of some layers about them, is above `limit` [rad/s]: those that
+/// carry it, and as many layers about them, go to the next finer level. The highest frequency there is then; 0 without a
+/// cell.
 template <int Dim>
 double refine_until_below(Solid<Dim>& solid, double limit, int layers, std::int32_t l, Levels& level) {
     for (;;) {
@@ -161,8 +163,7 @@ std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
         cells.push_back(cell_of(solid.mesh(), b));
         cells.insert(cells.end(), solid.ccg().cells_of(b).begin(), solid.ccg().cells_of(b).end());
     }
-    std::ranges::sort(cells);
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    sort_unique(cells);
     return cells;
 }
 

@@ -9,10 +9,13 @@ struct Material {
     double density = 1.0;  ///< rho [kg/m^3], > 0
     double eta = 0.0;      ///< stabilisation of the jumps between cells [Pa]; 0 means E
 
+    /// Lame's first parameter lambda [Pa].
     [[nodiscard]] double lambda() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+    /// Shear modulus mu [Pa].
     [[nodiscard]] double mu() const { return 0.5 * young / (1.0 + poisson); }
     /// lambda + 2 mu, the modulus of a wave of compression [Pa].
     [[nodiscard]] double wave_modulus() const { return lambda() + 2.0 * mu(); }
+    /// `eta`, or E where none is given [Pa].
     [[nodiscard]] double stabilisation() const { return eta > 0.0 ? eta : young; }
 };
 

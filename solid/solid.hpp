@@ -25,8 +25,8 @@ class LocalLevels;
 ///
 /// Faces with a prescribed displacement (whole or in part) take no part in contact; `contact_faces_left_out` counts them.
 ///
-/// `force`, `potential` and `contact_field` take any state before the first step, and later the last state or one that no
-/// face has left by more than half the skin since the last search; they throw Misuse for others.
+/// `force`, `potential`, `contact_field` and `touching_pairs` take any state before the first step, and later the last state
+/// or one that no face has left by more than half the skin since the last search; they throw Misuse for others.
 template <int Dim>
 class Solid {
 public:
@@ -98,11 +98,14 @@ public:
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
+    /// Figures of contact since the start; all zero without contact.
     [[nodiscard]] contact::ContactReport contact_report() const;
     [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
     [[nodiscard]] const contact::Contact<Dim>* contact() const;    ///< null without contact
+    /// Boundary faces that take no part in contact, since their displacement is prescribed; 0 without contact.
     [[nodiscard]] std::int64_t contact_faces_left_out() const;
-    /// Corners that are too sharp for contact to see them coming; empty without contact. contact/blind_corners.hpp.
+    /// Corners that are too sharp for contact to see them coming, their positions at rest [m]; empty without contact.
+    /// contact/blind_corners.hpp.
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
 

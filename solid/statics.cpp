@@ -14,6 +14,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/integrator.hpp"
 #include "abut/dynamics/sparse.hpp"
+#include "abut/solid/boundary_face.hpp"
 #include "abut/solid/rigid_motions.hpp"
 
 namespace abut::solid {
@@ -22,7 +23,8 @@ namespace {
 /// What a step is judged by. Near the minimum values of V differ by less than their rounding.
 enum class Descent {
     potential,  ///< V itself
-    slope,  ///< V from the last state by the trapezoidal rule on its slope (the approximate Wolfe conditions of Hager and Zhang)
+    /// V from the last state by the trapezoidal rule on its slope (the approximate Wolfe conditions of Hager and Zhang)
+    slope,
 };
 
 /// Why a descent ends.
@@ -65,11 +67,9 @@ void check(const StaticOptions& options) {
 }
 
 template <int Dim>
-double smallest_depth(const mesh::Mesh<Dim>& mesh) {
+double smallest_cell_depth(const mesh::Mesh<Dim>& mesh) {
     double depth = std::numeric_limits<double>::infinity();
-    for (const std::int32_t f : mesh.boundary_faces)
-        depth =
-            std::min(depth, (mesh.face_centroid[f] - mesh.cell_centroid[mesh.face_cells[f][0]]).dot(mesh.face_normal[f]));
+    for (const std::int32_t f : mesh.boundary_faces) depth = std::min(depth, cell_depth(mesh, f));
     return depth;
 }
 
@@ -131,7 +131,7 @@ public:
 
     /// Length of the first step along a direction: whole, unless a cell would move too far.
     [[nodiscard]] double first_step(const Eigen::VectorXd& direction) const {
-        const double allowed = options_.first_step > 0.0 ? options_.first_step : 0.1 * smallest_depth(solid_.mesh());
+        const double allowed = options_.first_step > 0.0 ? options_.first_step : 0.1 * smallest_cell_depth(solid_.mesh());
         const double moved = scale_.cwiseProduct(direction).cwiseAbs().maxCoeff();
         return std::min(1.0, allowed / moved);
     }
@@ -158,7 +158,8 @@ public:
     void update_report() {
         const std::vector<double> reached = q();
         std::vector<BoundaryFace> faces;
-        for (const TouchingPair<Dim>& pair : solid_.touching_pairs(reached, nearly_closed * smallest_depth(solid_.mesh())))
+        for (const TouchingPair<Dim>& pair :
+             solid_.touching_pairs(reached, nearly_closed * smallest_cell_depth(solid_.mesh())))
             for (const BoundaryFace face : {pair.face_1, pair.face_2})
                 if (face != no_face) faces.push_back(face);
         sort_unique(faces);

@@ -28,7 +28,8 @@ struct StaticIteration {
 };
 
 struct StaticReport {
-    /// The forces are in balance to `tolerance`; or V falls no more and, except in the cells that feel contact, they are to 1e-3
+    /// The forces are in balance to `tolerance`; or V falls no more and, except in the cells that feel contact, they are to
+    /// 1e-3
     bool converged = false;
     std::string ending;  ///< why it stopped, in a sentence
     int evaluations = 0;
@@ -50,10 +51,9 @@ struct StaticSolution {
 /// start of a run: begin where bodies just touch, or lightly pressed into each other. The solid must not have stepped.
 /// docs/method.md, Statics.
 ///
-/// Throws BadInput if q_0 has another size than the solid or an option is out of range, and where a body is free
-/// to move as a rigid one, held neither by a prescribed displacement nor by a contact of q_0: then there is no one solution.
-/// Throws BadInput where a body leaves the others for good. A solution that is not as good as asked for is given
-/// back with what it reached: see `converged`.
+/// Throws BadInput if q_0 has another size than the solid, if an option is out of range, where a body is free to move as a
+/// rigid one (held neither by a prescribed displacement nor by a contact of q_0), and where a body leaves the others for
+/// good. A solution that is not as good as asked for is returned with what it reached: see `converged`.
 template <int Dim>
 [[nodiscard]] StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const StaticOptions& options = {});
 

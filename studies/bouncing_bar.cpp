@@ -165,7 +165,7 @@ private:
         middle_.pressure += pressure_ * dt;
         middle_.square += error * error * dt;
     }
-    /// Contacts less than a wave's way through the bar apart belong together.
+    /// Contacts belong together that are apart by less than a wave takes through the bar.
     void close() {
         open_ = false;
         ++complete_;

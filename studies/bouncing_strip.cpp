@@ -42,7 +42,7 @@ void add_options(CLI::App& app, StripOptions& options) {
     apps::add_output_options(app, options.run);
 }
 
-/// Impulses of the wall, one an impact: contacts less than a wave's way through the bar apart belong together.
+/// Impulses of the wall, one per impact: contacts belong together that are apart by less than a wave takes through the bar.
 class Impacts {
 public:
     void add(double impulse, double dt) {

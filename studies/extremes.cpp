@@ -5,7 +5,6 @@
 // below the energy of the run, and no contact lost. It is `refused` when it ended with a message, which then says what is
 // allowed; it `failed` when it came to its end and one of these is not so. A change of units must leave every number
 // without a unit as it is, to 1e-9. No energy is claimed without H - H~, |e|/m and the number of events beside it.
-#include <algorithm>
 #include <set>
 
 #include "abut/run/files.hpp"

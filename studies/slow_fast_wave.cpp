@@ -94,7 +94,7 @@ struct Mesh {
     double h;
 
     std::size_t size() const { return static_cast<std::size_t>(cells) - 1; }
-    double place(std::size_t i) const { return static_cast<double>(i + 1) * h; }
+    double position(std::size_t i) const { return static_cast<double>(i + 1) * h; }
     Chain chain() const {
         std::vector<dynamics::Bond<dynamics::LineSpring>> bonds;
         for (std::int32_t cell = 0; cell < cells; ++cell) {
@@ -125,7 +125,7 @@ struct Errors {
 Errors errors(const Mesh& mesh, std::span<const double> q, double time) {
     double wrong = 0.0, all = 0.0, worst = 0.0, highest = 0.0;
     for (std::size_t i = 0; i < q.size(); ++i) {
-        const double exact = Exact().displacement(mesh.place(i), time), error = q[i] - exact;
+        const double exact = Exact().displacement(mesh.position(i), time), error = q[i] - exact;
         wrong += error * error;
         all += exact * exact;
         worst = std::max(worst, std::abs(error));
@@ -141,8 +141,8 @@ apps::SchemeRun run_on(const Mesh& mesh, apps::Scheme scheme, const WaveOptions&
     const int parts = scheme == apps::Scheme::memm_async ? 1 : options.ratio;
     apps::Start start{.dt = options.time / (long_steps * parts), .local_steps = mesh.local_steps(options.ratio)};
     for (std::size_t i = 0; i < mesh.size(); ++i) {
-        start.q.push_back(Exact().displacement(mesh.place(i), 0.0));
-        start.p.push_back(mesh.h * Exact().velocity(mesh.place(i), 0.0));
+        start.q.push_back(Exact().displacement(mesh.position(i), 0.0));
+        start.p.push_back(mesh.h * Exact().velocity(mesh.position(i), 0.0));
     }
     Chain chain = mesh.chain();
     const double energy = chain.potential(start.q) + 0.5 * dynamics::mass_product(start.p, chain.inverse_mass(), start.p);
@@ -205,7 +205,7 @@ apps::Table profile(const Mesh& mesh, const std::vector<apps::SchemeRun>& runs, 
     apps::Table table{.columns = {"x", "exact"}};
     for (const apps::SchemeRun& run : runs) table.columns.push_back(run.name);
     for (std::size_t i = 0; i < mesh.size(); ++i) {
-        table.rows.push_back({mesh.place(i), Exact().displacement(mesh.place(i), time)});
+        table.rows.push_back({mesh.position(i), Exact().displacement(mesh.position(i), time)});
         for (const apps::SchemeRun& run : runs) table.rows.back().push_back(run.q[i]);
     }
     return table;

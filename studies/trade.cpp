@@ -1,9 +1,9 @@
 // What a faster setting costs, and what a slower one gives: the same few scenes over the ladder of all choices.
 //
 // Each setting, as it would be typed, is run on each mesh of each problem: two cylinders that slip (2D, 3D), a cylinder on a
-// block at rest, a bar that hits a wall. The table has four errors beside the seconds: drift of H~, error of the true energy H,
-// of the restitution, of the contact pressure. A run is on the front where no other one of its problem is as fast and as good.
-// docs/trade.md reads the table; the presets of the other programs follow from it.
+// block at rest, a bar that hits a wall. The table has four errors beside the seconds: drift of H~, error of the true
+// energy H, of the restitution, of the contact pressure. A run is on the front where no other one of its problem is as fast
+// and as good. docs/trade.md reads the table; the presets of the other programs follow from it.
 #include <fmt/format.h>
 
 #include <algorithm>

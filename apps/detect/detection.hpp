@@ -36,8 +36,8 @@ class Detection {
 public:
     Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near);
 
-    /// At the place where the bodies are. The list of candidates is made anew where it does not cover the motion since, or
-    /// where bodies have `turned`: normals decide which faces look at each other, and no skin allows for that.
+    /// Where the bodies are now. The candidate list is rebuilt where it is not valid for the motion since, or where bodies
+    /// have `turned`: normals decide which faces look at each other, and no skin allows for that.
     [[nodiscard]] const StepResult& find(int step, bool turned);
 
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const { return search_.candidates(); }

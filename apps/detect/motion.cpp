@@ -155,8 +155,8 @@ void Motion::add_rotation(const std::string& text, const Bodies& bodies) {
         throw std::runtime_error(
             fmt::format("--rotate {}: the axis has the length {:g}; it must be above 0.", text, axis.norm()));
     if (even.angle != 0.0)
-        throw std::runtime_error(fmt::format("--rotate {}: body '{}' turns already. Give one rotation a body, or a script.",
-                                             text, bodies.names[at(body)]));
+        throw std::runtime_error(fmt::format(
+            "--rotate {}: body '{}' turns already. Give one rotation per body, or a script.", text, bodies.names[at(body)]));
     even.axis = axis.normalized();
     even.angle = values[3] * radians;
     if (values.size() == 7) even.centre = vector_at(values, 4);
@@ -186,7 +186,7 @@ void Motion::read_script(const std::string& path, const Bodies& bodies) {
     }
     if (std::ranges::all_of(scripts_, &Script::empty))
         throw std::runtime_error(
-            fmt::format("{}: no row of numbers. Give a head, {}, and a row a step and body.", path, script_head));
+            fmt::format("{}: no row of numbers. Give a head, {}, and one row per step and body.", path, script_head));
 }
 
 bool Motion::only_translates() const {

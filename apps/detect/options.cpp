@@ -75,7 +75,7 @@ void add_search(CLI::App& app, DetectOptions& options) {
     grouped(add_choice(app, "--broad-phase", options.search.broad_phase, "what finds boxes that overlap; all find the same",
                        broad_phases));
     grouped(add_number(app, "--skin", options.skin,
-                       "how far two faces may move together before candidates are searched anew; by default chosen as the "
+                       "how far two faces may move together before candidates are searched again; by default chosen as the "
                        "run goes, next to nothing where bodies turn, deform or rest",
                        length));
     grouped(add_number(app, "--max-pairs", options.max_pairs, "candidates at most; by default 250 million",
@@ -88,8 +88,8 @@ void add_verification(CLI::App& app, DetectOptions& options) {
     app.add_flag("--verify", options.verify, "check every step against all pairs; one missed ends in exit code 1")
         ->default_str("off")
         ->group("Verification");
-    add_number(app, "--verify-tests", options.verify_tests, "pairs tested a step; with more, a sample of faces against all",
-               {.above = 0.0})
+    add_number(app, "--verify-tests", options.verify_tests,
+               "pairs tested per step; with more, a sample of faces against all", {.above = 0.0})
         ->group("Verification");
     add_count(app, "--verify-samples", options.verify_samples, "faces of that sample; 0: as --verify-tests allows", 0)
         ->group("Verification");

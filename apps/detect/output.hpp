@@ -6,7 +6,7 @@
 
 namespace abut::apps {
 
-/// Makes the folder and removes what an earlier run left. Throws std::runtime_error naming folder or file.
+/// Makes the folder and removes what an earlier run left. Throws BadInput naming folder or file.
 void prepare_output(const std::filesystem::path& out);
 
 /// The files of a run: pairs as .csv, and pictures for ParaView. A pair names faces as their files do.

@@ -13,7 +13,7 @@ namespace abut::apps {
 /// the shape, the key and what is allowed; mesh::MeshError for a value that the shape cannot have.
 [[nodiscard]] mesh::SurfaceMesh make_shape(const std::string& text);
 
-/// Shapes and their keys for --help, a shape a line.
+/// Shapes and their keys for --help, one shape per line.
 [[nodiscard]] std::string shapes_help();
 
 }  // namespace abut::apps

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
+#include <vector>
 
 #include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/overlap/overlap.hpp"

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/surface.hpp"

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <stdexcept>
+
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
 #include "apps/support/choices.hpp"

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -202,8 +201,8 @@ struct Comparison {
     run::Picture picture;
 };
 
-/// Leaves <scheme>.csv, the picture and summary.json, and prints the table: a line a figure, a column a scheme. Then throws
-/// std::runtime_error if a run broke off, with its scheme, step, time and reason.
+/// Leaves <scheme>.csv, the picture and summary.json, and prints the table: one line per figure, one column per scheme. Then
+/// throws std::runtime_error if a run broke off, with its scheme, step, time and reason.
 void report(const Program& program, const std::filesystem::path& out, const Comparison& comparison);
 
 }  // namespace abut::apps

@@ -13,7 +13,7 @@ struct Table {
     std::vector<std::vector<double>> rows;  ///< each as long as `columns`
 };
 
-/// 17 significant digits, so that every bit comes back. Never seen half-written; throws std::runtime_error.
+/// 17 significant digits, so that every bit comes back. Never seen half-written. Throws BadInput.
 void write_csv(const std::filesystem::path& path, const Table& table);
 
 /// A number as a field: 17 significant digits; nothing where it is NaN.

@@ -15,7 +15,7 @@ void log_warnings(const std::vector<run::Warning>& warnings, const std::string& 
 [[nodiscard]] std::vector<run::Warning> only(std::vector<run::Warning> warnings,
                                              std::initializer_list<run::WarningKind> kinds);
 
-/// How much there is to do, and what is not as it should be: at the start, and once as soon as faces are strongly compressed.
+/// How much there is to do, and what is not as it should be: at the start, and once when faces are strongly compressed.
 template <int Dim>
 class RunLog : public run::Observer<Dim> {
 public:

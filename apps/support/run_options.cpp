@@ -91,7 +91,7 @@ void add_contact_options(CLI::App& app, run::RunOptions& options) {
         "faces look at each other where the cosine between their normals is below it; nearer to 0 sharper tips are seen",
         {.above = -1.0, .below = 0.0}));
     grouped(add_number(app, "--skin", contact.search.skin,
-                       "how far faces move before the list of near faces is made anew; 0: chosen from the number of faces "
+                       "how far faces move before the list of near faces is rebuilt; 0: chosen from the number of faces "
                        "and pairs and the motion",
                        {.unit = "m", .above = 0.0, .zero = true}));
     add_compression_limit(app, options);

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>

@@ -139,7 +139,7 @@ public:
         }
     }
 
-    /// Hands the blocks over in the order of their columns and starts anew.
+    /// Hands the blocks over in the order of their columns and starts again.
     void move_to(std::vector<std::int32_t>& columns, std::vector<double>& blocks) {
         std::vector<std::int32_t> sorted = columns_;
         std::sort(sorted.begin(), sorted.end());

@@ -140,7 +140,7 @@ std::string group_name(int dimension, int tag) {
     return name.empty() ? std::string("physical_") + std::to_string(tag) : name;
 }
 
-/// Body of an entity: its place among the physical groups of dimension Dim; -1 outside any group.
+/// Body of an entity: its index among the physical groups of dimension Dim; -1 outside any group.
 std::int32_t body_of_entity(const std::string& mesh_name, int dimension, int entity, const std::vector<int>& body_groups) {
     std::vector<int> groups;
     gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);

@@ -1,4 +1,5 @@
 #pragma once
+// Private to the layer; not installed.
 #include <filesystem>
 #include <functional>
 #include <mutex>
@@ -10,8 +11,8 @@
 namespace abut::mesh {
 
 /// Gmsh, initialised, quiet, with one thread and a fixed seed, for as long as this object lives; an empty model is current.
-/// Gmsh has one state a process: a second session waits for the first to end. The host must not hold Gmsh open itself. Gmsh
-/// sets the C locale of the process; the session puts back the one it found.
+/// Gmsh has one state per process: a second session waits for the first to end. The host must not hold Gmsh open itself.
+/// Gmsh sets the C locale of the process; the session puts back the one it found.
 class GmshSession {
 public:
     GmshSession();

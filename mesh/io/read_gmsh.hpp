@@ -14,7 +14,7 @@ namespace abut::mesh {
 /// the file. Elements that are neither cells nor in a boundary group are counted in BuildReport::n_ignored_elements; what
 /// Gmsh warns of is in BuildReport::warnings.
 ///
-/// Gmsh has one state a process: the program must not have it open itself (gmsh::initialize) during the call, which would
+/// Gmsh has one state per process: the program must not have it open itself (gmsh::initialize) during the call, which would
 /// end that session. Calls from several threads wait for one another.
 ///
 /// Throws MeshError naming the path, what is wrong and what to do: no file, empty, not a Gmsh file, other version,

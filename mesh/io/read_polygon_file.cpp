@@ -78,11 +78,11 @@ bool read_ply(const std::string& contents, PolygonSoup& soup) {
 
 constexpr std::size_t stl_head = 84, stl_triangle = 50;  ///< bytes of a binary STL file
 
-/// 4 bytes at that place, the smallest first.
+/// 4 bytes at that position, the smallest first.
 template <class Value>
-Value value_at(const std::string& contents, std::size_t place) {
+Value value_at(const std::string& contents, std::size_t position) {
     std::uint32_t bits = 0;
-    for (std::size_t i = 4; i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(contents[place + i]);
+    for (std::size_t i = 4; i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(contents[position + i]);
     Value value;
     std::memcpy(&value, &bits, sizeof value);
     return value;
@@ -114,10 +114,10 @@ void read_binary_stl(const std::string& name, const std::string& contents, Surfa
     for (std::size_t triangle = 0; triangle < n_triangles; ++triangle) {
         std::array<std::int32_t, 3> corners{};
         for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t place = stl_head + stl_triangle * triangle + 12 * (i + 1);  // behind the normal
+            const std::size_t position = stl_head + stl_triangle * triangle + 12 * (i + 1);  // behind the normal
             corners[i] = static_cast<std::int32_t>(mesh.vertices.size());
-            mesh.vertices.push_back({value_at<float>(contents, place), value_at<float>(contents, place + 4),
-                                     value_at<float>(contents, place + 8)});
+            mesh.vertices.push_back({value_at<float>(contents, position), value_at<float>(contents, position + 4),
+                                     value_at<float>(contents, position + 8)});
         }
         mesh.faces.append(corners);
     }

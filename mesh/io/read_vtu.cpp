@@ -26,7 +26,7 @@ namespace {
 
 struct VtkShape {
     CellShape shape;
-    std::array<int, max_cell_vertices> order;  ///< VTK's place of our vertex
+    std::array<int, max_cell_vertices> order;  ///< VTK's index of our vertex
 };
 
 std::optional<VtkShape> shape_of_vtk(int type) {

@@ -1,4 +1,5 @@
 #pragma once
+// Private to the layer; not installed.
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
 
@@ -7,7 +8,7 @@
 
 namespace abut::mesh {
 
-/// Collects, for as long as it lives, the errors and warnings that VTK would print. VTK has one place for them a process:
+/// Collects, for as long as it lives, the errors and warnings that VTK would print. VTK has one place for them per process:
 /// a second object waits for the first to end.
 class VtkMessages {
 public:

@@ -2,8 +2,6 @@
 
 #include <vtkErrorCode.h>
 
-#include <system_error>
-
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/vtk_messages.hpp"
 #include "abut/mesh/quality.hpp"

@@ -7,10 +7,10 @@
 
 /// Meshes of simple parts. The unstructured ones come from Gmsh; calls from several threads wait for one another, and the
 /// program must not have Gmsh open itself (gmsh::initialize) during a call, which would end that session. The same options
-/// give the same bits up to about 400,000 tetrahedra a part. Larger parts are meshed by Gmsh's HXT, which is fast but gives
-/// another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError when a
-/// length or count is not positive, a coordinate not finite, the cells would be more than 100 million (of `structured_box`
-/// and `fan_disc`: more than a Mesh can number, 268,435,455), or when Gmsh fails.
+/// give the same bits up to about 400,000 tetrahedra per part. Larger parts are meshed by Gmsh's HXT, which is fast but
+/// gives another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError
+/// when a length or count is not positive, a coordinate not finite, the cells would be more than 100 million (of
+/// `structured_box` and `fan_disc`: more than a Mesh can number, 268,435,455), or when Gmsh fails.
 ///
 /// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
 /// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the
@@ -21,16 +21,16 @@ namespace abut::mesh {
 /// linearly to the part's own size over `distance` [m].
 template <int Dim>
 struct Refinement {
-    Vector<Dim> point;
-    double size;
-    double distance;
-    double uniform = 0.0;
+    Vector<Dim> point;     ///< [m]
+    double size;           ///< [m]
+    double distance;       ///< [m]
+    double uniform = 0.0;  ///< [m]
 };
 
 struct DiscOptions {
-    Vector<2> centre = Vector<2>::Zero();
-    double radius = 1.0;
-    double size = 0.1;  ///< wanted edge length of cells [m]
+    Vector<2> centre = Vector<2>::Zero();  ///< [m]
+    double radius = 1.0;                   ///< [m]
+    double size = 0.1;                     ///< wanted edge length of cells [m]
     std::optional<Refinement<2>> refinement = {};
     int variant = 0;
     std::string name = "disc";  ///< of mesh and body
@@ -39,10 +39,10 @@ struct DiscOptions {
 [[nodiscard]] Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options = {});
 
 struct CylinderOptions {
-    Vector<3> centre = Vector<3>::Zero();  ///< middle of the axis, which is parallel to z
-    double radius = 1.0;
-    double length = 1.0;
-    double size = 0.1;
+    Vector<3> centre = Vector<3>::Zero();  ///< middle of the axis, which is parallel to z [m]
+    double radius = 1.0;                   ///< [m]
+    double length = 1.0;                   ///< [m]
+    double size = 0.1;                     ///< wanted edge length of cells [m]
     std::optional<Refinement<3>> refinement = {};
     int variant = 0;
     std::string name = "cylinder";
@@ -51,9 +51,9 @@ struct CylinderOptions {
 [[nodiscard]] Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options = {});
 
 struct SphereOptions {
-    Vector<3> centre = Vector<3>::Zero();
-    double radius = 1.0;
-    double size = 0.1;
+    Vector<3> centre = Vector<3>::Zero();  ///< [m]
+    double radius = 1.0;                   ///< [m]
+    double size = 0.1;                     ///< wanted edge length of cells [m]
     std::optional<Refinement<3>> refinement = {};
     int variant = 0;
     std::string name = "sphere";
@@ -63,9 +63,9 @@ struct SphereOptions {
 
 template <int Dim>
 struct BoxOptions {
-    Vector<Dim> lower = Vector<Dim>::Zero();
-    Vector<Dim> upper = Vector<Dim>::Ones();
-    double size = 0.1;
+    Vector<Dim> lower = Vector<Dim>::Zero();  ///< [m]
+    Vector<Dim> upper = Vector<Dim>::Ones();  ///< [m]
+    double size = 0.1;                        ///< wanted edge length of cells [m]
     std::optional<Refinement<Dim>> refinement = {};
     int variant = 0;
     std::string name = "box";

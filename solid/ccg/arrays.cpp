@@ -1,8 +1,9 @@
 #include "abut/solid/ccg/arrays.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "abut/base/sort_unique.hpp"
 
 namespace abut::solid {
 namespace {

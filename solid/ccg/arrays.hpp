@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "abut/base/sort_unique.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/lanes.hpp"
 

@@ -1,7 +1,6 @@
 #include "abut/solid/ccg/ccg.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 

@@ -74,15 +74,15 @@ public:
     /// Whether some face of the cell has a prescribed displacement.
     [[nodiscard]] bool has_prescribed_face(std::int32_t cell) const;
 
-    /// û on all boundary faces for the cell displacements u (n_cells) [m].
+    /// û on all boundary faces (n_boundary) [m] for the cell displacements u (n_cells) [m].
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
 
-    /// dV/du_c [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
+    /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
-    /// y_f - |f| t_f and the pairs' part of dV/dû_f, of a boundary face [N], as of the last call of `gradient`; `evaluate_cells` since then has
-    /// set those of its region.
+    /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient`; `evaluate_cells`
+    /// since then has set those of its region.
     [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;
 
     /// V(u, û + delta) less the work of tractions [J].
@@ -93,10 +93,10 @@ public:
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const BoundaryFace> faces) const;
     /// What `evaluate_cells` needs for these cells, increasing.
     [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
-    /// û and y - |f| t of the region's faces, without contact.
+    /// û [m] and y - |f| t [N] of the region's faces (region.faces), without contact.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
-    /// dV/du_c of the region's cells, as `gradient` gives it.
+    /// dV/du_c of the region's cells, as `gradient` gives it (region.cells) [N].
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
@@ -114,6 +114,7 @@ public:
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
+    /// Of interior faces only; `boundary` has that of the others.
     [[nodiscard]] const StencilReport& stencil_report() const;
     [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;
     [[nodiscard]] std::span<const FaceStencil<Dim>> stencils() const;  ///< by face; a boundary face has weight 0 throughout

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "abut/base/sort_unique.hpp"
+
 namespace abut::solid {
 namespace {
 

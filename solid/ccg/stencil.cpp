@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <nanoflann.hpp>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>

@@ -18,10 +18,10 @@ struct FaceStencil {
 
 /// How far the reconstruction had to extrapolate: faces whose point lies outside every acceptable simplex.
 struct StencilReport {
-    std::int64_t faces = 0;
-    std::int64_t extrapolated = 0;  ///< faces with a weight below -1e-3
-    double worst_weight = 0.0;      ///< the most negative weight
-    std::int32_t worst_face = -1;
+    std::int64_t faces = 0;          ///< faces that were given a stencil
+    std::int64_t extrapolated = 0;   ///< faces with a weight below -1e-3
+    double worst_weight = 0.0;       ///< the most negative weight
+    std::int32_t worst_face = -1;    ///< the face that has it; -1: no face has a negative weight
     std::int64_t lowered_floor = 0;  ///< faces for which the volume floor had to be halved
 };
 

@@ -1,7 +1,5 @@
 #include "abut/solid/ccg/sweeps.hpp"
 
-#include <algorithm>
-
 #include "abut/base/parallel.hpp"
 
 namespace abut::solid {

@@ -7,11 +7,11 @@
 
 namespace abut::studies::extremes {
 
-/// The head of a table, then a line a row as they come.
+/// The head of a table, then one line per row as they come.
 void print_head(const Family& family);
 void print(const Row& row);
 
-/// Leaves extremes.csv, a line a row, and summary.json: of each family how many held, were refused and failed, the worst
+/// Leaves extremes.csv, one line per row, and summary.json: of each family how many held, were refused and failed, the worst
 /// numbers of those that ran, and all rows.
 void write_report(const apps::Program& program, const std::filesystem::path& out, const SweepOptions& options,
                   const std::vector<Row>& rows);

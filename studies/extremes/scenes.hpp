@@ -25,8 +25,8 @@ struct Meeting {
     double poisson = 0.3;
     double speed = 0.05;                      ///< of each
     double gap = 0.02;                        ///< between their nearest points
-    double aside = 0.0;                       ///< of the second, at right angles to their way, over its size
-    double slide = 0.0;                       ///< speed of the second at right angles to its way
+    double aside = 0.0;                       ///< of the second, at right angles to their path, over its size
+    double slide = 0.0;                       ///< speed of the second at right angles to its path
     double time = 12.0;                       ///< of the run
     Vector<Dim> place = Vector<Dim>::Zero();  ///< of the first point of contact
 };

@@ -12,7 +12,7 @@ namespace abut::studies::extremes {
 
 /// What became of a run at an extreme.
 enum class Verdict {
-    held,     ///< it ran to its end, and all that is asked of it is so (`Limits` below)
+    held,     ///< it ran to its end, and all that is asked of it is so (the constants below)
     refused,  ///< it ended with a message
     failed,   ///< it ran to its end, but something that is asked of it is not so
 };
@@ -68,8 +68,8 @@ struct Row {
 template <int Dim>
 [[nodiscard]] Row attempt(const Trial<Dim>& trial);
 
-/// Sets `deviation`: the largest difference of the first `how_many` numbers from those of the reference, over 1 or the number,
-/// whichever is larger; and `failed` where it is more than `allowed`.
+/// Sets `deviation`: the largest difference of the first `how_many` numbers from those of the reference, over 1 or the
+/// number, whichever is larger; and `failed` where it is more than `allowed`.
 void compare(Row& row, const Row& reference, std::size_t how_many, double allowed);
 
 }  // namespace abut::studies::extremes

@@ -25,7 +25,7 @@ mesh::Mesh<Dim> strip(double bottom, double top, double width, int across, int a
     return mesh::structured_box<Dim>(lower, upper, counts, brick<Dim>, name);
 }
 
-/// Names of the sides of a box, all but its ends.
+/// Names of the sides of a box, all except its ends.
 template <int Dim>
 std::vector<std::string> side_names() {
     if constexpr (Dim == 2)

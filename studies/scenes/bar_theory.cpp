@@ -56,7 +56,7 @@ double ExactBounce::impulse() const { return 2.0 * bar_.mass() * (speed + gravit
 /// Between the impacts the bar vibrates: under its own weight it was pressed by 2 rho g (L - x) when it was released.
 double ExactBounce::flight(double since) const {
     const double c = bar_.wave_speed(), length = bar_.length;
-    const double way = std::fmod(c * since, 2.0 * length), x = std::min(way, 2.0 * length - way);
+    const double path = std::fmod(c * since, 2.0 * length), x = std::min(path, 2.0 * length - path);
     const double vibration = -2.0 * gravity_ / (c * c) * (length * x - 0.5 * x * x);
     return speed * since - 0.5 * gravity_ * since * since + vibration;
 }

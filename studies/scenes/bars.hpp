@@ -9,9 +9,9 @@
 #include "abut/run/scene.hpp"
 #include "studies/validation/study.hpp"
 
-/// Straight elastic bars that hit a rigid wall or each other. With nu = 0 and rollers at their sides their waves are those of
-/// one dimension, so that closed forms exist. All quantities are per area of the cross-section: momentum [N s/m^2], energy
-/// [J/m^2]. Heights are measured from the wall, or from the middle between two bars.
+/// Straight elastic bars that hit a rigid wall or each other. With nu = 0 and rollers at their sides their waves are those
+/// of one dimension, so that closed forms exist. All quantities are per area of the cross-section: momentum [N s/m^2],
+/// energy [J/m^2]. Heights are measured from the wall, or from the middle between two bars.
 namespace abut::studies {
 
 /// A bar of one material; by default the one that most reference cases take.
@@ -23,7 +23,7 @@ struct Bar {
     [[nodiscard]] double mass() const { return density * length; }  ///< [kg/m^2]
     [[nodiscard]] double wave_speed() const { return std::sqrt(young / density); }
     [[nodiscard]] double impedance() const { return density * wave_speed(); }          ///< rho c [kg/(m^2 s)]
-    [[nodiscard]] double contact_time() const { return 2.0 * length / wave_speed(); }  ///< a wave's way up and down [s]
+    [[nodiscard]] double contact_time() const { return 2.0 * length / wave_speed(); }  ///< of a wave up and down [s]
 };
 
 /// Along which a strip of cells lies.
@@ -105,10 +105,10 @@ private:
 };
 
 /// What the dispersion of the cells does to an impact at constant pressure. Long waves run at c (1 - beta (k h)^2) with
-/// beta = (1 - nu^2)/24 in the chain and (4 - nu^2)/24 in the strips, whose strain is a difference over 2h; nu is the Courant
-/// number. A front that has run the way s is then the integral of the Airy function over the length (3 beta h^2 s)^(1/3). Here
-/// s = 2L, and the wall lets go where that integral is 1/2: late, and with a part of the speed left behind as vibration. Both go
-/// like h^(2/3); what is left out here is of the next order, h.
+/// beta = (1 - nu^2)/24 in the chain and (4 - nu^2)/24 in the strips, whose strain is a difference over 2h; nu is the
+/// Courant number. A front that has run the distance s is then the integral of the Airy function over the length
+/// (3 beta h^2 s)^(1/3). Here s = 2L, and the wall lets go where that integral is 1/2: late, and with a part of the speed
+/// left behind as vibration. Both go like h^(2/3); what is left out here is of the next order, h.
 struct DispersedImpact {
     double delay;  ///< of the release [s]
     double loss;   ///< of the speed of rebound, over the speed of impact [-]
@@ -170,8 +170,8 @@ struct BarOptions {
     std::vector<CLI::Option*> of_solver;  ///< options that a chain does not know
 };
 
-/// With what an impact at a third of the wave speed needs: the foot gives way by up to twice its cell, and more when vibration
-/// adds up; `length` is that of the bar [m].
+/// With what an impact at a third of the wave speed needs: the foot gives way by up to twice its cell, and more when
+/// vibration adds up; `length` is that of the bar [m].
 [[nodiscard]] BarOptions default_bar_options(const apps::Program& program, std::vector<int> cells,
                                              double length = Bar{}.length);
 /// --body, --cells, --cfl, --filter, --out and the options of contact; `bodies` are those on offer.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -72,13 +71,13 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
 }
 
 template <int Dim>
-PatchErrors errors(solid::Solid<Dim>& solid, const PatchOptions& options, const std::vector<double>& q) {
+ContactPatchErrors errors(solid::Solid<Dim>& solid, const PatchOptions& options, const std::vector<double>& q) {
     const mesh::Mesh<Dim>& mesh = solid.mesh();
     const auto& materials = solid.options().materials;
     const double p = options.strain * materials[0].wave_modulus();
     const std::array<Uniform, 2> exact{uniform<Dim>(materials[0], options.free_sides, p),
                                        uniform<Dim>(materials[1], options.free_sides, p)};
-    PatchErrors result;
+    ContactPatchErrors result;
     const auto field = solid.contact_field(q);
     for (std::size_t b = 0; b < field.pressure.size(); ++b)
         if (std::isfinite(field.gap[b])) result.pressure = std::max(result.pressure, std::abs(field.pressure[b] - p) / p);
@@ -104,16 +103,16 @@ PatchErrors errors(solid::Solid<Dim>& solid, const PatchOptions& options, const 
 }  // namespace
 
 template <int Dim>
-PatchErrors solve_patch(const PatchOptions& options) {
+ContactPatchErrors solve_patch(const PatchOptions& options) {
     const auto mesh = mesh::combine<Dim>(std::vector{block<Dim>(options, 0), block<Dim>(options, 1)});
     solid::Solid<Dim> solid(mesh, solid_options<Dim>(options));
     auto solution = solve_statics(solid, std::vector<double>(solid.size(), 0.0), {.tolerance = 1e-12});
-    PatchErrors result = errors(solid, options, solution.q);
+    ContactPatchErrors result = errors(solid, options, solution.q);
     result.report = std::move(solution.report);
     return result;
 }
 
-template PatchErrors solve_patch<2>(const PatchOptions&);
-template PatchErrors solve_patch<3>(const PatchOptions&);
+template ContactPatchErrors solve_patch<2>(const PatchOptions&);
+template ContactPatchErrors solve_patch<3>(const PatchOptions&);
 
 }  // namespace abut::studies

@@ -28,7 +28,7 @@ struct PatchOptions {
 };
 
 /// Largest errors of all cells and contact faces [-].
-struct PatchErrors {
+struct ContactPatchErrors {
     double stress = 0.0;        ///< Frobenius norm of the error over the pressure
     double displacement = 0.0;  ///< over the largest displacement
     double pressure = 0.0;      ///< of the contact pressure, over the pressure
@@ -37,6 +37,6 @@ struct PatchErrors {
 
 /// Throws what `solve_statics` throws. The choices that are there for comparison may not come into balance: see the report.
 template <int Dim>
-[[nodiscard]] PatchErrors solve_patch(const PatchOptions& options);
+[[nodiscard]] ContactPatchErrors solve_patch(const PatchOptions& options);
 
 }  // namespace abut::studies

@@ -8,7 +8,7 @@
 #include "abut/solid/statics.hpp"
 
 /// Two elastic bodies pressed onto each other at rest: a cylinder (disc, plane strain) or a sphere onto a block, onto its
-/// equal, or onto a rigid plane. The contact point is the origin; the weight of the upper body, along the last axis, presses.
+/// equal, or onto a rigid plane. The contact point is the origin; the weight of the upper body presses along the last axis.
 namespace abut::studies {
 
 /// What is under the round body.

@@ -56,7 +56,7 @@ solid::SolidOptions<Dim> patch(const AffineField<Dim>& field, PatchBoundary boun
 }
 
 template <int Dim>
-PatchErrors errors(const AffineField<Dim>& field, solid::Solid<Dim>& solid, std::span<const double> q) {
+BulkPatchErrors errors(const AffineField<Dim>& field, solid::Solid<Dim>& solid, std::span<const double> q) {
     const auto u = as_vectors<Dim>(q);
     const Matrix<Dim> stress = field.stress(solid.options().materials[0]);
     static_cast<void>(solid.potential(q));  // fills the stress of the cells
@@ -73,12 +73,12 @@ PatchErrors errors(const AffineField<Dim>& field, solid::Solid<Dim>& solid, std:
 }  // namespace
 
 template <int Dim>
-PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann) {
+BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann) {
     const AffineField<Dim> field;
     solid::Solid<Dim> solid(box, patch(field, boundary, neumann));
     const auto solution = solid::solve_statics(solid, std::vector<double>(solid.size(), 0.0),
                                                {.tolerance = tolerance, .iterations = most_iterations});
-    PatchErrors result = errors(field, solid, solution.q);
+    BulkPatchErrors result = errors(field, solid, solution.q);
     result.report = solution.report;
     return result;
 }
@@ -103,8 +103,8 @@ ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann) {
             .next = *next / highest};
 }
 
-template PatchErrors patch_test(const mesh::Mesh<2>&, PatchBoundary, solid::FreeFaceRule);
-template PatchErrors patch_test(const mesh::Mesh<3>&, PatchBoundary, solid::FreeFaceRule);
+template BulkPatchErrors patch_test(const mesh::Mesh<2>&, PatchBoundary, solid::FreeFaceRule);
+template BulkPatchErrors patch_test(const mesh::Mesh<3>&, PatchBoundary, solid::FreeFaceRule);
 template ZeroModes zero_modes(const mesh::Mesh<2>&, solid::FreeFaceRule);
 template ZeroModes zero_modes(const mesh::Mesh<3>&, solid::FreeFaceRule);
 

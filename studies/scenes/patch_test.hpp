@@ -13,7 +13,7 @@ enum class PatchBoundary {
 };
 
 /// Largest errors of the static solution, relative to the largest exact value.
-struct PatchErrors {
+struct BulkPatchErrors {
     double displacement;  ///< of the cells [-]
     double stress;        ///< in the Frobenius norm [-]
     solid::StaticReport report;
@@ -22,7 +22,7 @@ struct PatchErrors {
 /// A box under the boundary conditions of a displacement A x + b, A without symmetry, E = 70e3, nu = 0.3; solved from
 /// u = 0 as far as rounding allows. Throws as solid::solve_statics.
 template <int Dim>
-[[nodiscard]] PatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
+[[nodiscard]] BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
 
 /// Eigenvalues of the stiffness K of a free body.
 struct ZeroModes {

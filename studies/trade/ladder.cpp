@@ -8,7 +8,7 @@
 namespace abut::studies::trade {
 namespace {
 
-/// An option and its values but for the default.
+/// An option and its values except the default.
 struct Axis {
     std::string option;
     std::vector<std::string> values;

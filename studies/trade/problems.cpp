@@ -52,7 +52,7 @@ run::RunResult<Dim> run_for(const run::Scene<Dim>& scene, run::RunOptions run, d
     return result;
 }
 
-/// All but the errors of what the problem is about.
+/// All except the errors of what the problem is about.
 template <int Dim>
 Outcome outcome_of(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result, double speed, double seconds) {
     const auto& entries = result.ledger.entries();

@@ -2,9 +2,10 @@
 //
 // L = 10, E = 900, rho = 1, nu = 0, so c = 30; at 10 towards a wall 5 away, without gravity. A compression wave runs up the
 // bar and comes back as a release wave: contact from 0.5 to 0.5 + 2L/c = 1.16667 at the pressure v0 sqrt(E rho) = 300, and
-// the bar flies back at 10, undeformed. In the cells short waves are slower than long ones: the fronts spread, the release is
-// late and a part of the speed stays behind as vibration, both like h^(2/3) and by as much as dispersed_impact says. Strips
-// disperse as a chain of half as many cells does; the pressure of the chain oscillates about the exact one all the time.
+// the bar flies back at 10, undeformed. In the cells short waves are slower than long ones: the fronts spread, the release
+// is late and a part of the speed stays behind as vibration, both like h^(2/3) and by as much as dispersed_impact says.
+// Strips disperse as a chain of half as many cells does; the pressure of the chain oscillates about the exact one all the
+// time.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -6,8 +6,6 @@
 // `local_equilibrium` must pass everything; `extrapolate` and `adjacent` are there for comparison, and asked for nothing.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "abut/base/stopwatch.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
@@ -65,7 +63,7 @@ Quantity error_of(const std::string& name, double value, double allowed) {
 template <int Dim>
 void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name,
                FreeFaceRule neumann, double allowed) {
-    const PatchErrors errors = patch_test(mesh, boundary, neumann);
+    const BulkPatchErrors errors = patch_test(mesh, boundary, neumann);
     level.quantities.push_back(error_of("displacement, " + name, errors.displacement, allowed));
     level.quantities.push_back(error_of("stress, " + name, errors.stress, allowed));
 }

@@ -55,7 +55,7 @@ double target(const PatchOptions& options, const Sides& sides) {
 template <int Dim>
 Level level(const PatchOptions& options, const Sides& sides) {
     double seconds = 0.0;
-    PatchErrors errors;
+    ContactPatchErrors errors;
     {
         const Stopwatch watch(seconds);
         errors = solve_patch<Dim>(options);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
@@ -132,7 +131,7 @@ int main(int argc, char** argv) {
     using namespace abut::studies;
     Options options;
     const auto add_options = [&](CLI::App& app) {
-        apps::add_numbers(app, "--size", options.sizes, "sizes of cells, one a level",
+        apps::add_numbers(app, "--size", options.sizes, "sizes of cells, one per level",
                           {.unit = "m", .above = 0.0, .below = 1.0})
             ->group("Scene");
         apps::add_preset_option(app, options.run);

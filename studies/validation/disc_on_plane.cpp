@@ -1,8 +1,8 @@
 // A disc falls on a rigid plane: when it touches, and how fast it is then.
 //
-// R = 20, lambda = mu = 20, rho = 1, body force 0.1, lowest point 5 above the plane: it touches at t = 10 at the speed 1. The
-// disc of the mesh is a polygon whose faces feel the plane at their centroids: it is late by the time in which it falls by
-// what these are higher than the circle, at most h^2/(8R), and by a step.
+// R = 20, lambda = mu = 20, rho = 1, body force 0.1, lowest point 5 above the plane: it touches at t = 10 at the speed 1.
+// The disc of the mesh is a polygon whose faces feel the plane at their centroids: it is late by the time in which it falls
+// by what these are higher than the circle, at most h^2/(8R), and by a step.
 #include <fmt/format.h>
 
 #include <array>
@@ -23,7 +23,7 @@ const apps::Program program{
     .footer = "The disc: R = 20 m, lambda = mu = 20 Pa, rho = 1 kg/m^3, 0.1 m/s^2, 5 m above the plane."};
 
 struct Options {
-    std::vector<double> cells{5.0, 10.0, 20.0};  // in the radius, one a level
+    std::vector<double> cells{5.0, 10.0, 20.0};  // in the radius, one per level
     run::RunOptions run{.out = "out/" + program.name};
 };
 

@@ -4,12 +4,12 @@
 // L = 10, E = 900, rho = 1, nu = 0, so c = 30; gravity 10, from rest 5 above the wall. It hits at t = 1 with v0 = 10; a wave
 // runs up and down in 2L/c = 2/3, and the foot, which would go on falling, is held: p = rho c (v0 + g t), from 300 to 500,
 // impulse 2 rho L (v0 + g L/c) = 266.667. The bar leaves pressed by its own weight, vibrates with the period 2L/c, and comes
-// back after 2 s = 3 periods in that same state: the second impact is the first one backwards, and after 16/3 s the bar is at
-// rest where it began.
+// back after 2 s = 3 periods in that same state: the second impact is the first one backwards, and after 16/3 s the bar is
+// at rest where it began.
 //
-// The front that ends the first impact is one of 600, from 500 to -100 if the wall could pull: what dispersion has made of it
-// (dispersed_impact) reaches 0 where it is over by 5/6, late by an amount that goes like h^(2/3). From then on the fronts that
-// run through the bar in flight are spread, too, and the later impacts are less accurate than the first.
+// The front that ends the first impact is one of 600, from 500 to -100 if the wall could pull: what dispersion has made of
+// it (dispersed_impact) reaches 0 where it is over by 5/6, late by an amount that goes like h^(2/3). From then on the fronts
+// that run through the bar in flight are spread, too, and the later impacts are less accurate than the first.
 #include <fmt/format.h>
 
 #include "apps/support/choices.hpp"

@@ -10,8 +10,8 @@
 //                u = -min(x, 1 - x, s, 1 - s)/2. At t = 2 the bar is undeformed again, now with v = 1/2: the wall lets go.
 //   t in [2, 3]: s = t - 2. The fixed end stops the bar, sigma = -1/2 behind the front: u = min(s, 1 - x)/2.
 //
-// At t = 3 all is as at t = 0. The front that ends the first contact has run the way 2L since t = 0: it is as late as that of
-// bar_impact. Contact stress 0, -1/2, 0 in the three parts of a period; energy 1/8 throughout.
+// At t = 3 all is as at t = 0. The front that ends the first contact has run the distance 2L since t = 0: it is as late as
+// that of bar_impact. Contact stress 0, -1/2, 0 in the three parts of a period; energy 1/8 throughout.
 #include <fmt/format.h>
 
 #include <algorithm>

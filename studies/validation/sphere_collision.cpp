@@ -1,8 +1,8 @@
 // Two spheres of aluminium run into each other: approach, force and duration against Hertz's quasi-static impact.
 //
 // R = 0.1 m, E = 70 GPa, nu = 0.3, rho = 2700 kg/m^3, coming closer at 0.5 m/s: 118.9 um, 14.86 kN, 700 us. Waves cross a
-// sphere ten times in that time, so that the impact is nearly quasi-static. The contact is 2.4 mm in radius: cells are 0.4 mm
-// there and grow with the distance.
+// sphere ten times in that time, so that the impact is nearly quasi-static. The contact is 2.4 mm in radius: cells are
+// 0.4 mm there and grow with the distance.
 //
 // The momentum of a step holds the parasitic mode, which changes its sign with every step: the force of one step is off by
 // as much. The mean of two steps in a row is free of it.

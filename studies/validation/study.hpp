@@ -74,7 +74,8 @@ struct Study {
 /// above 1e-13. Empty where fewer than two are left.
 [[nodiscard]] std::optional<double> fitted_order(const Study& study, const std::string& quantity);
 
-/// Makes the folder and removes what an earlier run of a study left there: values.csv, summary.json, its curves and pictures.
+/// Makes the folder and removes what an earlier run of a study left there: values.csv, summary.json, its curves and
+/// pictures.
 void prepare_study(const std::filesystem::path& out, const std::vector<std::string>& curves,
                    const std::vector<std::string>& pictures);
 

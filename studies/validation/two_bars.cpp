@@ -1,14 +1,14 @@
 // Two equal elastic bars collide head on: they exchange their velocities.
 //
-// L = 10, E = 900, rho = 1, nu = 0, so c = 30; each flies towards the other at 0.1 (--speed 0.1,0: one of them is at rest). At
-// closing speed w the contact lasts 2L/c = 2/3 at the pressure rho c w/2 = 3, in both bars waves run to the far end and come
-// back, and then each bar flies off, undeformed, with the velocity that the other one had. Where the bars are cut into
+// L = 10, E = 900, rho = 1, nu = 0, so c = 30; each flies towards the other at 0.1 (--speed 0.1,0: one of them is at rest).
+// At closing speed w the contact lasts 2L/c = 2/3 at the pressure rho c w/2 = 3, in both bars waves run to the far end and
+// come back, and then each bar flies off, undeformed, with the velocity that the other one had. Where the bars are cut into
 // different numbers of cells (--cells-2) their faces do not match, along or across; the solution is the same.
 //
-// Each bar sees a rigid wall at the speed w/2: release and velocities as in bar_impact. But for its walls, two ends of equal
-// width can slip off each other: the overlap shrinks whichever way they slip, V = p |g|/2 per area sinks with it, and a force
-// p |g| per length of the edge drives them on, against the shear stiffness of the cells. With |g| ~ h w/c the slip is of the
-// order h (w/c)^2: nothing in small strains. At --speed 10,10, strains of 1/3, the ends may slip off (with --cells 50
+// Each bar sees a rigid wall at the speed w/2: release and velocities as in bar_impact. Unlike at a wall, two ends of equal
+// width can slip off each other: the overlap shrinks whichever way they slip, V = p |g|/2 per area sinks with it, and a
+// force p |g| per length of the edge drives them on, against the shear stiffness of the cells. With |g| ~ h w/c the slip is
+// of the order h (w/c)^2: nothing in small strains. At --speed 10,10, strains of 1/3, the ends may slip off (with --cells 50
 // --cells-2 70 they do), and the bars run through each other.
 #include <fmt/format.h>
 

@@ -1,11 +1,14 @@
 #pragma once
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "abut/geometry/health/face_soup.hpp"
+#include "abut/geometry/health/surface_health.hpp"
 
 namespace abut::test {
 
@@ -111,6 +114,31 @@ inline Faces moebius_strip(int n) {
 /// What every edge of a triangle looks the same in, times `size`, and away from the origin by `shift`.
 inline std::vector<Vector<3>> corner_triangle(double size = 1.0, const Vector<3>& shift = Vector<3>::Zero()) {
     return {shift, shift + Vector<3>(size, 0, 0), shift + Vector<3>(0, size, 0)};
+}
+
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double infinite = std::numeric_limits<double>::infinity();
+
+inline std::vector<Vector<3>> regular_polygon(int n) {
+    std::vector<Vector<3>> corners;
+    for (int i = 0; i < n; ++i)
+        corners.push_back({std::cos(2.0 * std::numbers::pi * i / n), std::sin(2.0 * std::numbers::pi * i / n), 0.0});
+    return corners;
+}
+
+/// Appends a copy of `other` that shares no vertex with what is there.
+inline void append(Faces& faces, const Faces& other, const Vector<3>& shift) {
+    const auto n = static_cast<std::int32_t>(faces.vertices.size());
+    for (const Vector<3>& x : other.vertices) faces.vertices.push_back(x + shift);
+    for (std::int32_t face = 0; face < other.size(); ++face) {
+        std::vector<std::int32_t> loop;
+        for (const std::int32_t v : other.soup().vertices_of(face)) loop.push_back(v + n);
+        faces.add(loop);
+    }
+}
+
+inline geometry::SurfaceReport checked(const Faces& faces, const geometry::HealthOptions& options = {}) {
+    return geometry::check_surface(faces.soup(), options);
 }
 
 }  // namespace abut::test

@@ -46,7 +46,8 @@ TEST_CASE("a change of units leaves every number without a unit as it is", "[pro
     }
 }
 
-TEST_CASE("a scene behaves far from the origin as at it, but for the rounding of its coordinates", "[programs][extremes]") {
+TEST_CASE("a scene behaves far from the origin as at it, except for the rounding of its coordinates",
+          "[programs][extremes]") {
     for (const auto& row : sweep("offset")) check_held(row);
 }
 

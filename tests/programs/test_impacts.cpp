@@ -11,7 +11,7 @@ using namespace abut::test::programs;
 
 }  // namespace
 
-TEST_CASE("a disc that falls touches a plane when free fall says, but for its corners and a step", "[programs]") {
+TEST_CASE("a disc that falls touches a plane when free fall says, except for its corners and a step", "[programs]") {
     const auto outcome = run_well("disc_on_plane", "--cells 5,10", "disc_on_plane");
     for (std::size_t level = 0; level < 2; ++level) {
         const double size = read_summary(outcome)["levels"][level]["size"].get<double>();

@@ -93,7 +93,7 @@ TEST_CASE("the options --cfl, --dt, --time and --steps say how long steps and th
     CHECK_FALSE(by_dt["options"].contains("time"));
 }
 
-TEST_CASE("the skin of the summary is the one used, and a thicker one is made anew less often", "[programs]") {
+TEST_CASE("the skin of the summary is the one used, and a thicker one is rebuilt less often", "[programs]") {
     const auto by_default = read_summary(run_coarse("", "skin_default"));
     const auto thick = read_summary(run_coarse("--skin 0.8", "skin_thick"));
     CHECK(by_default["options"]["skin"].get<double>() > 0.005);  // chosen, between 0.02 and 4 times the mean face size, 0.25

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes and scenes for the tests of the dynamics layer.
+// Meshes and scenes for the tests of the solid layer.
 #include <Eigen/Dense>
 #include <array>
 #include <random>
@@ -130,7 +130,7 @@ double highest_frequency(solid::Solid<Dim>& solid) {
     return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
 }
 
-/// A solid with its mesh and its integrator, at rest in its reference shape but for uniform velocities of its bodies.
+/// A solid with its mesh and its integrator, at rest in its reference shape except for uniform velocities of its bodies.
 template <int Dim>
 struct Scene {
     mesh::Mesh<Dim> mesh;

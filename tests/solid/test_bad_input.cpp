@@ -13,7 +13,7 @@ const double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TEST_CASE("a material out of bounds is refused with the body, the quantity, its value and its limit", "[dynamics][errors]") {
+TEST_CASE("a material out of bounds is refused with the body, the quantity, its value and its limit", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
     auto options = bodies<2>(2);
     solid::Material& material = options.materials[1];
@@ -38,15 +38,14 @@ TEST_CASE("a material out of bounds is refused with the body, the quantity, its 
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Contains("body 1") && Contains(quantity) && Contains(limit));
 }
 
-TEST_CASE("materials at the edge of what is allowed are taken", "[dynamics][errors]") {
+TEST_CASE("materials at the edge of what is allowed are taken", "[solid][errors]") {
     const auto mesh = unit_disc(0.6);
     auto options = bodies<2>(1);
     options.materials[0].poisson = GENERATE(-0.99, 0.0, 0.49);
     CHECK_NOTHROW(solid::Solid<2>(mesh, options));
 }
 
-TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothing feels, are refused",
-          "[dynamics][errors]") {
+TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothing feels, are refused", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
     auto options = bodies<2>(2);
     SECTION("materials") {
@@ -65,8 +64,8 @@ TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothi
     CHECK_THROWS_AS(solid::Solid<2>(mesh, options), BadInput);
 }
 
-TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their group", "[dynamics][errors]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their group", "[solid][errors]", ((int Dim), Dim),
+                       2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
     auto options = bodies<Dim>(1);
     solid::DirichletCondition<Dim> condition;
@@ -93,7 +92,7 @@ TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their
     CHECK_THROWS_WITH(solid::Solid<Dim>(mesh, options), Contains(says));
 }
 
-TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act on, when they are", "[dynamics][errors]",
+TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act on, when they are", "[solid][errors]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
     auto options = bodies<Dim>(1);
@@ -141,14 +140,14 @@ TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act
     CHECK_THROWS_WITH(two_steps(), Contains(says) && Contains("0.01 s") && Contains("not finite"));
 }
 
-TEST_CASE("velocities for another number of bodies are refused", "[dynamics][errors]") {
+TEST_CASE("velocities for another number of bodies are refused", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
     const solid::Solid<2> solid(mesh, bodies<2>(2));
     const std::vector<Vector<2>> one{{0.05, 0.0}};
     CHECK_THROWS_WITH(solid::uniform_momentum<2>(solid, one), Contains("1 velocities") && Contains("2 bodies"));
 }
 
-TEST_CASE("an unknown group is answered with the names that exist", "[dynamics][errors]") {
+TEST_CASE("an unknown group is answered with the names that exist", "[solid][errors]") {
     const auto mesh = mesh::box<2>({.size = 0.5});
     auto options = bodies<2>(1);
     solid::DirichletCondition<2> condition;
@@ -157,7 +156,7 @@ TEST_CASE("an unknown group is answered with the names that exist", "[dynamics][
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Contains("xmin") && Contains("ymax"));
 }
 
-TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made", "[dynamics][errors]", ((int Dim), Dim), 2,
+TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made", "[solid][errors]", ((int Dim), Dim), 2,
                        3) {
     std::array<int, Dim> counts;
     counts.fill(4);
@@ -168,14 +167,14 @@ TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made"
     CHECK_THROWS_WITH(solid::Solid<Dim>(mesh, options), Contains("plate: face") && Contains("one cell thick"));
 }
 
-TEST_CASE("bad contact options are refused when the solid is made", "[dynamics][errors]") {
+TEST_CASE("bad contact options are refused when the solid is made", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
     auto options = bodies<2>(2);
     options.contact->quadrature = 9;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Contains("quadrature is 9"));
 }
 
-TEST_CASE("a run that has diverged ends with an error that says so", "[dynamics][errors]") {
+TEST_CASE("a run that has diverged ends with an error that says so", "[solid][errors]") {
     auto options = bodies<2>(2);
     Scene<2> scene(two_discs(0.0, 0.5), options, disc_velocities, -3.0);
     CHECK_THROWS_WITH(scene.run(5000, 5000), Contains("not finite") || Contains("pressed") || Contains("within a step"));

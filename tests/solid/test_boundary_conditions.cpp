@@ -76,7 +76,7 @@ private:
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equilibrium in the exact affine field",
-                       "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+                       "[solid][boundary]", ((int Dim), Dim), 2, 3) {
     const bool by_components = GENERATE(false, true);
     const FreeFaceRule neumann = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate);
     const double traction = 0.01;
@@ -108,7 +108,7 @@ TEMPLATE_TEST_CASE_SIG("a block on rollers under a uniform traction is in equili
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a prescribed displacement, whole or by component, is what the face gets", "[dynamics][boundary]",
+TEMPLATE_TEST_CASE_SIG("a prescribed displacement, whole or by component, is what the face gets", "[solid][boundary]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.4});
     auto options = one_body<Dim>();
@@ -131,7 +131,7 @@ TEMPLATE_TEST_CASE_SIG("a prescribed displacement, whole or by component, is wha
 }
 
 TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the volume times the load at the centroid",
-                       "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+                       "[solid][boundary]", ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.4});
     auto options = one_body<Dim>();
     solid::Solid<Dim> bare(mesh, options);
@@ -155,7 +155,7 @@ TEMPLATE_TEST_CASE_SIG("a body force is the mass times the acceleration, or the 
     CHECK(solid.potential(q) == Approx(bare.potential(q) - work).epsilon(1e-13));
 }
 
-TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, without stress", "[dynamics][boundary]",
+TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, without stress", "[solid][boundary]",
                        ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
     options.acceleration = {-2.0 * Vector<Dim>::Unit(Dim - 1)};
@@ -168,7 +168,7 @@ TEMPLATE_TEST_CASE_SIG("a body in free fall moves as one with the acceleration, 
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-13);
 }
 
-TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[solid][boundary]", ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
     options.boundary.free_face_rule =
         GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
@@ -191,7 +191,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a driven boundary exactly", "[dynam
     CHECK(std::abs(scene.solid.work()) > 1e-2 * scene.ledger.largest_energy());
 }
 
-TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[dynamics][boundary]",
+TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step to step exactly", "[solid][boundary]",
                        ((int Dim), Dim), 2, 3) {
     auto options = one_body<Dim>();
     options.boundary.free_face_rule =
@@ -209,7 +209,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a traction that changes from step t
 }
 
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exactly while bodies are in contact",
-                       "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+                       "[solid][boundary]", ((int Dim), Dim), 2, 3) {
     DrivenBlocks<Dim> blocks;
     blocks.options.boundary.free_face_rule =
         GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate, FreeFaceRule::adjacent);
@@ -222,7 +222,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of driven boundaries and tractions exa
 
 TEMPLATE_TEST_CASE_SIG(
     "tractions that jump by more than the candidate list allows are searched for, and their work is exact",
-    "[dynamics][boundary]", ((int Dim), Dim), 2, 3) {
+    "[solid][boundary]", ((int Dim), Dim), 2, 3) {
     DrivenBlocks<Dim> blocks;
     blocks.options.contact->search.skin = 1e-5;
     Scene<Dim> scene(blocks.mesh, blocks.options, std::vector<Vector<Dim>>(2, Vector<Dim>::Zero()));

@@ -72,7 +72,7 @@ std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 zero eigenvalues", "[dynamics][ccg]",
+TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 zero eigenvalues", "[solid][ccg]",
                        ((int Dim), Dim), 2, 3) {
     const FreeFaceRule neumann = GENERATE(FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate);
     const auto values = eigenvalues(small_unstructured<Dim>(GENERATE(false, true)), neumann);
@@ -82,7 +82,7 @@ TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 
     CHECK(values[rigid_motions] > 1e-3 * highest);
 }
 
-TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only translations cost no energy", "[dynamics][ccg]",
+TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only translations cost no energy", "[solid][ccg]",
                        ((int Dim), Dim), 2, 3) {
     const auto values = eigenvalues(small_unstructured<Dim>(false), FreeFaceRule::adjacent);
     const double highest = values.back();
@@ -90,7 +90,7 @@ TEMPLATE_TEST_CASE_SIG("with the adjacent cell's value on free faces only transl
     CHECK(values[Dim] > 1e-6 * highest);
 }
 
-TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and for every Neumann choice", "[dynamics][ccg]",
+TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and for every Neumann choice", "[solid][ccg]",
                        ((int Dim), Dim), 2, 3) {
     const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     for (const auto& [name, mesh] : boxes<Dim>(2)) {
@@ -106,7 +106,7 @@ TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and fo
 
 TEMPLATE_TEST_CASE_SIG(
     "patch test: under an affine displacement of the whole boundary every cell is in equilibrium and has the exact stress",
-    "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+    "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     const auto values = random_state(Dim * Dim + Dim, 8, 0.1);
     const Matrix<Dim> a = Eigen::Map<const Matrix<Dim>>(values.data());
@@ -136,7 +136,7 @@ TEMPLATE_TEST_CASE_SIG(
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("the potential is 1/2 u.Ku and its gradient K u", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the potential is 1/2 u.Ku and its gradient K u", "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     const auto u = vectors<Dim>(operators.q);
     std::vector<double> k_u(operators.q.size());
@@ -147,7 +147,7 @@ TEMPLATE_TEST_CASE_SIG("the potential is 1/2 u.Ku and its gradient K u", "[dynam
 }
 
 TEMPLATE_TEST_CASE_SIG("the gradient is the central difference of the potential, with corrections of boundary faces too",
-                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+                       "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     const auto faces = operators.some_faces(3);
     const auto delta = random_vectors<Dim>(faces.size(), 4);
@@ -169,7 +169,7 @@ TEMPLATE_TEST_CASE_SIG("the gradient is the central difference of the potential,
 }
 
 TEMPLATE_TEST_CASE_SIG("the forces of a free body sum to zero, also under corrections and opposite pair forces",
-                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+                       "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     const auto faces = operators.some_faces(3);
     const auto delta = random_vectors<Dim>(faces.size(), 4);
@@ -185,7 +185,7 @@ TEMPLATE_TEST_CASE_SIG("the forces of a free body sum to zero, also under correc
     CHECK(total.norm() < 1e-14 * size);
 }
 
-TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no more than its own rounding", "[dynamics][ccg]",
+TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no more than its own rounding", "[solid][ccg]",
                        ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(FreeFaceRule::local_equilibrium);
     auto moved = operators.q;
@@ -198,7 +198,7 @@ TEMPLATE_TEST_CASE_SIG("a translation of 300 body sizes changes forces by no mor
     CHECK(worst < 600.0 * 1e-15 * largest(force));
 }
 
-TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of the whole sweep", "[dynamics][ccg]",
+TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of the whole sweep", "[solid][ccg]",
                        ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)), Dim == 2 ? 0.25 : 0.4);
     const auto u = vectors<Dim>(operators.q);
@@ -228,8 +228,8 @@ TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of 
 }
 
 TEMPLATE_TEST_CASE_SIG(
-    "coupling blocks are what unit corrections change in the face forces, and faces left out do not answer",
-    "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+    "coupling blocks are what unit corrections change in the face forces, and faces left out do not answer", "[solid][ccg]",
+    ((int Dim), Dim), 2, 3) {
     const bool fan = Dim == 2 && GENERATE(false, true);
     const FreeFaceRule neumann = GENERATE(from_range(neumann_choices));
     mesh::Mesh<Dim> mesh = round_body<Dim>(Dim == 2 ? 0.5 : 0.6);
@@ -262,7 +262,7 @@ TEMPLATE_TEST_CASE_SIG(
                              coupling.columns.begin() + coupling.offsets[f + 1]));
 }
 
-TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below the motion", "[dynamics][ccg]",
+TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below the motion", "[solid][ccg]",
                        ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     auto& ccg = operators.ccg;
@@ -285,7 +285,7 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is never below
 }
 
 TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is the motion of a translation, and follows the loads",
-                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+                       "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     Operators<Dim> operators(GENERATE(from_range(neumann_choices)));
     Vector<Dim> translation = Vector<Dim>::Constant(0.2);
     translation[0] = -0.7;
@@ -306,7 +306,7 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is the motion 
 }
 
 TEMPLATE_TEST_CASE_SIG("midpoints come with a bound on the motion of any cell, not more than sqrt(Dim) times the largest",
-                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+                       "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     const std::size_t n = GENERATE(1, 7, 8, 9, 1023, 1024, 3000);  // with and without rests of lanes and blocks
     auto a = random_state(n * Dim, 1), b = random_state(n * Dim, 2);
     std::vector<Vector<Dim>> middle(n);
@@ -325,7 +325,7 @@ TEMPLATE_TEST_CASE_SIG("midpoints come with a bound on the motion of any cell, n
 }
 
 TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = E sin^2 th + 4 eta sin^6(th/2)",
-          "[dynamics][ccg]") {
+          "[solid][ccg]") {
     const int n = 60;
     const double h = 0.1, young = 3.0, density = 2.0;
     const double eta = young * GENERATE(0.3, 1.0, 3.0);
@@ -349,7 +349,7 @@ TEST_CASE("a wave along a strip of square cells has the frequency rho h^2 w^2 = 
 }
 
 TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 2 mu) |f|/|c| and the depth (x_f - x_c) . n",
-                       "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+                       "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     const solid::Material material{.young = 2.0, .poisson = 0.25, .density = 1.0};  // lambda = mu = 0.8
     const auto mesh = round_body<Dim>(0.5);
     auto options = bodies<Dim>(1);
@@ -366,7 +366,7 @@ TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("face stiffnesses of a cell add up to its energy", "[dynamics][ccg]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("face stiffnesses of a cell add up to its energy", "[solid][ccg]", ((int Dim), Dim), 2, 3) {
     const double lambda = 0.7, mu = 0.9;
     const auto mesh = round_body<Dim>(0.9);
     std::mt19937 random(8);

@@ -24,8 +24,8 @@ std::unique_ptr<Scene<Dim>> impact() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to the force between them",
-                       "[dynamics][contact]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to the force between them", "[solid][contact]",
+                       ((int Dim), Dim), 2, 3) {
     const auto scene = impact<Dim>();
     const mesh::Mesh<Dim>& mesh = scene->mesh;
     double largest_force = 0.0;
@@ -54,8 +54,7 @@ TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to
     CHECK(largest_force > 1e-3);
 }
 
-TEST_CASE("H~ is exact for steps that change slowly through an impact, with lists made anew on the way",
-          "[dynamics][contact]") {
+TEST_CASE("H~ is exact for steps that change slowly through an impact, with lists rebuilt on the way", "[solid][contact]") {
     Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
     const double dt = scene.memm.dt();
     for (int i = 0; i < 600; ++i) {
@@ -68,7 +67,7 @@ TEST_CASE("H~ is exact for steps that change slowly through an impact, with list
     CHECK(scene.ledger.momentum_drift() < 1e-12);
 }
 
-TEST_CASE("restarts in the middle of an impact change H~ by what they report", "[dynamics][contact]") {
+TEST_CASE("restarts in the middle of an impact change H~ by what they report", "[solid][contact]") {
     Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
     const double dt = scene.memm.dt();
     for (int i = 0; i < 300; ++i) {
@@ -79,7 +78,7 @@ TEST_CASE("restarts in the middle of an impact change H~ by what they report", "
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
 }
 
-TEST_CASE("a state that is not finite is refused, never taken for one that has not moved", "[dynamics][errors]") {
+TEST_CASE("a state that is not finite is refused, never taken for one that has not moved", "[solid][errors]") {
     Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
     scene.run(20);
     const std::vector<double> q(scene.memm.q().begin(), scene.memm.q().end());
@@ -108,7 +107,7 @@ mesh::Mesh<Dim> flat_bodies() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was looked at before", "[dynamics][contact]",
+TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was looked at before", "[solid][contact]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = flat_bodies<Dim>();
     auto options = bodies<Dim>(2);
@@ -134,7 +133,7 @@ TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was look
 }
 
 TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list is refused, and so is another run",
-                       "[dynamics][contact][errors]", ((int Dim), Dim), 2, 3) {
+                       "[solid][contact][errors]", ((int Dim), Dim), 2, 3) {
     const auto scene = impact<Dim>();
     scene->run(10);
     CHECK_THROWS_AS(scene->solid.potential(upper_moved(scene->mesh, 1.0)), Misuse);
@@ -154,7 +153,7 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
     CHECK(scene->solid.contact_report().active_pairs_max > 0);
 }
 
-TEST_CASE("a state that a long step has reached is within the list, however thin the skin", "[dynamics][contact]") {
+TEST_CASE("a state that a long step has reached is within the list, however thin the skin", "[solid][contact]") {
     auto options = bodies<2>(2);
     options.contact->search.skin = 1e-6;
     Scene<2> scene(two_discs(0.8, 0.3), options, disc_velocities);

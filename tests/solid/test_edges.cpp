@@ -18,7 +18,7 @@ mesh::Mesh<3> two_boxes_at_the_edge(bool corner) {
 }  // namespace
 
 TEST_CASE("a box that slides off the edge or the corner of another loses no energy and no contact, and nothing explodes",
-          "[dynamics][edges]") {
+          "[solid][edges]") {
     const bool corner = GENERATE(false, true);
     const double part = GENERATE(0.9, 0.3);  // of the stable step
     const double gravity = 0.03, speed = 0.25, time = 6.0;

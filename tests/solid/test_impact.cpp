@@ -67,7 +67,7 @@ std::set<std::pair<std::int32_t, std::int32_t>> touching_pairs(Scene<Dim>& scene
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-11 K0 and momentum by less than 1e-12 m v0",
-                       "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
+                       "[solid][impact]", ((int Dim), Dim), 2, 3) {
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     const double part = GENERATE(0.9, 0.2);  // of the stable step
     INFO(name << " at " << part << " of the stable step");
@@ -92,7 +92,7 @@ TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-
               .norm() < 1e-12 * motion[0].mass);
 }
 
-TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand times larger", "[dynamics][impact]",
+TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand times larger", "[solid][impact]",
                        ((int Dim), Dim), 2, 3) {
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     INFO(name);
@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand t
     CHECK(rough.ledger.pseudo_energy_drift() > 1e-7 * exact.kinetic_start());
 }
 
-TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a thousand times larger", "[dynamics][impact]",
+TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a thousand times larger", "[solid][impact]",
                        ((int Dim), Dim), 2, 3) {
     const auto [mesh, velocity, time] = impact<Dim>("off-centre");
     contact::ContactOptions few_points;
@@ -119,7 +119,7 @@ TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a th
 }
 
 TEST_CASE("two discs leave each other with the speeds of the reference runs, head-on mirrored and off-centre deflected",
-          "[dynamics][impact]") {
+          "[solid][impact]") {
     // Reference: an independent prototype of the scheme on other meshes of the same size; discretisation moves the third
     // digit.
     const double offset = GENERATE(0.0, 0.8);
@@ -134,7 +134,7 @@ TEST_CASE("two discs leave each other with the speeds of the reference runs, hea
 
 TEMPLATE_TEST_CASE_SIG(
     "no pair is missed: all that a look at every face against every other finds is in the list and admitted",
-    "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
+    "[solid][impact]", ((int Dim), Dim), 2, 3) {
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     INFO(name);
     const auto [mesh, velocity, time] = impact<Dim>(name);
@@ -157,7 +157,7 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for bit, and no pair or event is looked for",
-                       "[dynamics][impact]", ((int Dim), Dim), 2, 3) {
+                       "[solid][impact]", ((int Dim), Dim), 2, 3) {
     const auto mesh = [] {
         if constexpr (Dim == 2)
             return two_discs(0.0, 0.25, 100.0);
@@ -187,7 +187,7 @@ TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for 
     CHECK(report.rebuilds < 30);
 }
 
-TEST_CASE("where contacts were looked at before a run begins does not matter to it", "[dynamics][impact]") {
+TEST_CASE("where contacts were looked at before a run begins does not matter to it", "[solid][impact]") {
     const auto mesh = two_discs(0.0, 0.25, 0.15);
     auto options = bodies<2>(2);
     options.contact->search.skin = 0.2;
@@ -213,7 +213,7 @@ TEST_CASE("where contacts were looked at before a run begins does not matter to 
     CHECK(std::ranges::equal(run.q(), other.q()));
 }
 
-TEST_CASE("a scene turned by a right angle gives the result turned by a right angle", "[dynamics][impact]") {
+TEST_CASE("a scene turned by a right angle gives the result turned by a right angle", "[solid][impact]") {
     const auto turn = [](const Vector<2>& x) { return Vector<2>(-x[1], x[0]); };
     const auto original = two_discs(0.8);
     auto turned = original;

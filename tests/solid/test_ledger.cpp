@@ -5,7 +5,7 @@
 using namespace abut;
 using namespace abut::test;
 
-TEMPLATE_TEST_CASE_SIG("a ledger entry has a name for each of its numbers", "[dynamics][ledger]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a ledger entry has a name for each of its numbers", "[solid][ledger]", ((int Dim), Dim), 2, 3) {
     dynamics::LedgerEntry<Dim> entry{};
     entry.step = 7;
     entry.events = 9;
@@ -21,7 +21,7 @@ TEMPLATE_TEST_CASE_SIG("a ledger entry has a name for each of its numbers", "[dy
     CHECK(at("linear_momentum_y") == 3.0);
 }
 
-TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a uniform motion exactly", "[dynamics][ledger]",
+TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a uniform motion exactly", "[solid][ledger]",
                        ((int Dim), Dim), 2, 3) {
     const Vector<Dim> velocity = 0.5 * Vector<Dim>::Ones();
     Vector<Dim> lower = Vector<Dim>::Zero();
@@ -46,7 +46,7 @@ TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a unifor
     CHECK((motion.velocity - velocity).norm() < 1e-13);
 }
 
-TEST_CASE("a ledger keeps the largest deviations from its first entry", "[dynamics][ledger]") {
+TEST_CASE("a ledger keeps the largest deviations from its first entry", "[solid][ledger]") {
     dynamics::Ledger<2> ledger;
     dynamics::LedgerEntry<2> entry{};
     entry.pseudo_energy = 10.0;

@@ -36,7 +36,7 @@ Memm<Well> from_rest(Well& well, double dt) { return Memm<Well>(well, {1.0}, std
 
 }  // namespace
 
-TEST_CASE("H~ is exact for any sequence of kept steps", "[dynamics][memm]") {
+TEST_CASE("H~ is exact for any sequence of kept steps", "[solid][memm]") {
     Well well{.k = 1.0, .b = 3.0};
     std::mt19937 random(2);
     std::uniform_real_distribution<double> any_step(0.01, 0.2);
@@ -63,7 +63,7 @@ TEST_CASE("H~ is exact for any sequence of kept steps", "[dynamics][memm]") {
 }
 
 TEST_CASE("the trap of irregular steps: kept, steps drawn at random explode at any size, and H~ does not notice",
-          "[dynamics][memm]") {
+          "[solid][memm]") {
     // In a number of steps that goes as 1/(omega^2 variance of dt).
     Well well;
     const double mean = GENERATE(0.1, 0.03, 0.01);
@@ -83,7 +83,7 @@ TEST_CASE("the trap of irregular steps: kept, steps drawn at random explode at a
     CHECK(drift < 1e-12);
 }
 
-TEST_CASE("H - H~ is a square, zero only without acceleration", "[dynamics][memm]") {
+TEST_CASE("H - H~ is a square, zero only without acceleration", "[solid][memm]") {
     Well well;
     auto memm = from_rest(well, 0.1);
     CHECK(memm.energy_excess() == Approx(0.125 * std::pow(0.1 * 1.0, 2)).epsilon(1e-12));  // 1/8 |dt F|^2
@@ -91,7 +91,7 @@ TEST_CASE("H - H~ is a square, zero only without acceleration", "[dynamics][memm
     CHECK(from_rest(free, 0.1).energy_excess() == 0.0);
 }
 
-TEST_CASE("the parasitic momentum of a linear system stays at round-off", "[dynamics][memm]") {
+TEST_CASE("the parasitic momentum of a linear system stays at round-off", "[solid][memm]") {
     Well well;
     auto memm = from_rest(well, 0.3);
     std::vector<double> e(1);
@@ -102,7 +102,7 @@ TEST_CASE("the parasitic momentum of a linear system stays at round-off", "[dyna
     }
 }
 
-TEST_CASE("a step that does not change needs no restart", "[dynamics][memm]") {
+TEST_CASE("a step that does not change needs no restart", "[solid][memm]") {
     Well well{.k = 1.0, .b = 1.0};
     auto plain = from_rest(well, 0.1), asked = from_rest(well, 0.1);
     for (int i = 0; i < 20; ++i) {
@@ -114,7 +114,7 @@ TEST_CASE("a step that does not change needs no restart", "[dynamics][memm]") {
 }
 
 TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega and not at 0.98, and H~ does not notice",
-                       "[dynamics][memm]", ((int Dim), Dim), 2, 3) {
+                       "[solid][memm]", ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = Dim == 2 ? 0.3 : 0.6});
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 2.0, .poisson = 0.3, .density = 1.5}};
@@ -143,7 +143,7 @@ TEMPLATE_TEST_CASE_SIG("a free solid explodes at 1.01 times the limit 2/omega an
 }
 
 TEST_CASE("a kick to one half-step momentum is the parasitic momentum, and alternates in a linear system for ever",
-          "[dynamics][memm]") {
+          "[solid][memm]") {
     Well well;
     const double dt = 0.3, kick = 1e-3;
     auto memm = from_rest(well, dt);

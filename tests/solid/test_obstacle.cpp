@@ -28,7 +28,7 @@ solid::SolidOptions<2> bar_and_wall(std::function<Vector<2>(double)> path = {}) 
 
 }  // namespace
 
-TEST_CASE("the force on an obstacle that there is not is refused", "[dynamics][obstacle][errors]") {
+TEST_CASE("the force on an obstacle that there is not is refused", "[solid][obstacle][errors]") {
     const mesh::Mesh<2> mesh = bar();
     auto options = bar_and_wall();
     const solid::Solid<2> with_wall(mesh, options);
@@ -39,7 +39,7 @@ TEST_CASE("the force on an obstacle that there is not is refused", "[dynamics][o
     CHECK_THROWS_AS(solid::Solid<2>(mesh, options).obstacle_force(0), Misuse);
 }
 
-TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 2L/c and rebounds", "[dynamics][obstacle]") {
+TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 2L/c and rebounds", "[solid][obstacle]") {
     Scene<2> scene(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
     double impulse = 0.0, first = 0.0, last = 0.0;
     while (scene.memm.time() < 1.4) {
@@ -65,7 +65,7 @@ TEST_CASE("a bar on a rigid wall feels the pressure v0 sqrt(E rho) for the time 
     CHECK(scene.solid.contact_report().missed_contacts == 0);
 }
 
-TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and no gap elsewhere", "[dynamics][obstacle]") {
+TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and no gap elsewhere", "[solid][obstacle]") {
     Scene<2> scene(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
     scene.run_until(0.6, 1000);
     double pressure = 0.0, pressed_in = 0.0;
@@ -89,7 +89,7 @@ TEST_CASE("the contact field of a bar on a wall is the pressure on its end, and 
 }
 
 TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thrown off as a flying one rebounds",
-          "[dynamics][obstacle]") {
+          "[solid][obstacle]") {
     Scene<2> flying(bar(), bar_and_wall(), {Vector<2>(-speed, 0.0)}, dt);
     Scene<2> pushed(bar(), bar_and_wall([](double t) { return Vector<2>(speed * t, 0.0); }), {Vector<2>::Zero()}, dt);
     flying.run_until(1.4);
@@ -104,7 +104,7 @@ TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thro
 
 TEMPLATE_TEST_CASE_SIG(
     "H~ gains the work of a tilted wall that turns back and of one behind, in contact with an unstructured body",
-    "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
+    "[solid][obstacle]", ((int Dim), Dim), 2, 3) {
     auto options = bodies<Dim>(1);
     Vector<Dim> tilted = Vector<Dim>::Unit(0), origin = Vector<Dim>::Zero();
     tilted[1] = 0.2;
@@ -123,7 +123,7 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 TEST_CASE("the momentum that a body loses is the mean force on the obstacle times twice the step, step by step",
-          "[dynamics][obstacle]") {
+          "[solid][obstacle]") {
     auto options = bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
     Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
@@ -144,7 +144,7 @@ TEST_CASE("the momentum that a body loses is the mean force on the obstacle time
 }
 
 TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body with its face, edge or corner",
-                       "[dynamics][obstacle]", ((int Dim), Dim), 2, 3) {
+                       "[solid][obstacle]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions narrow;
     narrow.search.facing_cosine = -0.9;  // the sides of the box are no partners of the round face in front of it
     auto options = bodies<Dim>(1, narrow);
@@ -166,7 +166,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body wit
     CHECK(scene.solid.contact_report().missed_contacts == 0);
 }
 
-TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[dynamics][obstacle]",
+TEMPLATE_TEST_CASE_SIG("a rigid obstacle has the faces of the mesh it is made of, seen from outside", "[solid][obstacle]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = round_body<Dim>(0.5);
     contact::Surface<Dim> surface;

@@ -43,7 +43,7 @@ struct Invariants {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor angular momentum", "[dynamics][filter]",
+TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor angular momentum", "[solid][filter]",
                        ((int Dim), Dim), 2, 3) {
     const auto scene = impact<Dim>(0.9);
     dynamics::NeutralFilter filter(scene->solid);
@@ -69,7 +69,7 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter changes neither H~ nor momentum nor a
     CHECK(scene->ledger.momentum_drift() < 1e-12 * m_v);
 }
 
-TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact smaller", "[dynamics][filter]",
+TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact smaller", "[solid][filter]",
                        ((int Dim), Dim), 2, 3) {
     const auto plain = impact<Dim>(0.9), filtered = impact<Dim>(0.9);
     dynamics::NeutralFilter filter(filtered->solid);
@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact
     CHECK(filtered->ledger.energy_excess() < plain->ledger.energy_excess());
 }
 
-TEST_CASE("the neutral filter keeps H~ of a body on a wall, where momentum is not its own", "[dynamics][filter]") {
+TEST_CASE("the neutral filter keeps H~ of a body on a wall, where momentum is not its own", "[solid][filter]") {
     auto options = bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
     Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
@@ -96,7 +96,7 @@ TEST_CASE("the neutral filter keeps H~ of a body on a wall, where momentum is no
     CHECK(scene.ledger.pseudo_energy_drift() < 1e-11 * scene.kinetic_start());
 }
 
-TEST_CASE("a strength of zero filters nothing", "[dynamics][filter]") {
+TEST_CASE("a strength of zero filters nothing", "[solid][filter]") {
     const auto plain = impact<2>(0.9), filtered = impact<2>(0.9);
     dynamics::NeutralFilter filter(filtered->solid, 0.0);
     filtered->memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) { filter(q, dt, p_before, p_after); });
@@ -107,7 +107,7 @@ TEST_CASE("a strength of zero filters nothing", "[dynamics][filter]") {
 
 TEMPLATE_TEST_CASE_SIG(
     "the neutral filter keeps H~ and momentum whatever the boundary reconstruction, down to patches of one or two cells",
-    "[dynamics][filter]", ((int Dim), Dim), 2, 3) {
+    "[solid][filter]", ((int Dim), Dim), 2, 3) {
     auto options = bodies<Dim>(2);
     options.boundary.free_face_rule =
         GENERATE(solid::FreeFaceRule::local_equilibrium, solid::FreeFaceRule::extrapolate, solid::FreeFaceRule::adjacent);

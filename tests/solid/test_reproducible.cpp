@@ -69,7 +69,7 @@ std::vector<Vector<Dim>> velocities() {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[dynamics][reproducible]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[solid][reproducible]", ((int Dim), Dim), 2, 3) {
     mesh::Mesh<Dim> mesh;
     if constexpr (Dim == 2)
         mesh = two_discs(0.8);
@@ -84,7 +84,7 @@ TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[dynamics][repr
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("any number of threads gives the same bits", "[dynamics][reproducible]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("any number of threads gives the same bits", "[solid][reproducible]", ((int Dim), Dim), 2, 3) {
     const auto mesh = large_bodies<Dim>();
     REQUIRE(mesh.n_cells() > 4 * 8 * 512);
     const int steps = 60;

@@ -1,11 +1,13 @@
-// The contact solid under every scheme that steps it.
+// The contact solid under every scheme that steps all cells together.
 #include <catch2/catch.hpp>
+
+#include <cmath>
 #include <functional>
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/dynamics/bilbao.hpp"
 #include "abut/dynamics/leapfrog.hpp"
-#include "abut/solid/local_steps.hpp"
+#include "solid/integrator_runs.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -14,51 +16,13 @@ using solid::Solid;
 
 namespace {
 
-/// A run from rest in the reference shape but for uniform velocities.
-template <int Dim, class Make>
-dynamics::Ledger<Dim> run(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, double time,
-                          const Make& make, std::vector<double>* end = nullptr) {
-    Solid<Dim> solid(mesh, bodies<Dim>(mesh.n_bodies()));
-    const auto stable = dynamics::stable_step(solid);
-    auto integrator =
-        make(solid, std::vector<double>(solid.size(), 0.0), solid::uniform_momentum<Dim>(solid, velocity), stable);
-    dynamics::Ledger<Dim> ledger;
-    ledger.record(dynamics::measure(integrator, solid));
-    while (integrator.time() < time - 0.5 * integrator.dt()) {
-        integrator.step();
-        ledger.record(dynamics::measure(integrator, solid));
-    }
-    CHECK(solid.contact_report().missed_contacts == 0);
-    CHECK(solid.contact_report().active_pairs_max > 0);
-    if (end) end->assign(integrator.q().begin(), integrator.q().end());
-    return ledger;
-}
-
-/// Two discs whose cells are smaller where they meet.
-mesh::Mesh<2> refined_discs(double size, double ratio) {
-    const double x = 1.01;
-    const auto disc = [&](double side, int variant) {
-        const Vector<2> centre(side * x, 0.0), nearest(side * 0.01, 0.0);
-        return mesh::disc({.centre = centre,
-                           .size = size,
-                           .refinement = mesh::Refinement<2>{nearest, size / ratio, 0.8},
-                           .variant = variant});
-    };
-    return together(disc(-1.0, 0), disc(1.0, 1));
-}
-
 const auto memm = [](auto& solid, auto q, const auto& p, const auto& stable) {
     return dynamics::Memm(solid, std::move(q), p, 0.9 * stable.dt);
-};
-const auto memm_async = [](auto& solid, auto q, const auto& p, const auto& stable) {
-    auto local = solid::local_steps(solid, stable);
-    CHECK(local.cells.size() >= 3);
-    return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
 };
 
 }  // namespace
 
-TEST_CASE("leapfrog and Bilbao carry two discs through an impact like MEMM", "[dynamics][integrators][contact]") {
+TEST_CASE("leapfrog and Bilbao carry two discs through an impact like MEMM", "[solid][integrators][contact]") {
     const auto mesh = two_discs(0.8);
     std::vector<double> q_memm, q_leapfrog, q_bilbao;
     const double time = 6.0;
@@ -95,7 +59,7 @@ TEST_CASE("leapfrog and Bilbao carry two discs through an impact like MEMM", "[d
 }
 
 TEST_CASE("leapfrog takes the work of conditions with a history by the trapezoidal rule: the balance closes at second order",
-          "[dynamics][integrators][obstacle]") {
+          "[solid][integrators][obstacle]") {
     const auto imbalance = [](double cfl) {
         const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {8, 4}, CellShape::quadrangle);
         auto options = bodies<2>(1);
@@ -119,73 +83,8 @@ TEST_CASE("leapfrog takes the work of conditions with a history by the trapezoid
     CHECK(coarse / fine > 3.0);
 }
 
-namespace {
-
-/// A block that falls on a wall; the wall may move.
-struct Falling {
-    mesh::Mesh<2> mesh = mesh::box<2>({.lower = {0.0, 0.05},
-                                       .upper = {1.0, 0.55},
-                                       .size = 0.2,
-                                       .refinement = mesh::Refinement<2>{{0.5, 0.05}, 0.015, 0.4}});
-    solid::SolidOptions<2> options = bodies<2>(1);
-
-    explicit Falling(double wall_speed, double skin = 0.0) {
-        options.contact->search.skin = skin;
-        options.acceleration = {Vector<2>(0.0, -0.02)};
-        options.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 10.0)};
-        if (wall_speed != 0.0) options.obstacles[0].path = [wall_speed](double t) { return Vector<2>(0.0, wall_speed * t); };
-    }
-};
-
-/// Drift of the energy less the work, over the largest energy, through an impact; also the impulse of the wall.
-struct FallResult {
-    double imbalance;
-    double wall_impulse;
-    double body_momentum;  // upwards, gained against gravity
-    double work;
-};
-template <class Make>
-FallResult fall(const Falling& scene, double time, const Make& make) {
-    Solid<2> solid(scene.mesh, scene.options);
-    const auto p = solid::uniform_momentum<2>(solid, std::vector<Vector<2>>{{0.0, -0.1}});
-    auto integrator = make(solid, std::vector<double>(solid.size(), 0.0), p, dynamics::stable_step(solid));
-    dynamics::Ledger<2> ledger;
-    ledger.record(dynamics::measure(integrator, solid));
-    double impulse = 0.0;
-    while (integrator.time() < time) {
-        integrator.step();
-        impulse -= solid.obstacle_force(0).y() * integrator.dt();
-        ledger.record(dynamics::measure(integrator, solid));
-    }
-    CHECK(impulse > 0.0);
-    CHECK(solid.contact_report().active_pairs == 0);  // it has bounced off
-    const auto& start = ledger.entries().front();
-    const auto& end = ledger.entries().back();
-    const double weight = 0.5 * 0.02;
-    return {ledger.pseudo_energy_drift() / ledger.largest_energy(), impulse,
-            end.linear_momentum.y() - start.linear_momentum.y() + weight * end.time, solid.work()};
-}
-
-}  // namespace
-
-TEST_CASE(
-    "local steps on a wall, at rest or moving: energy less its work is exact, and its mean force is what the body gains",
-    "[dynamics][async][obstacle]") {
-    const double speed = GENERATE(0.0, 0.05);
-    const double skin = GENERATE(0.0, 1e-6);  // of 1e-6: a search in every part of every step
-    CAPTURE(speed, skin);
-    const auto result = fall(Falling(speed, skin), 4.0, [](auto& solid, auto q, const auto& p, const auto& stable) {
-        auto local = solid::local_steps(solid, stable);
-        CHECK(local.cells.size() >= 3);
-        return dynamics::MemmAsync(solid, std::move(q), p, 0.8 * local.dt, local.steps);
-    });
-    CHECK(result.imbalance < 1e-12);
-    CHECK(result.wall_impulse == Approx(result.body_momentum).epsilon(1e-10));
-    if (speed != 0.0) CHECK(result.work > 1e-4);
-}
-
 TEST_CASE("leapfrog takes the work of a moving wall by the trapezoidal rule: the balance closes better with shorter steps",
-          "[dynamics][integrators][obstacle]") {
+          "[solid][integrators][obstacle]") {
     const auto imbalance = [](double cfl) {
         const auto result = fall(Falling(0.05), 4.0, [&](auto& solid, auto q, const auto& p, const auto& stable) {
             return dynamics::Leapfrog(solid, std::move(q), p, cfl * stable.dt);
@@ -198,49 +97,8 @@ TEST_CASE("leapfrog takes the work of a moving wall by the trapezoidal rule: the
     CHECK(fine < 0.25 * coarse);
 }
 
-TEST_CASE("local steps refuse conditions with a history, cells whose components are apart, and options out of range",
-          "[dynamics][async][errors]") {
-    const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 2}, CellShape::quadrangle);
-    auto options = bodies<2>(1);
-    Solid<2> solid(mesh, options);
-    std::vector<std::int32_t> level(solid.size(), 0);
-    level[1] = 1;
-    const std::vector<double> zero(solid.size(), 0.0);
-    CHECK_THROWS_WITH(dynamics::MemmAsync(solid, zero, zero, 0.01, {{1, 2}, level}),
-                      Catch::Matchers::Contains("components of cell"));
-    const auto stable = dynamics::stable_step(solid);
-    CHECK_THROWS_WITH(solid::local_steps(solid, stable, {.most_levels = 0}), Catch::Matchers::Contains("1 to 20"));
-    CHECK_THROWS_WITH(solid::local_steps(solid, stable, {.contact_margin = -1}), Catch::Matchers::Contains("at least 0"));
-    options.boundary.dirichlet.push_back(
-        {.group = "ymin", .history = [](double t, const Vector<2>&) { return Vector<2>(0.0, t); }});
-    Solid<2> driven(mesh, options);
-    CHECK_THROWS_WITH(dynamics::MemmAsync(driven, zero, zero, 0.01, {{1}, std::vector<std::int32_t>(zero.size(), 0)}),
-                      Catch::Matchers::Contains("has a history"));
-}
-
-TEST_CASE("local steps with constant tractions and prescribed displacements keep the energy", "[dynamics][async]") {
-    const auto mesh = mesh::box<2>(
-        {.lower = {0.0, 0.0}, .upper = {1.0, 0.5}, .size = 0.2, .refinement = mesh::Refinement<2>{{0.5, 0.5}, 0.01, 0.3}});
-    solid::SolidOptions<2> options;
-    options.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
-    options.boundary.dirichlet.push_back({.group = "ymin", .value = Vector<2>(0.0, 0.001)});
-    options.boundary.traction.push_back({.group = "ymax", .value = Vector<2>(0.01, -0.02)});
-    Solid<2> solid(mesh, options);
-    const auto local = solid::local_steps(solid, dynamics::stable_step(solid));
-    CHECK(local.cells.size() >= 3);
-    const std::vector<double> zero(solid.size(), 0.0);
-    dynamics::MemmAsync async(solid, zero, zero, 0.8 * local.dt, local.steps);
-    dynamics::Ledger<2> ledger;
-    for (int i = 0; i < 300; ++i) {
-        async.step();
-        ledger.record(dynamics::measure(async, solid));
-    }
-    CHECK(ledger.pseudo_energy_drift() < 1e-12 * ledger.largest_energy());
-    CHECK(ledger.largest_energy() > 1e-6);
-}
-
 TEST_CASE("Bilbao refuses a potential that changes with time, and a gauge that is too small",
-          "[dynamics][integrators][errors]") {
+          "[solid][integrators][errors]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 2}, CellShape::quadrangle);
     auto options = bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>(Vector<2>(0.0, -1.0), Vector<2>::UnitY(), 10.0)};
@@ -256,7 +114,7 @@ TEST_CASE("Bilbao refuses a potential that changes with time, and a gauge that i
 TEST_CASE(
     "an outer solver dictates every step through an impact: less the jumps of restarts H~ is exact, and the bodies part "
     "alike",
-    "[dynamics][integrators][contact]") {
+    "[solid][integrators][contact]") {
     const auto mesh = two_discs(0.8);
     const auto dictated = [&](dynamics::StepChange change, const std::function<double(int)>& part) {
         Solid<2> solid(mesh, bodies<2>(2));
@@ -280,188 +138,10 @@ TEST_CASE(
     CHECK((abrupt - even).norm() < 0.01 * 0.05);
 }
 
-TEST_CASE("a solid takes no quadrature but its own", "[dynamics][integrators][errors]") {
+TEST_CASE("a solid takes no quadrature but its own", "[solid][integrators][errors]") {
     const auto mesh = two_discs(0.0, 0.5);
     Solid<2> solid(mesh, bodies<2>(2));
     const std::vector<double> zero(solid.size(), 0.0);
     CHECK_THROWS_WITH(dynamics::Memm(solid, zero, zero, 0.01, dynamics::PathMean::gauss_2),
                       Catch::Matchers::Contains("PathMean::system"));
-}
-
-TEST_CASE("local steps: the bulk force of all levels together is that of one level", "[dynamics][async]") {
-    const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
-    const auto q = random_state(solid.size(), 3, 1e-3), v = random_state(solid.size(), 4, 1e-3);
-    const auto local = solid::local_steps(solid, dynamics::stable_step(solid));
-    REQUIRE(local.steps.parts.size() >= 3);
-    const auto n_levels = static_cast<std::int32_t>(local.steps.parts.size());
-    std::vector<double> together(solid.size(), 0.0), expected(solid.size(), 0.0), middle(solid.size()), f(solid.size());
-    const double dt = 1e-3;
-    auto free = bodies<2>(2);
-    free.contact.reset();
-    Solid<2> bulk(mesh, free);
-    bulk.set_levels(n_levels, local.steps.level);
-    const std::vector<double> elapsed(local.steps.parts.size(), 0.0);
-    for (std::int32_t level = 0; level < n_levels; ++level)
-        bulk.add_impulse(level, {q, v, local.steps.level, elapsed}, 0.0, dt, together);
-    for (std::size_t i = 0; i < q.size(); ++i) middle[i] = q[i] + 0.5 * dt * v[i];
-    bulk.force(middle, f);
-    for (std::size_t i = 0; i < q.size(); ++i) REQUIRE(together[i] == Approx(dt * f[i]).margin(1e-13 * dt * largest(f)));
-}
-
-/// The cells on a level and all coarser ones, and some layers about them.
-std::vector<char> cells_near(const mesh::Mesh<2>& mesh, const solid::SolidLocalSteps& local, std::int32_t level,
-                             int layers) {
-    std::vector<char> near;
-    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
-        near.push_back(local.steps.level[static_cast<std::size_t>(c) * 2] <= level);
-    for (int layer = 0; layer < layers; ++layer) {
-        const std::vector<char> before = near;
-        for (const auto& [c, d] : mesh.face_cells)
-            if (d >= 0 && (before[c] || before[d])) near[c] = near[d] = 1;
-    }
-    return near;
-}
-
-/// Of some cells, with the others held [rad/s].
-double highest_frequency(const Solid<2>& solid, const Eigen::MatrixXd& k, const std::vector<char>& cells) {
-    std::vector<Eigen::Index> own;
-    for (std::size_t i = 0; i < solid.size(); ++i)
-        if (cells[i / 2]) own.push_back(static_cast<Eigen::Index>(i));
-    const auto n = static_cast<Eigen::Index>(own.size());
-    Eigen::MatrixXd part(n, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-        for (Eigen::Index j = 0; j < n; ++j)
-            part(i, j) = k(own[i], own[j]) * std::sqrt(solid.inverse_mass()[own[i]] * solid.inverse_mass()[own[j]]);
-    return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(part, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-}
-
-TEST_CASE("local steps: levels are stable by themselves, away from resonances, and fine where cells are fine",
-          "[dynamics][async]") {
-    const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
-    const auto stable = dynamics::stable_step(solid);
-    const auto local = solid::local_steps(solid, stable);
-    REQUIRE(local.cells.size() >= 3);
-    CHECK(local.dt == stable.dt * local.steps.parts.back());
-    const Eigen::MatrixXd k = dense_stiffness(solid);
-    for (std::size_t l = 0; l < local.cells.size(); ++l) {
-        CHECK(local.cells[l] > 0);
-        const double allowed = 0.85 * 2.0 / (local.dt / local.steps.parts[l]);  // 0.85: the margin for contact
-        const double omega = highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 2));
-        CHECK(omega < allowed);
-        CHECK(local.omega_max[l] >= omega);
-        CHECK(local.omega_max[l] < 1.1 * omega);
-        // Two steps of the next level in one of this: what resonates with it has sqrt(2) times its frequency.
-        if (l + 1 < local.cells.size())
-            CHECK(highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 5)) <
-                  std::sqrt(2.0) * allowed);
-    }
-    const auto cell_level = [&](std::int32_t c) { return local.steps.level[static_cast<std::size_t>(c) * 2]; };
-    const auto at = [&](const Vector<2>& x) {
-        std::int32_t nearest = 0;
-        for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
-            if ((mesh.cell_centroid[c] - x).norm() < (mesh.cell_centroid[nearest] - x).norm()) nearest = c;
-        return nearest;
-    };
-    CHECK(cell_level(at({0.0, 0.0})) >= 2);
-    CHECK(cell_level(at({-1.2, 0.0})) == 0);
-}
-
-/// Bodies that only fly, with local steps at 0.99 of what is stable: |e|/m over their speed after some steps. All that is not
-/// uniform begins as rounding, and a resonance multiplies it at each step.
-template <int Dim>
-double parasitic_of_flight(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, int steps,
-                           bool one_level) {
-    auto flying = bodies<Dim>(mesh.n_bodies());
-    flying.contact.reset();
-    Solid<Dim> solid(mesh, flying);
-    const auto local = solid::local_steps(solid, dynamics::stable_step(solid));
-    CHECK((local.cells.size() == 1) == one_level);
-    dynamics::MemmAsync async(solid, std::vector<double>(solid.size(), 0.0), solid::uniform_momentum<Dim>(solid, velocity),
-                              0.99 * local.dt, local.steps);
-    for (int step = 0; step < steps; ++step) async.step();
-    return dynamics::measure(async, solid).parasitic / velocity.front().norm();
-}
-
-TEST_CASE("local steps: no motion resonates with the steps of coarser cells", "[dynamics][async]") {
-    const double ratio = GENERATE(1.0, 4.0, 8.0);
-    CAPTURE(ratio);
-    CHECK(parasitic_of_flight<2>(refined_discs(0.15, ratio), disc_velocities, 3000, ratio == 1.0) < 1e-9);
-}
-
-TEST_CASE("local steps: tetrahedra of one size have one level, since longer steps of some would resonate",
-          "[dynamics][async]") {
-    const auto mesh = mesh::cylinder({.radius = 1.0, .length = 0.5, .size = 1.0 / 6.0});
-    CHECK(parasitic_of_flight<3>(mesh, {Vector<3>(0.05, 0.0, 0.0)}, 400, true) < 1e-9);
-}
-
-TEST_CASE("local steps: one level is asked for, or no cell can have more", "[dynamics][async]") {
-    const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
-    const auto stable = dynamics::stable_step(solid);
-    const auto one = solid::local_steps(solid, stable, {.most_levels = 1});
-    CHECK(one.cells == std::vector<std::int64_t>{mesh.n_cells()});
-    CHECK(one.dt == stable.dt);
-    CHECK(one.omega_max == std::vector<double>{stable.omega_max});
-    // All cells of so coarse a disc are within reach of contact: what is finer than all others is all there is.
-    const auto coarse_mesh = two_discs(0.8);
-    Solid<2> coarse(coarse_mesh, bodies<2>(2));
-    const auto coarse_stable = dynamics::stable_step(coarse);
-    const auto finer = solid::local_steps(coarse, coarse_stable, {.contact_levels = 2});
-    CHECK(finer.cells.size() == finer.omega_max.size());
-    CHECK(finer.cells.front() > 0);
-    CHECK(finer.cells.back() > 0);
-    CHECK(finer.dt / finer.steps.parts.back() == 0.25 * coarse_stable.dt);
-}
-
-TEST_CASE("local steps: cells that contact may reach are a level finer than the same cells without contact, or finest",
-          "[dynamics][async]") {
-    const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
-    auto without = bodies<2>(2);
-    without.contact.reset();
-    Solid<2> alone(mesh, without);
-    // the same steps for both: the margin of contact is in the stable step
-    const auto stable = dynamics::stable_step(solid);
-    const auto touching = solid::local_steps(solid, stable), free = solid::local_steps(alone, stable);
-    REQUIRE(touching.cells.size() == free.cells.size());
-    const auto finest = static_cast<std::int32_t>(free.cells.size()) - 1;
-    for (const std::int32_t face : mesh.boundary_faces) {
-        const auto i = static_cast<std::size_t>(mesh.face_cells[face][0]) * 2;
-        REQUIRE(touching.steps.level[i] >= std::min(finest, free.steps.level[i] + 1));
-    }
-}
-
-TEST_CASE("local steps keep H~ and momentum through an impact, with contact events inside the steps", "[dynamics][async]") {
-    const auto mesh = refined_discs(0.3, 8.0);
-    const double time = 6.0;
-    const auto local = run<2>(mesh, disc_velocities, time, memm_async);
-    const double k_0 = local.entries().front().kinetic;
-    CHECK(local.pseudo_energy_drift() < 1e-12 * k_0);
-    CHECK(local.momentum_drift() < 1e-14);
-    CHECK(local.entries().back().events > 0);
-    CHECK(local.energy_excess() < 0.05 * k_0);
-}
-
-TEST_CASE("local steps with contact on a finer level than the bulk keep H~, too", "[dynamics][async]") {
-    const auto mesh = two_discs(0.8);
-    const auto ledger = run<2>(mesh, disc_velocities, 6.0, [](auto& solid, auto q, const auto& p, const auto& stable) {
-        auto local = solid::local_steps(solid, stable, {.contact_levels = 2});
-        CHECK(local.cells.size() >= 3);
-        return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
-    });
-    const double k_0 = ledger.entries().front().kinetic;
-    CHECK(ledger.pseudo_energy_drift() < 1e-12 * k_0);
-    CHECK(ledger.momentum_drift() < 1e-14);
-}
-
-TEST_CASE("local steps keep H~ through an impact of tetrahedra", "[dynamics][async]") {
-    const auto mesh = two_boxes(4);
-    const auto ledger = run<3>(mesh, box_velocities, 1.5, [](auto& solid, auto q, const auto& p, const auto& stable) {
-        auto local = solid::local_steps(solid, stable, {.contact_levels = 1});
-        return dynamics::MemmAsync(solid, std::move(q), p, 0.9 * local.dt, local.steps);
-    });
-    CHECK(ledger.pseudo_energy_drift() < 1e-12 * ledger.entries().front().kinetic);
-    CHECK(ledger.momentum_drift() < 1e-14);
 }

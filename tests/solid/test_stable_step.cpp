@@ -6,7 +6,7 @@ using namespace abut;
 using namespace abut::test;
 
 TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eigenvalue problem, by no more than 5 %",
-                       "[dynamics][stable_step]", ((int Dim), Dim), 2, 3) {
+                       "[solid][stable_step]", ((int Dim), Dim), 2, 3) {
     std::vector<NamedMesh<Dim>> meshes = boxes<Dim>(2);
     meshes.push_back({"round", round_body<Dim>(Dim == 2 ? 0.4 : 0.8)});
     for (const auto& [name, mesh] : meshes) {
@@ -23,7 +23,7 @@ TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eige
     }
 }
 
-TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[dynamics][stable_step]") {
+TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[solid][stable_step]") {
     const auto mesh = unit_disc(0.4);
     auto options = bodies<2>(1);
     solid::Solid<2> touching(mesh, options);
@@ -33,7 +33,7 @@ TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[dyn
 }
 
 TEST_CASE("the stable step is the same however often it is asked for, and scales with h sqrt(rho/E)",
-          "[dynamics][stable_step]") {
+          "[solid][stable_step]") {
     const auto mesh = unit_disc(0.4);
     auto options = bodies<2>(1);
     solid::Solid<2> solid(mesh, options);

@@ -153,7 +153,7 @@ std::vector<Choice<Dim>> check_against_enumeration(const mesh::Mesh<Dim>& mesh, 
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("affine fields are reproduced on every face of every kind of mesh", "[dynamics][stencil]",
+TEMPLATE_TEST_CASE_SIG("affine fields are reproduced on every face of every kind of mesh", "[solid][stencil]",
                        ((int Dim), Dim), 2, 3) {
     for (const auto& [name, mesh] : all_meshes<Dim>()) {
         INFO(name);
@@ -175,7 +175,7 @@ TEMPLATE_TEST_CASE_SIG("affine fields are reproduced on every face of every kind
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a stencil stays within the body of its face", "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a stencil stays within the body of its face", "[solid][stencil]", ((int Dim), Dim), 2, 3) {
     Vector<Dim> shift = Vector<Dim>::Zero();
     shift[0] = 1.0;
     const Vector<Dim> lower = Vector<Dim>::Zero(), upper = Vector<Dim>::Ones();
@@ -189,7 +189,7 @@ TEMPLATE_TEST_CASE_SIG("a stencil stays within the body of its face", "[dynamics
             CHECK(mesh.cell_body[cell] == mesh.cell_body[mesh.face_cells[f][0]]);
 }
 
-TEMPLATE_TEST_CASE_SIG("the report counts the faces that extrapolate and names the worst", "[dynamics][stencil]",
+TEMPLATE_TEST_CASE_SIG("the report counts the faces that extrapolate and names the worst", "[solid][stencil]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = round_body<Dim>(0.3);
     solid::StencilReport report;
@@ -228,7 +228,7 @@ TEST_CASE("a mesh has the same stencils in any unit of length and anywhere, also
     for (const double offset : {1.0, 1e2, 1e6}) CHECK(stencils_of(1.0, offset * Vector<3>(1.0, -0.7, 0.3)) == plain);
 }
 
-TEST_CASE("no interior face of a uniform grid extrapolates", "[dynamics][stencil]") {
+TEST_CASE("no interior face of a uniform grid extrapolates", "[solid][stencil]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {6, 5}, CellShape::quadrangle);
     std::vector<std::int32_t> interior;
     for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
@@ -245,8 +245,8 @@ TEST_CASE("no interior face of a uniform grid extrapolates", "[dynamics][stencil
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the remedy", "[dynamics][stencil]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the remedy", "[solid][stencil]", ((int Dim), Dim),
+                       2, 3) {
     std::array<int, Dim> counts;
     counts.fill(5);
     counts[Dim - 1] = 1;
@@ -261,7 +261,7 @@ TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused with the face and the r
 
 TEMPLATE_TEST_CASE_SIG(
     "the stencil of every face is the best of all simplices of the nearest cells of its body, looked at one by one",
-    "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+    "[solid][stencil]", ((int Dim), Dim), 2, 3) {
     Vector<Dim> lower = Vector<Dim>::Constant(-0.5), upper = Vector<Dim>::Constant(0.5);
     lower[0] = 1.0, upper[0] = 1.9;  // where the round body ends
     const auto mesh =
@@ -270,7 +270,7 @@ TEMPLATE_TEST_CASE_SIG(
     CHECK(choices.size() > 200);
 }
 
-TEMPLATE_TEST_CASE_SIG("between simplices that are equally good the lowest cell numbers decide", "[dynamics][stencil]",
+TEMPLATE_TEST_CASE_SIG("between simplices that are equally good the lowest cell numbers decide", "[solid][stencil]",
                        ((int Dim), Dim), 2, 3) {
     // Unit bricks: an interior face has its own two cells, and 4 (2D) or 8 (3D) others exactly equally far.
     std::array<int, Dim> counts;
@@ -284,7 +284,7 @@ TEMPLATE_TEST_CASE_SIG("between simplices that are equally good the lowest cell 
 }
 
 TEMPLATE_TEST_CASE_SIG("where no simplex reaches the smallest volume it is halved until one does, and the face counted",
-                       "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+                       "[solid][stencil]", ((int Dim), Dim), 2, 3) {
     // One wavy layer of bricks, ever flatter: centroids almost in one plane.
     Vector<Dim> upper = Vector<Dim>::Ones();
     upper[0] = 8.0;
@@ -304,8 +304,8 @@ TEMPLATE_TEST_CASE_SIG("where no simplex reaches the smallest volume it is halve
     CHECK(lowered + 20 < static_cast<std::ptrdiff_t>(choices.size()));
 }
 
-TEMPLATE_TEST_CASE_SIG("where the nearest cells lie in one plane up to four times as many are looked at",
-                       "[dynamics][stencil]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("where the nearest cells lie in one plane up to four times as many are looked at", "[solid][stencil]",
+                       ((int Dim), Dim), 2, 3) {
     // Two thick layers of bricks, ever wider along x.
     Vector<Dim> upper = Vector<Dim>::Ones();
     upper[Dim - 1] = Dim == 2 ? 2.0 : 3.0;

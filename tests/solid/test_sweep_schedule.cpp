@@ -30,8 +30,7 @@ Needs random_needs(std::mt19937& random, std::int32_t n_chunks) {
 
 }  // namespace
 
-TEST_CASE("a sweep schedule runs every task once, each after what it needs, on any number of threads",
-          "[dynamics][schedule]") {
+TEST_CASE("a sweep schedule runs every task once, each after what it needs, on any number of threads", "[solid][schedule]") {
     std::mt19937 random(3);
     const int threads = GENERATE(1, 2, 4);
     const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
