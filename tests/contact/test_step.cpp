@@ -31,13 +31,14 @@ contact::HostStep<Dim> constant_host(const std::vector<Vector<Dim>>& u_0, const 
             .take = take};
 }
 
+/// A pair that shares a face with others is cut where these change, too: its force may differ by rounding.
 template <int Dim>
 void check_same_pair(const contact::PairStep<Dim>& a, const contact::PairStep<Dim>& b) {
     CHECK(a.face_1 == b.face_1);
     CHECK(a.face_2 == b.face_2);
     CHECK(a.gap_1 == b.gap_1);
     CHECK(a.area == b.area);
-    CHECK(a.force == b.force);
+    CHECK((a.force - b.force).norm() <= 1e-14 * b.force.norm());
 }
 
 bool is_even(FacePair pair) { return (number_of(pair.face_1) + number_of(pair.face_2)) % 2 == 0; }
@@ -150,8 +151,9 @@ TEMPLATE_TEST_CASE_SIG("a step that begins where no step ended is searched for, 
     const auto apart = moved(surface, -2.0, 0.0), together = moved(surface, 0.02, 0.0);
     drive(contact, apart, apart);
     CHECK(contact.faces().empty());
-    CHECK_FALSE(drive(contact, together, apart).pairs.empty());  // its end alone is within the list
+    drive(contact, together, apart);  // its end alone is within the list
     CHECK_FALSE(contact.faces().empty());
+    CHECK(contact.report().missed_contacts > 0);  // they were pressed in before anybody looked, and one is told
 }
 
 TEMPLATE_TEST_CASE_SIG("after a search there is no step yet: no pairs, and zeros for the faces of the new list",

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
 #include <tbb/global_control.h>
@@ -232,7 +233,7 @@ TEST_CASE("two spheres intersect in the faces that a test of every pair finds", 
     append(both, sphere(2), {0.9, 0.3, 0.2});
     const SurfaceReport health = checked(both, {.self_intersections = true, .max_listed_pairs = 3});
     CHECK(health.self_intersections.size() == 3);
-    const auto places = health.merged_vertices;
+    const auto merged = health.merged_vertices;
     // Pair by pair: a soup of two faces has no candidates to miss.
     std::int64_t n = 0;
     for (std::int32_t i = 0; i < 128; ++i)
