@@ -1,0 +1,40 @@
+// A face has four numbers: in its mesh, among the boundary faces, in the surface of contact, in the list of candidates.
+#include <catch2/catch.hpp>
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+#include "abut/contact/surface.hpp"
+#include "abut/solid/boundary_face.hpp"
+
+using namespace abut;
+
+namespace {
+
+using MeshFace = std::int32_t;  // the plain index of the arrays of a mesh
+
+template <class A, class B>
+constexpr bool mix = std::is_convertible_v<A, B> || std::is_convertible_v<B, A> || std::is_assignable_v<A&, B> ||
+                     std::is_assignable_v<B&, A> || std::equality_comparable_with<A, B>;
+
+template <class Id, class Index>
+constexpr bool can_index = requires(IdVector<Id, double> values, Index i) {
+    values[i];
+};
+
+}  // namespace
+
+TEST_CASE("no number of a face can be taken for one of another numbering", "[solid]") {
+    using contact::ListedFace, contact::SurfaceFace, solid::BoundaryFace;
+    STATIC_REQUIRE_FALSE(mix<MeshFace, BoundaryFace>);
+    STATIC_REQUIRE_FALSE(mix<MeshFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(mix<MeshFace, ListedFace>);
+    STATIC_REQUIRE_FALSE(mix<BoundaryFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(mix<BoundaryFace, ListedFace>);
+    STATIC_REQUIRE_FALSE(mix<SurfaceFace, ListedFace>);
+    STATIC_REQUIRE(can_index<BoundaryFace, BoundaryFace>);
+    STATIC_REQUIRE_FALSE(can_index<BoundaryFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(can_index<ListedFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(can_index<ListedFace, MeshFace>);
+}
