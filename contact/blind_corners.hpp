@@ -12,8 +12,7 @@ namespace abut::contact {
 ///
 ///     (w - v) . d <= 0 for all corners w of these faces,      n_i . d <= -facing_cosine for all i.
 ///
-/// In 2D these are tips of at most 180 degrees - 2 acos(-facing_cosine): 60 degrees by default, where the corner of a cube
-/// (n_i . d = 0.577) is still seen. In 3D d is tried halfway between each two normals, and at equal angles to each three.
+/// In 2D these are tips of at most 180 degrees - 2 acos(-facing_cosine): 23 degrees by default. In 3D d is tried halfway between each two normals, and at equal angles to each three.
 ///
 /// Returns one index into SurfaceView::vertices per position with such a corner, increasing; corners of one body at exactly
 /// one position are one. Corners of a single face do not count. A lower |facing_cosine| (-1 < facing_cosine < 0) sees

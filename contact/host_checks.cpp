@@ -18,7 +18,7 @@ void check_options(const ContactOptions& options) {
                options.quadrature);
     if (!(options.search.facing_cosine < 0.0))
         refuse("facing_cosine is " + number(options.search.facing_cosine) +
-                   "; contact needs one between -1 and 0. -0.5 is the default.",
+                   "; contact needs one between -1 and 0. -0.2 is the default.",
                options.search.facing_cosine);
     if (!(options.compression_warning > 0.0))
         refuse("compression_warning is " + number(options.compression_warning) + "; it must be > 0. 0.3 is the default.",

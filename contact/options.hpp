@@ -21,7 +21,7 @@ struct CandidateOptions {
     geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic;  ///< changes the cost alone
     /// [-] n_1 . n_2 below this: the faces look at each other, and gap and tangential offset tell what can touch. From above
     /// -1 to 1. With 1 normals and the model of contact play no part: what counts is the distance of faces in space
-    double facing_cosine = -0.5;
+    double facing_cosine = -0.2;
     /// [m] >= 0: gaps up to this count besides contact. Contact itself needs 0
     double distance = 0.0;
     /// [m] how far two faces may move together, each by half of it, before the list is rebuilt; 0: begins with half the

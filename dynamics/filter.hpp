@@ -9,17 +9,25 @@
 
 namespace abut::dynamics {
 
+/// What an obstacle or a prescribed boundary takes from a patch: it does not let this place move along this direction.
+template <int Dim>
+struct Hold {
+    Vector<Dim> position;   ///< at rest [m]
+    Vector<Dim> direction;  ///< unit
+};
+
 /// Points that touched something in the last step and so may carry the parasitic mode of the scheme.
+template <int Dim>
 struct ContactPatch {
     std::vector<std::int32_t> points;  ///< increasing; no point is in two patches
-    bool held = false;                 ///< touches an obstacle or a prescribed boundary: its momentum is not its own
+    std::vector<Hold<Dim>> holds;      ///< the momentum of rigid motions that these prevent is not the patch's own
 };
 
 /// A system that says which of its points were in contact, and what acts on them now.
 template <class S>
 concept PatchSystem = PointSystem<S> && requires(S& system, std::span<const std::int32_t> points, std::span<const double> q,
                                                  std::span<Vector<S::dimension>> force) {
-    { system.contact_patches() } -> std::convertible_to<std::vector<ContactPatch>>;  ///< of the last step
+    { system.contact_patches() } -> std::convertible_to<std::vector<ContactPatch<S::dimension>>>;  ///< of the last step
     system.end_force_on(points, q, force);  ///< F(q) on some points (n_points, dimension) [N], q where the last step ended
 };
 
@@ -43,7 +51,7 @@ struct PatchState {
 
 /// Takes e' - alpha M v' out of the patch, kappa of it.
 template <int Dim>
-void filter_patch(const ContactPatch& patch, const PatchState<Dim>& state, double kappa);
+void filter_patch(const ContactPatch<Dim>& patch, const PatchState<Dim>& state, double kappa);
 
 }  // namespace detail
 
@@ -52,8 +60,9 @@ void filter_patch(const ContactPatch& patch, const PatchState<Dim>& state, doubl
 ///
 ///     p^{n+3/2} <- p^{n+3/2} - kappa (e' - alpha M v'),   alpha = v . e' / (v . M v')
 ///
-/// e is the parasitic momentum, v = M^-1 p^{n+1/2}; e' and v' are without their rigid-body parts over the patch, unless the
-/// patch is held by an obstacle or a prescribed boundary. Costs one force evaluation near the contact.
+/// e is the parasitic momentum, v = M^-1 p^{n+1/2}; e' and v' are without their rigid-body parts over the patch, as far as no
+/// obstacle and no prescribed boundary holds these: along rollers and along a wall momentum stays, too. Costs one force
+/// evaluation near the contact.
 template <PatchSystem S>
 class NeutralFilter {
 public:
@@ -65,10 +74,11 @@ public:
 
     /// To be called after each step (Integrator::set_after_step).
     void operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after) {
-        const std::vector<ContactPatch> patches = system_.contact_patches();
+        const std::vector<ContactPatch<Dim>> patches = system_.contact_patches();
         if (patches.empty()) return;
         points_.clear();
-        for (const ContactPatch& patch : patches) points_.insert(points_.end(), patch.points.begin(), patch.points.end());
+        for (const ContactPatch<Dim>& patch : patches)
+            points_.insert(points_.end(), patch.points.begin(), patch.points.end());
         std::sort(points_.begin(), points_.end());
         force_.resize(points_.size());
         system_.end_force_on(points_, q, force_);
@@ -80,7 +90,7 @@ public:
                                             .points = points_,
                                             .force = force_,
                                             .dt = dt};
-        for (const ContactPatch& patch : patches) detail::filter_patch<Dim>(patch, state, kappa_);
+        for (const ContactPatch<Dim>& patch : patches) detail::filter_patch<Dim>(patch, state, kappa_);
     }
 
 private:

@@ -10,12 +10,9 @@ namespace abut::dynamics {
 namespace {
 
 template <int Dim>
-using Rotation = Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign>;
-
-template <int Dim>
-Rotation<Dim> moment(const Vector<Dim>& lever_arm, const Vector<Dim>& momentum) {
+AngularMomentum<Dim> moment(const Vector<Dim>& lever_arm, const Vector<Dim>& momentum) {
     if constexpr (Dim == 2)
-        return Rotation<2>(lever_arm[0] * momentum[1] - lever_arm[1] * momentum[0]);
+        return AngularMomentum<2>(lever_arm[0] * momentum[1] - lever_arm[1] * momentum[0]);
     else
         return lever_arm.cross(momentum);
 }
@@ -36,7 +33,8 @@ std::vector<std::string> ledger_columns() {
     std::vector<std::string> names{"step", "time", "pseudo_energy", "energy", "kinetic", "potential", "work"};
     append_names<Dim>(names, "linear_momentum", Dim);
     append_names<Dim>(names, "angular_momentum", n_rotations<Dim>);
-    names.insert(names.end(), {"parasitic", "active_pairs", "events", "restart_jumps"});
+    names.insert(names.end(), {"parasitic", "active_pairs", "events", "restart_jumps", "rotation"});
+    append_names<Dim>(names, "rest_angular_momentum", n_rotations<Dim>);
     return names;
 }
 
@@ -52,7 +50,8 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
     values.insert(values.end(), entry.linear_momentum.begin(), entry.linear_momentum.end());
     values.insert(values.end(), entry.angular_momentum.begin(), entry.angular_momentum.end());
     values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events),
-                                 entry.restart_jumps});
+                                 entry.restart_jumps, entry.rotation});
+    values.insert(values.end(), entry.rest_angular_momentum.begin(), entry.rest_angular_momentum.end());
     return values;
 }
 
@@ -65,9 +64,11 @@ void detail::add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::s
     const auto n = static_cast<std::ptrdiff_t>(u.size());
     entry.linear_momentum =
         ordered_sum(n, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) { return run.momentum(i); });
-    entry.angular_momentum = ordered_sum(n, Rotation<Dim>(Rotation<Dim>::Zero()), [&](std::ptrdiff_t i) {
-        return moment<Dim>(rest_position[i] + u[i], run.momentum(i));
-    });
+    const AngularMomentum<Dim> zero = AngularMomentum<Dim>::Zero();
+    entry.angular_momentum =
+        ordered_sum(n, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i] + u[i], run.momentum(i)); });
+    entry.rest_angular_momentum =
+        ordered_sum(n, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i], run.momentum(i)); });
     const auto e_i = as_vectors<Dim>(e);
     entry.parasitic = largest(n, [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; });
 }
@@ -84,6 +85,8 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     raise(parasitic_, entry.parasitic);
     raise(momentum_drift_, (entry.linear_momentum - first.linear_momentum).norm());
     raise(angular_momentum_drift_, (entry.angular_momentum - first.angular_momentum).norm());
+    raise(rest_angular_momentum_drift_, (entry.rest_angular_momentum - first.rest_angular_momentum).norm());
+    raise(rotation_, entry.rotation);
     for (const double energy : {entry.energy, entry.kinetic, entry.potential}) raise(largest_energy_, std::abs(energy));
 }
 

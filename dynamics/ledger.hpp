@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/parallel.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/integrator.hpp"
 
 namespace abut::dynamics {
 
 /// A system of points with a mass that move in space, `dimension` 2 or 3: q holds their displacements (n, dimension). Its
-/// ledger also takes `work()` [J] and `contact_counts()` where it has them.
+/// ledger also takes `work()` [J], `contact_counts()` and `rotations(q)`, how far each body has turned [rad], where it has
+/// them.
 template <class S>
 concept PointSystem = System<S> && requires(const S& system) {
     { S::dimension } -> std::convertible_to<int>;
@@ -29,23 +31,28 @@ struct ContactCounts {
 template <int Dim>
 inline constexpr int n_rotations = Dim == 2 ? 1 : 3;
 
+template <int Dim>
+using AngularMomentum = Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign>;
+
 /// The state of a run at one step. Energies come together, since H~ alone does not prove a good solution (docs/method.md,
 /// Time): H~ with H, the parasitic mode and the number of events.
 template <int Dim>
 struct LedgerEntry {
     std::int64_t step;
-    double time;                  ///< [s]
-    double pseudo_energy;         ///< what the scheme conserves; of MEMM H~ = 1/2 p^- . M^-1 p^+ + V [J]
-    double energy;                ///< H = 1/2 p . M^-1 p + V with p = (p^- + p^+)/2 [J]
-    double kinetic;               ///< 1/2 p . M^-1 p [J]
-    double potential;             ///< V, less the work of constant loads [J]
-    double work;                  ///< done from outside so far [J]
-    Vector<Dim> linear_momentum;  ///< [kg m/s]
-    Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign> angular_momentum;  ///< about the origin [kg m^2/s]
-    double parasitic;                                                               ///< largest |e_i| / m_i [m/s]
-    std::int64_t active_pairs;                                                      ///< in the last step
-    std::int64_t events;                                                            ///< so far
-    double restart_jumps;  ///< what restarts with another step have added to H~ so far [J]
+    double time;                                 ///< [s]
+    double pseudo_energy;                        ///< what the scheme conserves; of MEMM H~ = 1/2 p^- . M^-1 p^+ + V [J]
+    double energy;                               ///< H = 1/2 p . M^-1 p + V with p = (p^- + p^+)/2 [J]
+    double kinetic;                              ///< 1/2 p . M^-1 p [J]
+    double potential;                            ///< V, less the work of constant loads [J]
+    double work;                                 ///< done from outside so far [J]
+    Vector<Dim> linear_momentum;                 ///< [kg m/s]
+    AngularMomentum<Dim> angular_momentum;       ///< sum x_i × p_i about the origin [kg m^2/s]
+    AngularMomentum<Dim> rest_angular_momentum;  ///< with the positions at rest: what linear elasticity conserves
+    double parasitic;                            ///< largest |e_i| / m_i [m/s]
+    std::int64_t active_pairs;                   ///< in the last step
+    std::int64_t events;                         ///< so far
+    double restart_jumps;                        ///< what restarts with another step have added to H~ so far [J]
+    double rotation;                             ///< of the body that has turned farthest [rad]
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
@@ -104,6 +111,8 @@ template <class Scheme, PointSystem S>
         entry.active_pairs = counts.active_pairs;
         entry.events = counts.events;
     }
+    if constexpr (requires { system.rotations(integrator.q()); })
+        for (const double angle : system.rotations(integrator.q())) entry.rotation = larger(entry.rotation, angle);
     detail::add_motion<Dim>(entry, integrator, e, system.rest_positions(), system.masses());
     return entry;
 }
@@ -127,6 +136,10 @@ public:
     [[nodiscard]] double momentum_drift() const { return momentum_drift_; }
     /// max |L - L0| about the origin [kg m^2/s]; moments from outside are not taken out.
     [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
+    /// The same with positions at rest [kg m^2/s].
+    [[nodiscard]] double rest_angular_momentum_drift() const { return rest_angular_momentum_drift_; }
+    /// How far any body had turned at most [rad].
+    [[nodiscard]] double rotation() const { return rotation_; }
     /// Largest of |H|, kinetic energy and |V| in the run [J]: what drifts of loaded runs are quoted on.
     [[nodiscard]] double largest_energy() const { return largest_energy_; }
 
@@ -138,6 +151,8 @@ private:
     double parasitic_ = 0.0;
     double momentum_drift_ = 0.0;
     double angular_momentum_drift_ = 0.0;
+    double rest_angular_momentum_drift_ = 0.0;
+    double rotation_ = 0.0;
     double largest_energy_ = 0.0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,11 +64,12 @@ struct RunResult {
     double skin = 0.0;  ///< of the last candidate list [m]
     int threads = 0;    ///< allowed
     contact::ContactReport contact;
-    std::int64_t inadmissible_overlaps_max = 0;  ///< largest number of `inadmissible_overlaps` at any record
-    std::vector<Vector<Dim>> blind_corners;      ///< too sharp for contact to see them [m]
-    std::int64_t contact_faces_left_out = 0;     ///< their displacement is prescribed
-    solid::StencilReport stencils;               ///< of the faces between cells
-    solid::StencilReport boundary_stencils;      ///< of the boundary faces that local equilibrium leaves undetermined
+    std::int64_t inadmissible_overlaps_max = 0;          ///< largest number of `inadmissible_overlaps` at any record
+    std::vector<Vector<Dim>> blind_corners;              ///< too sharp for contact to see them [m]
+    std::optional<contact::EdgePair<Dim>> unseen_edges;  ///< that would cross without contact
+    std::int64_t contact_faces_left_out = 0;             ///< their displacement is prescribed
+    solid::StencilReport stencils;                       ///< of the faces between cells
+    solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
     solid::SolidTimes times;  ///< of the steps

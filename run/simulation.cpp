@@ -82,6 +82,7 @@ struct Start {
         result.boundary_stencils = solid.ccg().boundary().report;
         result.contact_faces_left_out = solid.contact_faces_left_out();
         result.blind_corners = solid.blind_corners();
+        result.unseen_edges = solid.unseen_edges();
         q.assign(solid.size(), 0.0);
         if (scene.displacement) {
             const auto u = as_vectors<Dim>(std::span<double>(q));

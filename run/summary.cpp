@@ -29,7 +29,8 @@ Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         bodies.push_back({{"name", scene.mesh.body_names[body]},
                           {"mass", result.start[body].mass},
                           {"velocity_initial", numbers<Dim>(result.start[body].velocity)},
-                          {"velocity_final", numbers<Dim>(result.end[body].velocity)}});
+                          {"velocity_final", numbers<Dim>(result.end[body].velocity)},
+                          {"rotation_final", result.end[body].rotation}});
     return bodies;
 }
 
@@ -79,7 +80,9 @@ Json energies_json(const RunResult<Dim>& result) {
             {"energy_excess_max", ledger.energy_excess()},
             {"parasitic_max", ledger.parasitic()},
             {"momentum_drift_max", ledger.momentum_drift()},
-            {"angular_momentum_drift_max", ledger.angular_momentum_drift()}};
+            {"angular_momentum_drift_max", ledger.angular_momentum_drift()},
+            {"rest_angular_momentum_drift_max", ledger.rest_angular_momentum_drift()},
+            {"rotation_max", ledger.rotation()}};
 }
 
 Json mesh_json(const mesh::BuildReport& report) {
@@ -145,7 +148,8 @@ std::string energy_lines(const RunResult<Dim>& result) {
                       fmt::format("{:.2e}", ledger.energy_excess() / scale)) +
            table_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", ledger.parasitic())) +
            table_line("drift of linear momentum", fmt::format("{:.2e} kg m/s", ledger.momentum_drift())) +
-           table_line("drift of angular momentum", fmt::format("{:.2e} kg m^2/s", ledger.angular_momentum_drift()));
+           table_line("drift of angular momentum", fmt::format("{:.2e} kg m^2/s", ledger.angular_momentum_drift())) +
+           table_line("rotation of a body, at most", fmt::format("{:.2g} rad", ledger.rotation()));
 }
 
 template <int Dim>

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 namespace abut::run {
@@ -46,6 +49,24 @@ void add_corners(Counts& counts, const std::vector<Vector<Dim>>& corners) {
                     corners.size(), fmt::join(corners.front(), ", ")));
 }
 
+/// The angle inside the body at an edge [degrees].
+double degrees(double half_angle_sine) { return 2.0 * std::asin(half_angle_sine) * 180.0 / std::numbers::pi; }
+
+template <int Dim>
+void add_edges(Counts& counts, const std::optional<contact::EdgePair<Dim>>& edges, double facing_cosine) {
+    if (!edges) return;
+    counts.warnings.push_back(
+        {WarningKind::unseen_edges, Severity::warning,
+         fmt::format(
+             "edges of {:.3g} and {:.3g} degrees, at ({:.4g}) and ({:.4g}), are so sharp that contact does not see them "
+             "cross: their faces look at each other by {:.3g}, more than {:g} is needed. Bodies pass through each other "
+             "there. Blunt them, or take a --facing-cosine nearer to 0",
+             degrees(edges->edge_1.half_angle_sine), degrees(edges->edge_2.half_angle_sine),
+             fmt::join(edges->edge_1.midpoint, ", "), fmt::join(edges->edge_2.midpoint, ", "), edges->facing(),
+             -facing_cosine),
+         edges->facing(), -facing_cosine});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -61,6 +82,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
         WarningKind::faces_out_of_contact, Severity::note, result.contact_faces_left_out,
         fmt::format("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out));
     add_corners<Dim>(counts, result.blind_corners);
+    add_edges<Dim>(counts, result.unseen_edges, result.options.contact.search.facing_cosine);
     return std::move(counts.warnings);
 }
 
@@ -101,6 +123,13 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
                         "speed prevents it, and so does --overlap frozen, under which H~ drifts",
                         contact.slipped_pairs, contact.slipped_compression_max));
+    if (const double rotation = result.ledger.rotation(); rotation > far_rotation)
+        add(WarningKind::rotation, rotation, far_rotation,
+            fmt::format(
+                "a body has turned by {:.2g} rad, {:g} is safe. Strains are linear here: a body that turns grows, by "
+                "{:.2g} % at this angle, and no energy shows it. A shorter run, or bodies that are hit nearer to "
+                "their middle, make it less",
+                rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were lost, 0 are allowed: the energy is not exact", contact.missed_contacts));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,

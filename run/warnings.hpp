@@ -13,6 +13,9 @@ inline constexpr double stiff_sliding_ratio = 1.0;
 /// docs/limits.md.
 inline constexpr double deep_slip_compression = 0.3;
 
+/// How far a body may turn before it is worth a word [rad]: it has grown by 0.5 % then. docs/limits.md.
+inline constexpr double far_rotation = 0.1;
+
 enum class Severity {
     note,     ///< as it should be, and good to know
     warning,  ///< may spoil the result
@@ -20,18 +23,20 @@ enum class Severity {
 
 /// What a warning is about, with what its `value` counts; what is counted has the threshold 0.
 enum class WarningKind {
-    mesh_file,              ///< Gmsh warned while it read a file; no value
-    unused_vertices,        ///< note: vertices that belong to no cell
-    ignored_elements,       ///< note: elements of a file that are neither cells nor named faces
-    cut_cells,              ///< note: cells that were cut because of faces that are not planar
-    coincident_vertices,    ///< vertices at the place of one of another body
-    extrapolated_faces,     ///< faces that extrapolate from the cells around them: the stable step is shorter
-    faces_out_of_contact,   ///< note: faces with a prescribed displacement
-    blind_corners,          ///< corners too sharp for contact to see
-    compression,            ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
-    stiff_sliding,          ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
-    deep_slip,              ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
-    missed_contacts,        ///< contacts that were lost: the energy is not exact
+    mesh_file,             ///< Gmsh warned while it read a file; no value
+    unused_vertices,       ///< note: vertices that belong to no cell
+    ignored_elements,      ///< note: elements of a file that are neither cells nor named faces
+    cut_cells,             ///< note: cells that were cut because of faces that are not planar
+    coincident_vertices,   ///< vertices at the place of one of another body
+    extrapolated_faces,    ///< faces that extrapolate from the cells around them: the stable step is shorter
+    faces_out_of_contact,  ///< note: faces with a prescribed displacement
+    blind_corners,         ///< corners too sharp for contact to see
+    unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
+    compression,      ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
+    stiff_sliding,    ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
+    deep_slip,        ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
+    rotation,         ///< Ledger::rotation [rad]; threshold: far_rotation
+    missed_contacts,  ///< contacts that were lost: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };
 
@@ -41,7 +46,7 @@ struct Warning {
     Severity severity;
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
-    double threshold;  ///< above which `value` is worth a word
+    double threshold;  ///< above which (unseen_edges: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

@@ -8,13 +8,17 @@ namespace abut::solid {
 
 template <int Dim>
 std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid) {
-    std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()), {0.0, Vector<Dim>::Zero()});
+    std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()), {0.0, Vector<Dim>::Zero(), 0.0});
     for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
         BodyMotion<Dim>& body = motions[solid.mesh().cell_body[c]];
         body.mass += solid.masses()[c];
         body.velocity += run.momentum(c);
     }
-    for (BodyMotion<Dim>& body : motions) body.velocity /= body.mass;
+    const std::vector<double> rotations = solid.rotations(run.q);
+    for (std::size_t body = 0; body < motions.size(); ++body) {
+        motions[body].velocity /= motions[body].mass;
+        motions[body].rotation = rotations[body];
+    }
     return motions;
 }
 

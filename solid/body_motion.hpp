@@ -7,13 +7,14 @@
 
 namespace abut::solid {
 
-/// Mass and mean velocity of a body.
+/// Mass, mean velocity and rotation of a body.
 template <int Dim>
 struct BodyMotion {
     double mass;           ///< [kg]
     Vector<Dim> velocity;  ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
+    double rotation;       ///< from its position at rest [rad]
 };
-/// Mass and mean velocity of each body, at the node of `run`; `solid` is that of the run.
+/// That of each body, at the node of `run`; `solid` is that of the run.
 template <int Dim>
 [[nodiscard]] std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid);
 

@@ -163,7 +163,7 @@ template <int Dim>
 void ContactDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
     for (const contact::PairStep<Dim>& pair : step.pairs)
-        touching_.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2)});
+        touching_.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2), pair.normal});
 }
 
 template <int Dim>
@@ -174,9 +174,8 @@ void ContactDriver<Dim>::evaluate_last_end() {
 template <int Dim>
 void ContactDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
     require_valid_at(q, time);
-    if (contact_->faces().empty()) return;
     evaluate_faces(q, loads_.end(), time, u_1_, y_1_);
-    contact_->evaluate(u_1_, y_1_);
+    if (!contact_->faces().empty()) contact_->evaluate(u_1_, y_1_);
 }
 
 /// Contacts have no history before the first step: then the list may be rebuilt. Later a state for which it is not valid is
@@ -251,8 +250,8 @@ std::vector<TouchingPair<Dim>> ContactDriver<Dim>::touching_pairs(double gap) co
 }
 
 template <int Dim>
-std::vector<dynamics::ContactPatch> ContactDriver<Dim>::patches() const {
-    return contact_patches(ccg_, touching_);
+std::vector<dynamics::ContactPatch<Dim>> ContactDriver<Dim>::patches() const {
+    return contact_patches<Dim>(ccg_, touching_);
 }
 
 template <int Dim>
@@ -266,6 +265,11 @@ std::vector<Vector<Dim>> ContactDriver<Dim>::blind_corners() const {
     for (const std::int32_t vertex : contact::blind_corners(surface_.view(), options_.search.facing_cosine))
         corners.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
     return corners;
+}
+
+template <int Dim>
+std::optional<contact::EdgePair<Dim>> ContactDriver<Dim>::unseen_edges() const {
+    return contact::unseen_edges(surface_.view(), options_.search.facing_cosine);
 }
 
 template class ContactDriver<2>;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/contact/contact.hpp"
+#include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
@@ -82,12 +83,13 @@ public:
     /// Admitted pairs that share area in the state that was evaluated last and are open by at most `gap` [m].
     [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(double gap) const;
     /// Of the last step.
-    [[nodiscard]] std::vector<dynamics::ContactPatch> patches() const;
+    [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const;
 
     [[nodiscard]] const contact::Contact<Dim>& contact() const { return *contact_; }
     [[nodiscard]] contact::ContactReport report() const;
     [[nodiscard]] std::int64_t faces_left_out() const { return faces_left_out_; }
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
+    [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
 
 private:
     void build_surface();
@@ -120,8 +122,8 @@ private:
     Region<Dim> region_;                            // of the deformable listed faces
     std::vector<BoundaryFace> boundary_of_listed_;  // their boundary faces; they come first in the list
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
-        y_1_;                              // path of the listed faces; between steps _0 is where the last one ended
-    std::vector<TouchingFaces> touching_;  // boundary faces of the pairs that were active in the last step
+        y_1_;                                   // path of the listed faces; between steps _0 is where the last one ended
+    std::vector<TouchingFaces<Dim>> touching_;  // boundary faces of the pairs that were active in the last step
 };
 
 }  // namespace abut::solid

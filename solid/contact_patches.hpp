@@ -10,15 +10,18 @@
 namespace abut::solid {
 
 /// Two faces in contact; `no_face` is one of an obstacle.
+template <int Dim>
 struct TouchingFaces {
     BoundaryFace face_1;
     BoundaryFace face_2;
+    Vector<Dim> normal;  ///< of the pair
 };
 
 /// The cells whose displacement enters these faces, sorted into patches: the cells of one face are in one patch, and so are
-/// the two faces of a pair. In the order of their first cells.
+/// the two faces of a pair. In the order of their first cells. Obstacles hold a patch along the normal of the pair, at the
+/// centroid of the face; prescribed faces of its cells in the directions that are prescribed.
 template <int Dim>
-[[nodiscard]] std::vector<dynamics::ContactPatch> contact_patches(const Ccg<Dim>& ccg,
-                                                                  std::span<const TouchingFaces> touching);
+[[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches(const Ccg<Dim>& ccg,
+                                                                       std::span<const TouchingFaces<Dim>> touching);
 
 }  // namespace abut::solid

@@ -9,6 +9,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
+#include "abut/solid/body_rotation.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
@@ -48,6 +49,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
         masses_.of_cells.push_back(mass);
         masses_.inverse.insert(masses_.inverse.end(), Dim, 1.0 / mass);
     }
+    rotation_ = std::make_unique<BodyRotation<Dim>>(mesh, masses_.of_cells);
     loads_ = std::make_unique<Loads<Dim>>(mesh, options_, masses_.of_cells, ccg_);
     if (options_.contact) contact_ = std::make_unique<ContactDriver<Dim>>(mesh, options_, ccg_, *loads_, times_);
 }
@@ -261,8 +263,8 @@ std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double
 }
 
 template <int Dim>
-std::vector<dynamics::ContactPatch> Solid<Dim>::contact_patches() const {
-    return contact_ ? contact_->patches() : std::vector<dynamics::ContactPatch>{};
+std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const {
+    return contact_ ? contact_->patches() : std::vector<dynamics::ContactPatch<Dim>>{};
 }
 
 template <int Dim>
@@ -302,6 +304,16 @@ std::int64_t Solid<Dim>::contact_faces_left_out() const {
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const {
     return contact_ ? contact_->blind_corners() : std::vector<Vector<Dim>>{};
+}
+
+template <int Dim>
+std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
+    return rotation_->angles(as_vectors<Dim>(q));
+}
+
+template <int Dim>
+std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const {
+    return contact_ ? contact_->unseen_edges() : std::nullopt;
 }
 
 template class Solid<2>;

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "abut/contact/contact.hpp"
+#include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/system.hpp"
 #include "abut/solid/ccg/ccg.hpp"
@@ -13,6 +15,8 @@
 
 namespace abut::solid {
 
+template <int Dim>
+class BodyRotation;
 template <int Dim>
 class ContactDriver;
 template <int Dim>
@@ -79,7 +83,7 @@ public:
     void stiffness_product(std::span<const double> q, std::span<double> product);
 
     /// Parts of the bodies that were in contact during the last step; bodies joined by a pair are in one patch.
-    [[nodiscard]] std::vector<dynamics::ContactPatch> contact_patches() const;
+    [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const;
     /// F(q) on some cells only (n, Dim) [N], q being where the last step ended. Costs as much as these cells, and the pairs
     /// of the candidate list.
     void end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
@@ -107,7 +111,12 @@ public:
     /// Corners that are too sharp for contact to see them coming, their positions at rest [m]; empty without contact.
     /// contact/blind_corners.hpp.
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
+    /// Edges of two bodies that would cross unseen; nothing without contact. contact/unseen_edges.hpp.
+    [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
+    /// How far each body has turned in q (n_bodies) [rad]: the angle of the nearest rotation. Strains are linear: a body that
+    /// turns grows by 1/cos of it, without a force against that. docs/limits.md.
+    [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
 
 private:
     struct Masses {
@@ -128,6 +137,7 @@ private:
     SolidOptions<Dim> options_;
     Ccg<Dim> ccg_;
     Masses masses_;
+    std::unique_ptr<BodyRotation<Dim>> rotation_;
     SolidTimes times_;
     std::int64_t evaluations_ = 0;
     double work_ = 0.0;

@@ -36,7 +36,7 @@ const CandidateOptions& checked(const CandidateOptions& options) {
     };
     if (!(options.facing_cosine > -1.0 && options.facing_cosine <= 1.0))
         refuse("facing_cosine is " + number(options.facing_cosine) +
-                   "; it must lie above -1 and not above 1. -0.5 is the default, 1 lists faces whatever their normals.",
+                   "; it must lie above -1 and not above 1. -0.2 is the default, 1 lists faces whatever their normals.",
                options.facing_cosine);
     if (!(options.distance >= 0.0) || !std::isfinite(options.distance))
         refuse("distance is " + number(options.distance) + " m; it must be finite and >= 0. Contact needs 0.",

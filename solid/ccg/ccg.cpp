@@ -137,11 +137,18 @@ IdSpan<BoundaryFace, const Matrix<Dim>> Ccg<Dim>::prescribed() const {
 }
 
 template <int Dim>
-bool Ccg<Dim>::has_prescribed_face(std::int32_t cell) const {
-    return std::ranges::any_of(impl_->arrays.half_faces_of(cell), [&](const HalfFace& half_face) {
+std::vector<BoundaryFace> Ccg<Dim>::prescribed_faces_of(std::int32_t cell) const {
+    std::vector<BoundaryFace> faces;
+    for (const HalfFace& half_face : impl_->arrays.half_faces_of(cell)) {
         const BoundaryFace b = impl_->arrays.boundary_index[half_face.face];
-        return b != no_face && !impl_->face_conditions.prescribed[b].isZero(0.0);
-    });
+        if (b != no_face && !impl_->face_conditions.prescribed[b].isZero(0.0)) faces.push_back(b);
+    }
+    return faces;
+}
+
+template <int Dim>
+const Vector<Dim>& Ccg<Dim>::centroid(BoundaryFace face) const {
+    return impl_->boundary_centroid[face];
 }
 
 template <int Dim>

@@ -71,8 +71,10 @@ public:
     [[nodiscard]] bool load_varies() const;
     /// Projectors onto the prescribed directions (n_boundary).
     [[nodiscard]] IdSpan<BoundaryFace, const Matrix<Dim>> prescribed() const;
-    /// Whether some face of the cell has a prescribed displacement.
-    [[nodiscard]] bool has_prescribed_face(std::int32_t cell) const;
+    /// The boundary faces of the cell whose displacement is prescribed, in some direction at least.
+    [[nodiscard]] std::vector<BoundaryFace> prescribed_faces_of(std::int32_t cell) const;
+    /// x_f of a boundary face [m].
+    [[nodiscard]] const Vector<Dim>& centroid(BoundaryFace face) const;
 
     /// û on all boundary faces (n_boundary) [m] for the cell displacements u (n_cells) [m].
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,

@@ -30,6 +30,12 @@ std::string csv_text(const std::vector<Row>& rows) {
     return text;
 }
 
+Json to_json(const std::vector<Number>& numbers) {
+    Json json = Json::object();
+    for (const Number& number : numbers) json[number.name] = apps::json_number(number.value);
+    return json;
+}
+
 Json to_json(const Row& row) {
     return {{"family", row.family},
             {"value", row.value},
@@ -49,6 +55,7 @@ Json to_json(const Row& row) {
             {"steps", row.steps},
             {"active_pairs_max", row.active_pairs_max},
             {"blind_corners", row.blind_corners},
+            {"numbers", to_json(row.numbers)},
             {"message", row.message}};
 }
 

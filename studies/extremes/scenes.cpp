@@ -54,6 +54,25 @@ mesh::Mesh<2> triangle(const Vector<2>& tip, double angle, double unit) {
     return mesh::build_mesh(std::move(soup));
 }
 
+/// A beam along `axis` with its lower or upper edge at the height of `middle`.
+mesh::Mesh<3> beam(const Vector<3>& axis, const Vector<3>& middle, double angle, bool is_upper, double unit) {
+    constexpr double length = 2.0, side = 0.5;
+    const Vector<3> up = Vector<3>::UnitZ(), across = up.cross(axis);
+    const double half_width = side * std::sin(0.5 * angle), half_height = side * std::cos(0.5 * angle);
+    const auto cube = mesh::structured_box<3>(Vector<3>::Zero(), Vector<3>::Ones(), {9, 3, 3}, mesh::CellShape::hexahedron);
+    mesh::CellSoup<3> soup;
+    soup.name = is_upper ? "upper" : "lower";
+    soup.body_names = {soup.name};
+    soup.cell_shape = cube.cell_shape;
+    soup.cell_vertices = cube.cell_vertices;
+    soup.cell_body = cube.cell_body;
+    for (const Vector<3>& x : cube.vertices)
+        soup.vertices.push_back(unit *
+                                (middle + (is_upper ? half_height : -half_height) * up + length * (x[0] - 0.5) * axis +
+                                 half_width * (x[1] - x[2]) * across + half_height * (x[1] + x[2] - 1.0) * up));
+    return mesh::build_mesh(std::move(soup));
+}
+
 }  // namespace
 
 double Units::speed() const { return std::sqrt(stress / density); }
@@ -111,6 +130,15 @@ run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane) {
                                                mesh::CellShape::quadrangle, "block");
     scene.mesh = mesh::combine<2>(std::vector{block, triangle(tip, angle, unit)});
     set_in_motion(scene, meeting, 1);
+    return scene;
+}
+
+run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle) {
+    const Vector<3> above = meeting.place + Vector<3>(meeting.aside, 0.0, meeting.gap);
+    run::Scene<3> scene;
+    scene.mesh = mesh::combine<3>(std::vector{beam(Vector<3>::UnitX(), meeting.place, angle, false, meeting.units.length),
+                                              beam(Vector<3>::UnitY(), above, angle, true, meeting.units.length)});
+    set_in_motion(scene, meeting, 2);
     return scene;
 }
 

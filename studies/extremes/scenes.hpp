@@ -48,6 +48,10 @@ template <int Dim>
 /// A triangle whose tip, of this angle [rad], comes down on the middle of a block, or on a rigid plane.
 [[nodiscard]] run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane);
 
+/// Two beams of length 2 and sides 0.5, their sections rhombi with this angle [rad] above and below, which meet at right
+/// angles, edge on edge.
+[[nodiscard]] run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle);
+
 /// n x n discs of diameter 1 - gap that all fly towards the middle, each as fast as it is far from it.
 [[nodiscard]] run::Scene<2> crowd(int n, double speed, double gap);
 

@@ -86,7 +86,7 @@ void sweep_thickness(const SweepOptions& options, const Sink& sink) {
     }
 }
 
-/// A tip below 60 degrees looks at a flat face with no face of its own by the default facing cosine: -0.02 lets it.
+/// A tip below 23 degrees looks at a flat face with no face of its own by the default facing cosine: -0.02 lets it.
 void sweep_wedge(const SweepOptions& options, const Sink& sink) {
     for (const double degrees : {120.0, 90.0, 60.0, 20.0, 5.0})
         for (const double facing : {options.run.contact.search.facing_cosine, -0.02})
@@ -102,6 +102,18 @@ void sweep_wedge(const SweepOptions& options, const Sink& sink) {
                      .make = [=] { return wedge(meeting, degrees * std::numbers::pi / 180.0, on_plane); },
                      .run = run}));
             }
+}
+
+void sweep_crossing(const SweepOptions& options, const Sink& sink) {
+    for (const double degrees : {60.0, 70.0, 80.0, 88.0, 90.0, 100.0}) {
+        if (options.quick && degrees > 60.0 && degrees < 88.0) continue;
+        const Meeting<3> meeting{.gap = 0.02, .aside = 0.03, .time = 4.0};
+        sink(attempt<3>({.family = "crossing",
+                         .value = fmt::format("edges of {:g} degrees", degrees),
+                         .speed = meeting.speed,
+                         .make = [=] { return crossing_beams(meeting, degrees * std::numbers::pi / 180.0); },
+                         .run = options.run}));
+    }
 }
 
 void sweep_edge(const SweepOptions& options, const Sink& sink) {

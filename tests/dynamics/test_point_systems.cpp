@@ -48,8 +48,8 @@ public:
         }
     }
     // What only a system with contact has.
-    std::vector<dynamics::ContactPatch> patches;
-    [[nodiscard]] std::vector<dynamics::ContactPatch> contact_patches() const { return patches; }
+    std::vector<dynamics::ContactPatch<Dim>> patches;
+    [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const { return patches; }
     void end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
                       std::span<Vector<Dim>> on_points) const {
         std::vector<double> all(q.size());
@@ -134,8 +134,15 @@ TEMPLATE_TEST_CASE_SIG(
         const auto q = random_values(random, row.size()), before = random_values(random, row.size());
         const auto given = random_values(random, row.size());
         row.patches = {{.points = {1, 2, 3, 5}}};
-        const bool held = trial % 2 == 1;
-        row.patches[0].held = held;
+        // Held by nothing; by rollers, which stop what moves along the last axis; by a frame that stops all.
+        enum Held { free, rollers, frame };
+        const auto held = static_cast<Held>(trial % 3);
+        const int first_held = held == rollers ? Dim - 1 : held == frame ? 0 : Dim;
+        for (int place = 0; place <= Dim; ++place)
+            for (int d = first_held; d < Dim; ++d)
+                row.patches[0].holds.push_back(
+                    {place < Dim ? Vector<Dim>(Vector<Dim>::Unit(place)) : Vector<Dim>(Vector<Dim>::Zero()),
+                     Vector<Dim>::Unit(d)});
         std::vector<double> after = given;
         dynamics::NeutralFilter filter(row);
         filter(q, dt, before, after);
@@ -163,12 +170,10 @@ TEMPLATE_TEST_CASE_SIG(
         }
         CHECK(size > 0.1);
         CHECK(std::abs(work) < 1e-14 * size * row.size());  // of v . change: H~ stays
-        if (!held) {
-            CHECK(momentum.norm() < 1e-14 * size);
-            CHECK(spin.norm() < 1e-13 * size);
-        } else {
-            CHECK(momentum.norm() > 1e-3 * size);  // it is not its own there
-        }
+        for (int d = 0; d < first_held; ++d) CHECK(std::abs(momentum[d]) < 1e-14 * size);
+        for (int d = first_held; d < Dim; ++d) CHECK(std::abs(momentum[d]) > 1e-4 * size);  // it is not its own there
+        if (held == free) CHECK(spin.norm() < 1e-13 * size);
+        if (held == rollers && Dim == 3) CHECK(std::abs(spin[Dim - 1]) < 1e-13 * size);  // about the normal of the rollers
         CHECK(e_after < e_given);
     }
 }

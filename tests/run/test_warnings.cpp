@@ -55,6 +55,34 @@ TEST_CASE("each figure above its threshold is a warning of its kind with value a
     CHECK(kinds(run::warnings_during(3, result)) == std::vector{WarningKind::compression});
 }
 
+TEST_CASE("a body that turns is told of from 0.1 rad on, with what it has grown by", "[run][warnings]") {
+    for (const double angle : {0.09, 0.2}) {
+        run::RunResult<2> result;
+        dynamics::LedgerEntry<2> entry{};
+        entry.rotation = angle;
+        result.ledger.record(entry);
+        const auto warnings = run::warnings_after(result);
+        REQUIRE(warnings.size() == (angle > 0.1 ? 1 : 0));
+        if (warnings.empty()) continue;
+        CHECK(warnings[0].kind == WarningKind::rotation);
+        CHECK(warnings[0].value == angle);
+        CHECK(warnings[0].text.find("2 % at this angle") != std::string::npos);
+    }
+}
+
+TEST_CASE("edges that would cross unseen are told of, with their angles and the limit", "[run][warnings]") {
+    run::Scene<3> scene;
+    run::RunResult<3> result;
+    CHECK(run::warnings_before(scene, result).empty());
+    result.unseen_edges = contact::EdgePair<3>{{0, 0.3, Vector<3>(1.0, 2.0, 3.0)}, {1, 0.5, Vector<3>::Zero()}};
+    const auto warnings = run::warnings_before(scene, result);
+    REQUIRE(kinds(warnings) == std::vector{WarningKind::unseen_edges});
+    CHECK(warnings[0].value == 0.15);
+    CHECK(warnings[0].threshold == 0.2);
+    for (const char* part : {"34.9 and 60 degrees", "(1, 2, 3)", "--facing-cosine"})
+        CHECK(warnings[0].text.find(part) != std::string::npos);
+}
+
 TEST_CASE("what a mesh left out and corners that contact cannot see are known before the first step", "[run][warnings]") {
     run::Scene<2> scene = test::block_on_plane(1e-3);
     run::RunResult<2> result;
