@@ -1,5 +1,6 @@
 #include "studies/extremes/scenes.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <string>

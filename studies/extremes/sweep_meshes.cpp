@@ -107,7 +107,7 @@ void sweep_wedge(const SweepOptions& options, const Sink& sink) {
 void sweep_crossing(const SweepOptions& options, const Sink& sink) {
     for (const double degrees : {60.0, 70.0, 80.0, 88.0, 90.0, 100.0}) {
         if (options.quick && degrees > 60.0 && degrees < 88.0) continue;
-        const Meeting<3> meeting{.gap = 0.02, .aside = 0.03, .time = 4.0};
+        const Meeting<3> meeting{.gap = 0.02, .aside = 0.03};
         sink(attempt<3>({.family = "crossing",
                          .value = fmt::format("edges of {:g} degrees", degrees),
                          .speed = meeting.speed,
