@@ -1,9 +1,6 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -13,33 +10,27 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
+#include "run/folder.hpp"
 #include "run/scenes.hpp"
 
 namespace {
 
 using namespace abut;
+using test::Folder;
+using test::read_text;
 namespace fs = std::filesystem;
 
-/// A folder for this process alone that is not there at first, removed with the object.
-class Folder {
+/// Asks to stop once a step is taken.
+class StopAt : public run::Observer<2> {
 public:
-    Folder() { fs::remove_all(path_); }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] const fs::path& path() const { return path_; }
+    explicit StopAt(std::int64_t step) : step_(step) {}
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>&) override { seen_ = view.steps; }
+    [[nodiscard]] bool asks_to_stop() const override { return seen_ + 1 >= step_; }
 
 private:
-    fs::path path_ = fs::path(ABUT_RUN_RESULTS) / std::to_string(getpid());
+    std::int64_t step_;
+    std::int64_t seen_ = -1;
 };
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 }  // namespace
 
@@ -104,6 +95,37 @@ TEST_CASE("a run that breaks off leaves its records under another name, and an e
     CHECK_FALSE(fs::exists(folder.path() / "energy.csv"));
     CHECK_FALSE(fs::exists(folder.path() / "summary.json"));
     CHECK(fs::exists(folder.path() / "somebody_elses.csv"));
+}
+
+TEST_CASE("a run that is asked to stop leaves all its files, and its summary says that it is not complete", "[run][files]") {
+    const Folder folder;
+    const run::RunOptions options{.out = folder.path(), .interval = 2, .frames = 2};
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    run::ResultFiles<2> files(options, "mine", "block");
+    StopAt stop(5);
+    run::Observers<2> observers{files, stop};
+    run::RunResult<2> result = run::simulate<2>(scene, options, observers);
+    files.finish(scene, result);
+    const auto summary = nlohmann::json::parse(read_text(folder.path() / "summary.json"));
+    CHECK(summary["complete"] == false);
+    CHECK(summary["steps"] == 5);
+    CHECK(summary["time"].get<double>() == Approx(5 * result.dt));
+    CHECK(run::closing_table("mine", scene, result).find("asked to stop") != std::string::npos);
+    for (const char* name : {"energy.csv", "energy.gp", "block.pvd"}) CHECK(fs::exists(folder.path() / name));
+    CHECK_FALSE(fs::exists(folder.path() / "energy.csv.partial"));
+}
+
+TEST_CASE("files of a run have their folder for themselves until they are finished", "[run][files]") {
+    const Folder folder;
+    const run::RunOptions options{.steps = 2, .out = folder.path(), .frames = 0};
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    run::ResultFiles<2> files(options, "first", "block");
+    CHECK_THROWS_WITH(run::ResultFiles<2>(options, "second", "block"), Catch::Contains("first, process"));
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    CHECK_THROWS_AS(run::ResultFiles<2>(options, "second", "block"), BadInput);
+    files.finish(scene, result);
+    CHECK(nlohmann::json::parse(read_text(folder.path() / "summary.json"))["complete"] == true);
+    CHECK_NOTHROW(run::ResultFiles<2>(options, "second", "block"));
 }
 
 TEST_CASE("a folder with a file in its place is refused as bad input, by name", "[run][files]") {
