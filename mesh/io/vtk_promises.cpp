@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "abut/mesh/io/binary_values.hpp"
@@ -101,6 +104,19 @@ std::string from_base64(std::string_view text, std::size_t n) {
 /// [bytes] Writers may name a block larger than what is in it.
 constexpr double largest_block = 1e8;
 
+/// Whether VTK reads that word of a text as a value of its type: neither what is out of range nor "nan".
+bool holds(std::string_view type, std::string_view word) {
+    const auto value = number_in(word);
+    if (!value || !std::isfinite(*value)) return false;
+    if (type == "Float32") return std::abs(*value) <= static_cast<double>(std::numeric_limits<float>::max());
+    if (type == "Float64") return true;
+    const auto whole = whole_number_in(word);
+    const double n_bits = 8.0 * n_bytes_of(type);
+    const bool is_signed = !type.starts_with("UInt");
+    return whole && *value >= (is_signed ? -std::exp2(n_bits - 1.0) : 0.0) &&
+           (n_bits > 60.0 || *value < std::exp2(is_signed ? n_bits - 1.0 : n_bits));  // 64 bits: whole_number_in knows
+}
+
 constexpr std::array counts = {"NumberOfPoints", "NumberOfCells",  "NumberOfVerts",
                                "NumberOfLines",  "NumberOfStrips", "NumberOfPolys"};
 enum CountOf : std::size_t { points, cells, verts, lines, strips, polys };
@@ -114,7 +130,9 @@ public:
         if (appended != std::string_view::npos) {
             const Tag tag = next_tag(contents_, appended);
             appended_is_raw_ = tag.attribute("encoding") == "raw";
-            appended_ = contents_.find('_', tag.end);
+            appended_ = contents_.find_first_not_of(blanks, tag.end);
+            if (tag.name.empty() || appended_ == std::string_view::npos || contents_[appended_] != '_')
+                refuse(tag, "the file is damaged: '_' does not follow <AppendedData>");
         }
         for (Tag tag = next_tag(contents_, 0); !tag.name.empty() && tag.name != "AppendedData";
              tag = next_tag(contents_, tag.end)) {
@@ -125,7 +143,7 @@ public:
             else if (tag.name == "DataArray" || tag.name == "Array")
                 check_array(tag);
             else
-                section_ = tag.name;
+                begin_section(tag);
         }
     }
 
@@ -147,7 +165,7 @@ private:
         std::string_view text = tag.attribute(key);
         text = text.substr(std::min(text.find_first_not_of(blanks), text.size()));
         text = text.substr(0, text.find_last_not_of(blanks) + 1);
-        if (text.empty()) return without;
+        if (tag.attributes.find(key) == tag.attributes.end()) return without;
         const auto value = whole_number_in(text);
         if (!value || *value < 0)
             refuse(tag, std::string(key) + " is " + in_quotes(text) + ", a whole number of at least 0 is needed");
@@ -180,7 +198,14 @@ private:
                                                            "Verts",  "Lines",     "Strips",   "Polys"};
         return std::find(known.begin(), known.end(), section) != known.end();
     }
-    void check_array(const Tag& tag) const {
+    void begin_section(const Tag& tag) {
+        section_ = tag.name;
+        names_.clear();
+    }
+    void check_array(const Tag& tag) {
+        const std::string_view array_name = tag.attribute("Name");
+        if (!array_name.empty() && tag.attribute("TimeStep").empty() && !names_.insert(array_name).second)
+            refuse(tag, "there are two arrays " + in_quotes(array_name) + " in one section, over which VTK crashes");
         const double n_components = count(tag, "NumberOfComponents", 1.0);
         const double n_values = n_tuples(tag) * n_components;
         const bool is_text =
@@ -193,11 +218,11 @@ private:
         if (is_text)
             check_text(tag, is_known(section_) ? n_values : 0.0);
         else
-            check_blocks(tag);
+            check_blocks(tag, is_known(section_) ? n_values * n_bytes_of(tag.attribute("type")) : 0.0);
     }
     /// What stands before the values: their number of bytes; of compressed ones the number of blocks, the bytes of a block
     /// and of the last one, and then those of each block as it is stored.
-    void check_blocks(const Tag& tag) const {
+    void check_blocks(const Tag& tag, double n_needed) const {
         const bool is_appended = !tag.attribute("offset").empty();
         const auto offset = static_cast<std::size_t>(count(tag, "offset", 0.0));
         if (is_appended && (appended_ == std::string_view::npos || offset >= contents_.size() - appended_))
@@ -209,17 +234,35 @@ private:
         const std::string header =
             is_raw ? std::string(stored.substr(0, n_numbers * header_size_)) : from_base64(stored, n_numbers * header_size_);
         if (header.size() < n_numbers * header_size_) return;  // VTK says so
-        const auto number = [&](std::size_t i) {
-            return header_size_ == 8 ? static_cast<double>(binary_value<std::uint64_t>(header, 8 * i, order_))
-                                     : static_cast<double>(binary_value<std::uint32_t>(header, 4 * i, order_));
-        };
-        const double n_promised =
-            ratio_ > 1.0 ? std::max({number(0), number(1), number(2), number(0) * number(1)}) : number(0);
+        const auto number = [&](std::size_t i) { return stored_number(header, i); };
+        const double n_promised = ratio_ > 1.0 ? std::max({number(1), number(2), number(0) * number(1)}) : number(0);
         // A block that is not full is no more than one that is.
         const double room = ratio_ * n_bytes() + (ratio_ > 1.0 ? largest_block : 0.0);
-        if (n_promised > room)
+        const double n_stored = ratio_ > 1.0 ? number(0) * static_cast<double>(header_size_) : 0.0;
+        if (n_promised > room || n_stored > n_bytes())
             refuse(tag, "the file is damaged: the data of the array " + in_quotes(tag.attribute("Name")) + " promise " +
                             count_text(n_promised) + " bytes in a file of " + count_text(n_bytes()) + " bytes");
+        // VTK crashes where blocks hold less than the array needs. A last block that is full may be named 0 or in full.
+        const double n_held =
+            ratio_ > 1.0 ? (number(2) > 0.0 ? number(0) - 1.0 : number(0)) * number(1) + number(2) : number(0);
+        if (n_held < n_needed || (ratio_ > 1.0 && number(2) > number(1)))
+            refuse(tag, "the file is damaged: the data of the array " + in_quotes(tag.attribute("Name")) + " hold " +
+                            count_text(n_held) + " bytes, " + count_text(n_needed) + " are needed");
+        if (ratio_ > 1.0) check_stored_blocks(tag, stored, is_raw, static_cast<std::size_t>(number(0)));
+    }
+    /// VTK takes the sizes of the blocks as they stand there, too.
+    void check_stored_blocks(const Tag& tag, std::string_view stored, bool is_raw, std::size_t n_blocks) const {
+        const std::size_t n = (3 + n_blocks) * header_size_;
+        const std::string header = is_raw ? std::string(stored.substr(0, n)) : from_base64(stored, n);
+        double n_stored = header.size() < n ? std::numeric_limits<double>::infinity() : 0.0;
+        for (std::size_t i = 3; i < 3 + n_blocks && header.size() == n; ++i) n_stored += stored_number(header, i);
+        if (n_stored > n_bytes())
+            refuse(tag, "the file is damaged: the blocks of the array " + in_quotes(tag.attribute("Name")) +
+                            " end behind the " + count_text(n_bytes()) + " bytes of the file");
+    }
+    [[nodiscard]] double stored_number(std::string_view header, std::size_t i) const {
+        return header_size_ == 8 ? static_cast<double>(binary_value<std::uint64_t>(header, 8 * i, order_))
+                                 : static_cast<double>(binary_value<std::uint32_t>(header, 4 * i, order_));
     }
     /// All values must be there, and be numbers: VTK crashes over fewer. The last offset is the number of vertices of all
     /// cells, for which it makes room.
@@ -230,7 +273,9 @@ private:
         double n_found = 0.0;
         for (auto word = words.next(); !word.empty(); word = words.next()) {
             ++n_found;
-            if (!number_in(word)) refuse(tag, array + " holds " + in_quotes(word) + ", a number is needed");
+            if (!holds(tag.attribute("type"), word))
+                refuse(tag, array + " holds " + in_quotes(word) + ", a number of the type " +
+                                in_quotes(tag.attribute("type")) + " is needed");
             const auto offset = whole_number_in(word);
             if (tag.attribute("Name") == "offsets" && offset &&
                 (*offset < 0 || static_cast<double>(*offset) > ratio_ * n_bytes()))
@@ -243,6 +288,7 @@ private:
 
     const std::string& name_;
     std::string_view contents_, section_;
+    std::set<std::string_view> names_;  ///< of the arrays of this section
     double ratio_ = 1.0, n_in_all_ = 0.0;
     ByteOrder order_ = ByteOrder::little;
     std::size_t header_size_ = 4;  ///< bytes of the numbers before the values

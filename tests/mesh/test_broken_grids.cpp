@@ -9,6 +9,7 @@
 #include "abut/mesh/io/read_vtu.hpp"
 #include "abut/mesh/io/write_vtp.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
 #include "abut/mesh/shapes/surface_shapes.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/surfaces.hpp"
@@ -121,9 +122,14 @@ TEST_CASE("a VTU file whose attributes promise more than its size can hold is re
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">4</DataArray>", ">4000000000</DataArray>")),
                Contains("a.vtu: line 9: the file is damaged: the offset 4000000000 is none of vertices of cells"));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">0 1 2 3<", ">0 1 2 -<")),
-               Contains("a.vtu: line 8: the array 'connectivity' holds '-', a number is needed."));
+               Contains("a.vtu: line 8: the array 'connectivity' holds '-', a number of the type 'Int64' is needed."));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">10<", "><")),
                Contains("line 10: the array 'types' has 0 values, 1 are needed."));
+    for (const std::string type : {"300", "-1", "10.0", "99999999999999999999", "nan"})
+        CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, ">10<", ">" + type + "<")),
+                   Contains("line 10: the array 'types' holds '" + type + "', a number of the type 'UInt8' is needed."));
+    CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "Name=\"types\"", "Name=\"offsets\"")),
+               Contains("line 10: there are two arrays 'offsets'"));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"4e0\"")),
                Contains("a.vtu: line 5: NumberOfPoints is '4e0', a whole number of at least 0 is needed."));
 }
@@ -138,6 +144,26 @@ TEST_CASE("a VTU file that says it is compressed may promise as much as its meth
     CHECK_THAT(said_of("a.vtu", with_points(1100 * compressed.size())), Contains("as NumberOfPoints in "));
     CHECK_THAT(said_of("a.vtu", with_points(10 * compressed.size())),
                Contains("a.vtu: ") && !Contains("as NumberOfPoints in "));
+}
+
+TEST_CASE("a VTU file whose compressed data promise more than it can hold is refused", "[mesh][files][broken]") {
+    const ScratchFolder folder;
+    write_vtu(structured_box<3>({0, 0, 0}, {1, 1, 1}, {1, 1, 1}, CellShape::tetrahedron), folder / "whole.vtu");
+    std::ifstream file(folder / "whole.vtu", std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(file), {}};
+    CHECK(said_of("a.vtu", whole) == "nothing");
+    const auto data = whole.find('_', whole.find("<AppendedData")) + 1;
+    for (const std::size_t number : {0, 1}) {  // of blocks; of bytes of a block
+        std::string damaged = whole;
+        damaged.replace(data + 4 * number, 4, "\xF0\xF0\xF0\x70");
+        CHECK_THAT(said_of("a.vtu", damaged),
+                   Contains("a.vtu: line ") && Contains("the file is damaged: the data of the array 'body' promise "));
+    }
+    std::string damaged = whole;
+    damaged.replace(data + 12, 4, "\xF0\xF0\xF0\x70");  // the bytes of the first block as it is stored
+    CHECK_THAT(said_of("a.vtu", damaged), Contains("the file is damaged: the blocks of the array 'body' end behind the "));
+    CHECK_THAT(said_of("a.vtu", replaced(whole, "raw\">", "raw\"><")),
+               Contains("a.vtu: line ") && Contains("'_' does not follow <AppendedData>"));
 }
 
 TEST_CASE("a grid of equal values, which compress best, is read", "[mesh][files][broken]") {
