@@ -5,7 +5,7 @@
 
 namespace abut::mesh {
 
-/// Reads a Gmsh file, format 2.2 or 4.1, text or binary, with elements of order 1. Coordinates are metres; in 2D they must
+/// Reads a Gmsh file, format 2.0 to 2.2 or 4.1, text or binary, with elements of order 1. Coordinates are metres; in 2D they must
 /// lie in a plane z = constant.
 ///
 /// A body is a physical group of dimension Dim, called by its physical name ("physical_<tag>" without one). Cells outside
@@ -16,6 +16,11 @@ namespace abut::mesh {
 ///
 /// Gmsh has one state per process: the program must not have it open itself (gmsh::initialize) during the call, which would
 /// end that session. Calls from several threads wait for one another.
+///
+/// It is Gmsh's library that reads, in this process: where Gmsh itself crashes over a file, the program ends, and there is no
+/// error to catch. Files of which that is known are refused before Gmsh sees them: binary ones in the other order of bytes
+/// or with sections that are not whole, and all whose heads promise more nodes or elements than the file can hold. A program
+/// that must outlive any file reads it in a process of its own.
 ///
 /// Throws MeshError naming the path, what is wrong and what to do: no file, empty, not a Gmsh file, other version,
 /// truncated, fewer elements than its header promises, Gmsh's own errors, no cells of dimension Dim, a physical group

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
+#include <new>
+#include <stdexcept>
 
 #include "abut/mesh/io/surface_readers.hpp"
 #include "abut/mesh/quality.hpp"
@@ -18,14 +21,33 @@ std::string small_extension(const std::filesystem::path& path) {
 
 SurfaceMesh read_by_extension(const std::filesystem::path& path, const std::string& extension,
                               const SurfaceOptions& options) {
+    if (extension == ".obj") return read_obj_surface(path);
+    if (extension == ".off") return read_off_surface(path);
+    if (extension == ".ply") return read_ply_surface(path);
+    if (extension == ".stl") return read_stl_surface(path);
     if (extension == ".vtp") return read_vtp_surface(path, options);
     if (extension == ".vtu") return read_vtu_surface(path, options);
     if (extension == ".msh") return read_gmsh_surface(path, options);
-    for (const char* known : {".obj", ".off", ".ply", ".stl"})
-        if (extension == known) return read_polygon_file(path, extension);
     throw MeshError(path.string() + ": the extension '" + path.extension().string() +
                     "' is none of a surface file, .obj, .off, .ply, .stl, .vtp, .vtu and .msh can be read. Convert the file "
                     "or rename it.");
+}
+
+SurfaceMesh read_or_refuse(const std::filesystem::path& path, const SurfaceOptions& options) {
+    const std::string name = path.string();
+    try {
+        SurfaceMesh mesh = read_by_extension(path, small_extension(path), options);
+        if (mesh.vertices.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+            throw MeshError(name + ": has " + std::to_string(mesh.vertices.size()) +
+                            " vertices, at most 2147483647 are allowed. Coarsen the surface.");
+        return mesh;
+    } catch (const std::bad_alloc&) {
+        throw MeshError(name +
+                        ": the memory of this machine is too small for what the file holds or promises. See that the "
+                        "file is whole, or coarsen the surface.");
+    } catch (const std::length_error& error) {
+        throw MeshError(name + ": " + error.what());
+    }
 }
 
 void check_displacement(const SurfaceMesh& mesh) {
@@ -39,7 +61,7 @@ void check_displacement(const SurfaceMesh& mesh) {
 
 SurfaceMesh read_surface(const std::filesystem::path& path, const SurfaceOptions& options) {
     const std::string extension = small_extension(path);
-    SurfaceMesh mesh = read_by_extension(path, extension, options);
+    SurfaceMesh mesh = read_or_refuse(path, options);
     mesh.name = path.string();
     if (mesh.faces.size() == 0)
         throw MeshError(mesh.name + ": the surface is empty: the file has 0 faces, at least 1 is needed (" +

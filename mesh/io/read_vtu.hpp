@@ -12,6 +12,9 @@ namespace abut::mesh {
 /// quadrangles and hexahedra. Wedges are accepted in the order that VTK documents and in Gmsh's, as files use both. Cells
 /// of lower dimension are counted in BuildReport::n_ignored_elements. Labels are VTK's cell and point numbers.
 ///
+/// What the attributes promise is weighed against the size of the file before VTK makes room for it: a value takes 2 bytes as
+/// text, those of its type in binary, and compression may shrink that by 1,032 (zlib), 255 (LZ4) or 8,192 (LZMA).
+///
 /// Throws MeshError naming the path, what is wrong and what to do: no file, empty, not a .vtu file, truncated, VTK's own
 /// errors, a cell type that is none of ours, cells of dimension 3 in a mesh of dimension 2, fractional bodies; and
 /// everything that `build_mesh` finds.

@@ -7,8 +7,10 @@
 
 namespace abut::mesh {
 
-/// .obj, .off, .ply, .stl; `extension` in small letters.
-[[nodiscard]] SurfaceMesh read_polygon_file(const std::filesystem::path& path, const std::string& extension);
+[[nodiscard]] SurfaceMesh read_obj_surface(const std::filesystem::path& path);
+[[nodiscard]] SurfaceMesh read_off_surface(const std::filesystem::path& path);
+[[nodiscard]] SurfaceMesh read_ply_surface(const std::filesystem::path& path);
+[[nodiscard]] SurfaceMesh read_stl_surface(const std::filesystem::path& path);
 [[nodiscard]] SurfaceMesh read_vtp_surface(const std::filesystem::path& path, const SurfaceOptions& options);
 [[nodiscard]] SurfaceMesh read_vtu_surface(const std::filesystem::path& path, const SurfaceOptions& options);
 [[nodiscard]] SurfaceMesh read_gmsh_surface(const std::filesystem::path& path, const SurfaceOptions& options);

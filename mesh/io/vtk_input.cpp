@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "abut/base/messages.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/mesh/io/file.hpp"
 #include "abut/mesh/io/vtk_messages.hpp"
+#include "abut/mesh/io/vtk_promises.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
@@ -30,12 +32,24 @@ void check_is_whole(const std::string& name, const std::string& contents, const 
                         " bytes. Write the mesh again.");
 }
 
+void check_contents(const std::filesystem::path& path, const std::string& type, const std::string& what,
+                    const std::string& extension) {
+    const std::string contents = file_contents(path);
+    check_is_whole(path.string(), contents, type, what, extension);
+    check_vtk_promises(path.string(), contents);
+}
+
 template <class Reader>
 auto read_with(const std::string& name) {
     const VtkMessages messages;
     vtkNew<Reader> reader;
     reader->SetFileName(name.c_str());
-    reader->Update();
+    try {
+        reader->Update();
+    } catch (const std::exception& error) {
+        throw MeshError(name + ": cannot be read: VTK ends with " + error.what() +
+                        ", as where the file promises more than the memory of this machine holds. Write the mesh again.");
+    }
     if (const std::string said = messages.all(); !said.empty())
         throw MeshError(name + ": cannot be read: VTK says: " + said + ". Write the mesh again.");
     return vtkSmartPointer(reader->GetOutput());
@@ -44,12 +58,12 @@ auto read_with(const std::string& name) {
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> read_unstructured_grid(const std::filesystem::path& path) {
-    check_is_whole(path.string(), file_contents(path), "UnstructuredGrid", "unstructured grid", ".vtu");
+    check_contents(path, "UnstructuredGrid", "unstructured grid", ".vtu");
     return read_with<vtkXMLUnstructuredGridReader>(path.string());
 }
 
 vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& path) {
-    check_is_whole(path.string(), file_contents(path), "PolyData", "poly data file", ".vtp");
+    check_contents(path, "PolyData", "poly data file", ".vtp");
     return read_with<vtkXMLPolyDataReader>(path.string());
 }
 

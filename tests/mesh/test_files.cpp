@@ -339,7 +339,7 @@ TEST_CASE("what is wrong inside a Gmsh file is said with the numbers of the file
     };
     CHECK(said_of(small_msh()) == "nothing");
     CHECK_THAT(said_of(replaced(small_msh(), "2.2 0 8", "1.0 0 8")),
-               Contains("has the Gmsh format '1.0', 2.2 and 4.1 can be read."));
+               Contains("has the Gmsh format '1.0', 2.0 to 2.2 and 4.1 can be read."));
     CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 13 12 14\n")),
                Contains("a.msh: cell 22 (tetrahedron) is inverted: its measure is -0.166667 m^3, more than ") &&
                    Contains("counter-clockwise."));

@@ -137,12 +137,13 @@ TEST_CASE("a truncated surface file is refused, in any format", "[mesh][surface]
         return whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size())));
     };
     save(folder / "a.off", cut(cube_off));
-    CHECK_THAT(complaint_about(folder / "a.off"), Contains("a.off: cannot be read as .off: behind ") &&
-                                                      Contains("ends early") && Contains("write the mesh again."));
+    CHECK_THAT(complaint_about(folder / "a.off"),
+               Contains("a.off: line ") && Contains("write the mesh again.", Catch::CaseSensitive::No));
     save(folder / "a.ply", cut(cube_ply));
     CHECK_THAT(complaint_about(folder / "a.ply"), Contains("a.ply: "));
     save(folder / "a.stl", cut(ascii_stl(ball)));
-    CHECK_THAT(complaint_about(folder / "a.stl"), Contains("a.stl: cannot be read as .stl: behind "));
+    CHECK_THAT(complaint_about(folder / "a.stl"),
+               Contains("a.stl: line ") && Contains("write the mesh again.", Catch::CaseSensitive::No));
     save(folder / "b.stl", cut(binary_stl(ball)));
     CHECK_THAT(complaint_about(folder / "b.stl"),
                Contains("b.stl: the file is truncated: 80 triangles need 4084 bytes, it has "));
@@ -171,12 +172,14 @@ TEST_CASE("files that are missing, empty, garbage or of no known kind are refuse
 TEST_CASE("text that promises more than it holds, or means no numbers, is refused", "[mesh][surface]") {
     const ScratchFolder folder;
     save(folder / "a.off", "OFF\n2000000000 2000000000 0\n0 0 0\n");
-    CHECK_THAT(complaint_about(folder / "a.off"),
-               Contains("a.off: the file is damaged: it promises 2000000000 vertices and 2000000000 faces in 34 bytes."));
+    CHECK_THAT(
+        complaint_about(folder / "a.off"),
+        Contains("a.off: line 2: the file is damaged: it promises 2000000000 vertices and 2000000000 faces in 34 bytes."));
     save(folder / "a.obj", "v 0 0 zero\nf 1 1 1\n");
-    CHECK_THAT(complaint_about(folder / "a.obj"), Contains("holds a word where a number should be"));
+    CHECK_THAT(complaint_about(folder / "a.obj"),
+               Contains("a.obj: line 1: 'zero' is no number of a double, a coordinate is needed."));
     save(folder / "b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
-    CHECK_THAT(complaint_about(folder / "b.obj"), Contains("names a vertex that is not there"));
+    CHECK_THAT(complaint_about(folder / "b.obj"), Contains("b.obj: line 4: the face names vertex 9, the file has 3."));
     save(folder / "c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     CHECK_THAT(complaint_about(folder / "c.obj"), Contains("c.obj: "));
     save(folder / "d.ply",
