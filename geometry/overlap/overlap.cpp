@@ -134,7 +134,7 @@ bool is_thin(const Polygon& polygon) {
     for (int i = 1; i + 1 < polygon.size; ++i)
         twice_area += cross(polygon.vertices[i] - polygon.vertices[0], polygon.vertices[i + 1] - polygon.vertices[0]);
     const double size = size_of(polygon);
-    return twice_area < 2.0 * thin_face * (size * size);
+    return size == 0.0 || twice_area < 2.0 * thin_face * (size * size);  // a point cuts nothing off
 }
 
 // Whether all of `other` lies more than `margin` [m^2], the rounding error of a height, on the outer side of edge i.
@@ -253,6 +253,7 @@ OverlapArea<3> clipped_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> fa
     if (is_thin(polygon_1) || is_thin(polygon_2)) {
         used = Arithmetic::exact;
         area = exact_overlap_area(face_1, face_2, shift).area;
+        if (area == 0.0) return {};  // one of them is a point or a line
     }
     const double coincidence_distance = coincidence_tolerance * std::max(size_of(polygon_1), size_of(polygon_2));
     return {std::max(area, std::numeric_limits<double>::min()),

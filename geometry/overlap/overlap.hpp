@@ -35,7 +35,7 @@ struct OverlapArea {
 /// size, matching meshes) counts half, and not at all if it runs the other way: such faces lie side by side. Zero area
 /// gives a zero derivative. docs/method.md, Contact. `exact` takes the half only where the edges are exactly collinear: on
 /// meshes that match up to rounding the derivatives of the two methods differ. Repeated vertices and straight corners are
-/// allowed; a face without area shares none.
+/// allowed; a face without area (a point, a line) shares none.
 template <int Dim>
 [[nodiscard]] OverlapArea<Dim> overlap_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
                                             const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
