@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/contact/admission.hpp"
 #include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/reconstruction.hpp"
 #include "abut/contact/messages.hpp"
@@ -39,6 +40,7 @@ public:
         : surface_(surface),
           options_(checked(options)),
           candidates_(surface, options.search),
+          admission_(surface_, list_, options.area),
           pieces_(options),
           law_(options) {}
 
@@ -95,7 +97,7 @@ public:
     const ContactStep<Dim>& integrate(const FacePath<Dim>& path) {
         require_list();
         check_path<Dim>(surface_, faces_, path);
-        update_admission(path.displacement_0);
+        report_.inadmissible_overlaps = admission_.update(store_.memory(), path.displacement_0);
         apply_law(path);
         report_step();
         return step_;
@@ -105,7 +107,7 @@ public:
                                    std::span<const Vector<Dim>> gradient_1) {
         require_list();
         check_path<Dim>(surface_, faces_, {displacement_0, displacement_1, gradient_1, gradient_1});
-        update_admission(displacement_0);
+        report_.inadmissible_overlaps = admission_.update(store_.memory(), displacement_0);
         apply_law({displacement_1, displacement_1, gradient_1, gradient_1});
         report_step();
         return step_;
@@ -208,7 +210,7 @@ private:
     /// A pair in contact stays in the list however deep it is.
     void keep_contacts(std::span<const Vector<Dim>> u_0) {
         for (std::int32_t p = 0; p < list_.size(); ++p)
-            if (is_admitted(p) && is_pressed_in(list_[p], u_0[list_[p].face_1], u_0[list_[p].face_2]))
+            if (is_admitted(p) && admission_.is_pressed_in(list_[p], u_0[list_[p].face_1], u_0[list_[p].face_2]))
                 found_.push_back(store_.pairs()[static_cast<std::size_t>(p)]);
     }
 
@@ -243,37 +245,11 @@ private:
                 {.face_1 = face_1, .face_2 = face_2});
     }
 
-    /// Whether A > 0 and g < 0.
-    [[nodiscard]] bool is_pressed_in(const ContactPair<Dim>& pair, const Vector<Dim>& u_1, const Vector<Dim>& u_2) const {
-        const auto at = list_.position(surface_, pair, u_1, u_2);
-        return at.gap < 0.0 && list_.overlap(pair, at.tangential_offset, options_.area).area > 0.0;
-    }
-
-    /// A pair that was not in the list before and already overlaps is no contact, unless the run only begins.
     [[nodiscard]] bool is_admitted_at_first(const ContactPair<Dim>& pair, std::span<const Vector<Dim>> u_0) {
-        const Vector<Dim>&u_1 = u_0[pair.face_1], &u_2 = u_0[pair.face_2];
-        const bool is_shallow = list_.position(surface_, pair, u_1, u_2).gap > -pair.admission_depth;
-        if (!has_searched_ || !is_pressed_in(pair, u_1, u_2)) return is_shallow;
-        if (is_shallow) ++report_.missed_contacts;
-        return false;
-    }
-
-    /// Where A min(g, 0) = 0 the flag may change without a change of the potential: there, and only there, it is decided again.
-    void update_admission(std::span<const Vector<Dim>> displacement) {
-        report_.inadmissible_overlaps = 0;
-        const std::span<PairMemory> memory = store_.memory();
-        for (std::int32_t p = 0; p < list_.size(); ++p) {
-            const ContactPair<Dim>& pair = list_[p];
-            bool& admitted = memory[static_cast<std::size_t>(p)].admitted;
-            const auto at = list_.position(surface_, pair, displacement[pair.listed_1], displacement[pair.listed_2]);
-            const bool wanted = at.gap > -pair.admission_depth;
-            if (wanted == admitted && wanted) continue;
-            if (at.gap >= 0.0 || list_.stay_apart(pair, at.tangential_offset, at.tangential_offset) ||
-                list_.overlap(pair, at.tangential_offset, options_.area).area == 0.0)
-                admitted = wanted;
-            else if (!admitted)
-                ++report_.inadmissible_overlaps;
-        }
+        using First = typename Admission<Dim>::First;
+        const First first = admission_.decide_first(pair, u_0, !has_searched_);
+        if (first == First::missed) ++report_.missed_contacts;
+        return first == First::admitted;
     }
 
     void require_list() const {
@@ -288,16 +264,8 @@ private:
     }
 
     void report_step() {
-        const StepReport& step = step_.report;
-        report_.active_pairs = static_cast<std::int64_t>(step_.pairs.size());
-        report_.active_pairs_max = std::max(report_.active_pairs_max, report_.active_pairs);
-        report_.events += step.events;
-        report_.compression_max = std::max(report_.compression_max, step.compression);
-        report_.sliding_ratio_max = std::max(report_.sliding_ratio_max, step.sliding_ratio);
-        report_.slipped_pairs += step.slipped_pairs;
-        report_.slipped_compression_max = std::max(report_.slipped_compression_max, step.slipped_compression);
-        if (step.compression > options_.compression_warning) ++report_.compressed_steps;
-        if (step.compression > options_.compression_limit) refuse_depth();
+        count_step(report_, step_, options_.compression_warning);
+        if (step_.report.compression > options_.compression_limit) refuse_depth();
     }
 
     [[noreturn]] void refuse_depth() const {
@@ -317,6 +285,7 @@ private:
     bool has_searched_ = false;  // once at least: the run has begun
     bool list_holds_ = false;    // the last search came to its end
     PairList<Dim> list_;
+    Admission<Dim> admission_;
     PairStore store_;  // in the order of the list
     std::vector<SurfaceFace> faces_;
     FaceCoupling<Dim> coupling_;

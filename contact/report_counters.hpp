@@ -1,5 +1,10 @@
 #pragma once
 // Private to the layer.
+#include <algorithm>
+#include <cstdint>
+
+#include "abut/contact/report.hpp"
+#include "abut/contact/step.hpp"
 
 namespace abut::contact {
 
@@ -10,6 +15,20 @@ void for_each_counter(Report& report, const Visit& visit) {
     visit(report.events), visit(report.rebuilds), visit(report.missed_contacts), visit(report.inadmissible_overlaps);
     visit(report.compressed_steps), visit(report.compression_max), visit(report.sliding_ratio_max);
     visit(report.slipped_pairs), visit(report.slipped_compression_max);
+}
+
+/// Adds what a step did.
+template <int Dim>
+void count_step(ContactReport& report, const ContactStep<Dim>& step, double compression_warning) {
+    const StepReport& of_step = step.report;
+    report.active_pairs = static_cast<std::int64_t>(step.pairs.size());
+    report.active_pairs_max = std::max(report.active_pairs_max, report.active_pairs);
+    report.events += of_step.events;
+    report.compression_max = std::max(report.compression_max, of_step.compression);
+    report.sliding_ratio_max = std::max(report.sliding_ratio_max, of_step.sliding_ratio);
+    report.slipped_pairs += of_step.slipped_pairs;
+    report.slipped_compression_max = std::max(report.slipped_compression_max, of_step.slipped_compression);
+    if (of_step.compression > compression_warning) ++report.compressed_steps;
 }
 
 }  // namespace abut::contact
