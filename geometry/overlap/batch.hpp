@@ -30,6 +30,7 @@ struct AreaBatch {
 [[nodiscard]] AreaBatch overlap_areas(const TriangleBatch& triangles);
 
 /// `overlap_area` of one pair by the method `fast`, for what the batch leaves undecided. Adds the pair to `counts`.
+/// Throws BadInput for numbers that are not finite, which the batch never decides on.
 [[nodiscard]] OverlapArea<3> counted_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2,
                                                   const PlaneVector<3>& shift, DecisionCounts& counts);
 

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/geometry/overlap/batch.hpp"
 #include "abut/geometry/overlap/kernels.hpp"
 
@@ -14,6 +17,35 @@ namespace abut::geometry {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+template <int Dim>
+std::string text_of(const PlaneVector<Dim>& p) {
+    if constexpr (Dim == 2)
+        return number(p.x()) + " m";
+    else
+        return "(" + number(p.x()) + ", " + number(p.y()) + ") m";
+}
+
+template <int Dim>
+[[noreturn]] void refuse_not_finite(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift) {
+    for (const int face : {1, 2}) {
+        const ProjectedFace<Dim> corners = face == 1 ? face_1 : face_2;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (!corners[i].allFinite())
+                throw BadInput("overlap: corner " + std::to_string(i) + " of face " + std::to_string(face) + " is at " +
+                               text_of<Dim>(corners[i]) + "; coordinates must be finite. Correct the face.");
+    }
+    throw BadInput("overlap: the shift is " + text_of<Dim>(shift) + "; it must be finite. Correct it.");
+}
+
+// Exact arithmetic knows finite numbers alone, and comparisons would let the others pass as faces that lie apart.
+template <int Dim>
+void check_finite(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2, const PlaneVector<Dim>& shift) {
+    PlaneVector<Dim> zero = 0.0 * shift;  // NaN where a number is not finite
+    for (const PlaneVector<Dim>& corner : face_1) zero += 0.0 * corner;
+    for (const PlaneVector<Dim>& corner : face_2) zero += 0.0 * corner;
+    if (!(zero.array() == 0.0).all()) refuse_not_finite<Dim>(face_1, face_2, shift);
+}
 
 // What rounding takes off a + b: a + b = fl(a + b) + sum_error(a, b) exactly (Knuth).
 double sum_error(double a, double b) {
@@ -294,11 +326,13 @@ OverlapArea<Dim> overlap_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face
                               AreaMethod method) {
     assert(face_1.size() >= Dim && face_1.size() <= max_polygon_vertices);
     assert(face_2.size() >= Dim && face_2.size() <= max_polygon_vertices);
+    check_finite<Dim>(face_1, face_2, shift);
     return method == AreaMethod::fast ? fast_overlap_area(face_1, face_2, shift) : exact_overlap_area(face_1, face_2, shift);
 }
 
 template <>
 std::vector<PlaneVector<2>> overlap_polygon<2>(ProjectedFace<2> face_1, ProjectedFace<2> face_2) {
+    check_finite<2>(face_1, face_2, PlaneVector<2>::Zero());
     if (!interiors_meet(face_1, face_2, 0.0)) return {};
     return {PlaneVector<2>(std::max(face_1[0].x(), face_2[0].x())), PlaneVector<2>(std::min(face_1[1].x(), face_2[1].x()))};
 }
@@ -306,6 +340,7 @@ std::vector<PlaneVector<2>> overlap_polygon<2>(ProjectedFace<2> face_1, Projecte
 template <>
 std::vector<PlaneVector<3>> overlap_polygon<3>(ProjectedFace<3> face_1, ProjectedFace<3> face_2) {
     const PlaneVector<3> no_shift = PlaneVector<3>::Zero();
+    check_finite<3>(face_1, face_2, no_shift);
     if (fast_overlap_area(face_1, face_2, no_shift).area == 0.0) return {};
     const Polygon polygon_1(face_1, face_1[0], no_shift), polygon_2(face_2, face_1[0], no_shift);
     std::array<Clipped, 2> buffers;
@@ -322,6 +357,7 @@ std::vector<PlaneVector<3>> overlap_polygon<3>(ProjectedFace<3> face_1, Projecte
 
 OverlapArea<3> counted_overlap_area(ProjectedFace<3> face_1, ProjectedFace<3> face_2, const PlaneVector<3>& shift,
                                     DecisionCounts& counts) {
+    check_finite<3>(face_1, face_2, shift);
     Arithmetic used = Arithmetic::doubles;
     const OverlapArea<3> shared = clipped_overlap_area(face_1, face_2, shift, used);
     ++(used == Arithmetic::exact ? counts.by_exact_arithmetic : counts.by_scalar_path);

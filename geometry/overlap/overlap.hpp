@@ -35,13 +35,15 @@ struct OverlapArea {
 /// size, matching meshes) counts half, and not at all if it runs the other way: such faces lie side by side. Zero area
 /// gives a zero derivative. docs/method.md, Contact. `exact` takes the half only where the edges are exactly collinear: on
 /// meshes that match up to rounding the derivatives of the two methods differ. Repeated vertices and straight corners are
-/// allowed; a face without area (a point, a line) shares none.
+/// allowed; a face without area (a point, a line) shares none. Throws BadInput for a coordinate or a shift that is not
+/// finite.
 template <int Dim>
 [[nodiscard]] OverlapArea<Dim> overlap_area(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2,
                                             const PlaneVector<Dim>& shift, AreaMethod method = AreaMethod::fast);
 
 /// The patch itself: its corners, counter-clockwise (3D; convex up to rounding, with corners that may repeat), or its two
 /// ends in increasing order (2D). Empty where the faces share no area, which is decided exactly; the corners are rounded.
+/// Throws BadInput for a coordinate that is not finite.
 template <int Dim>
 [[nodiscard]] std::vector<PlaneVector<Dim>> overlap_polygon(ProjectedFace<Dim> face_1, ProjectedFace<Dim> face_2);
 
@@ -63,7 +65,7 @@ struct DecisionCounts {
 
 /// `overlap_area` of many pairs of triangles by the method `fast`, several times quicker: pairs[i] gives areas[i]. The same
 /// decisions, and the same numbers up to rounding. What a pair gives depends on that pair alone. Throws
-/// BadInput if the sizes differ.
+/// BadInput if the sizes differ, and for a coordinate or a shift that is not finite; part of `areas` may be written then.
 DecisionCounts overlap_areas(std::span<const TrianglePair> pairs, std::span<OverlapArea<3>> areas);
 
 /// Appends to `events` the parameters tau in (0, 1) at which A_12 may change its formula while the shift goes straight from

@@ -1,11 +1,14 @@
-// Faces without area.
+// Faces that are none: without area, or with numbers that are not finite.
 #include <array>
 #include <catch2/catch.hpp>
+#include <limits>
 
+#include "abut/base/error.hpp"
 #include "polygons.hpp"
 
 using namespace abut;
 using namespace abut::test;
+using Catch::Matchers::Contains;
 using geometry::overlap_area;
 using geometry::overlap_polygon;
 using geometry::TrianglePair;
@@ -95,4 +98,43 @@ TEST_CASE("2D: a segment of no length shares nothing", "[overlap][2d]") {
                 CHECK(overlap_area<2>(segment(0, 1), segment(at, at), PlaneVector<2>(shift), method).area == 0.0);
                 CHECK(overlap_polygon<2>(segment(at, at), segment(0, 1)).empty());
             }
+}
+
+TEST_CASE("a coordinate or a shift that is not finite is refused, in any method", "[overlap][batch][errors]") {
+    const double bad = GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                                -std::numeric_limits<double>::infinity());
+    const TrianglePair good = triangles({{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {2, 0}, {0, 2}}, {0.1, 0.1});
+    const auto check_refused = [](const TrianglePair& pair, const std::string& says) {
+        for (const AreaMethod method : methods) {
+            const auto overlap = [&] { return overlap_area<3>(pair.face_1, pair.face_2, pair.shift, method); };
+            CHECK_THROWS_AS(overlap(), BadInput);
+            CHECK_THROWS_WITH(overlap(), Contains(says) && Contains("must be finite"));
+        }
+        std::array<OverlapArea<3>, 1> areas;
+        CHECK_THROWS_WITH(geometry::overlap_areas(std::span(&pair, 1), areas), Contains(says));
+    };
+    for (int axis = 0; axis < 2; ++axis) {
+        for (int i = 0; i < 3; ++i) {
+            TrianglePair pair = good;
+            pair.face_1[i][axis] = bad;
+            check_refused(pair, "corner " + std::to_string(i) + " of face 1");
+            CHECK_THROWS_AS(overlap_polygon<3>(pair.face_1, pair.face_2), BadInput);
+            pair = good;
+            pair.face_2[i][axis] = bad;
+            check_refused(pair, "corner " + std::to_string(i) + " of face 2");
+            CHECK_THROWS_AS(overlap_polygon<3>(pair.face_1, pair.face_2), BadInput);
+        }
+        TrianglePair pair = good;
+        pair.shift[axis] = bad;
+        check_refused(pair, "the shift");
+    }
+    for (const AreaMethod method : methods) {
+        const auto overlap = [&](const Segment& face_1, const Segment& face_2, double shift) {
+            return overlap_area<2>(face_1, face_2, PlaneVector<2>(shift), method);
+        };
+        CHECK_THROWS_WITH(overlap(segment(0, bad), segment(0, 1), 0.0), Contains("corner 1 of face 1"));
+        CHECK_THROWS_WITH(overlap(segment(0, 1), segment(bad, 1), 0.0), Contains("corner 0 of face 2"));
+        CHECK_THROWS_WITH(overlap(segment(0, 1), segment(0, 1), bad), Contains("the shift"));
+    }
+    CHECK_THROWS_AS(overlap_polygon<2>(segment(0, bad), segment(0, 1)), BadInput);
 }
