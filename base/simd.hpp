@@ -1,7 +1,11 @@
 #pragma once
 // Private to the sources of the layers.
-#include <Eigen/Core>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -38,11 +42,19 @@ inline void store_lanes(Lanes lanes, double* values) { std::memcpy(values, &lane
     return std::bit_cast<Lanes>(std::bit_cast<LaneMask>(a) & INT64_C(0x7fffffffffffffff));
 }
 
+/// Rounded correctly for every number of lanes: Eigen's of eight is not, it is an estimate improved twice. A loop over
+/// std::sqrt would ask for errno.
 [[nodiscard]] inline Lanes square_root(Lanes a) {
-    Eigen::Array<double, lane_count, 1> values;  // knows the instruction; a loop over std::sqrt would ask for errno
-    store_lanes(a, values.data());
-    values = values.sqrt();
-    return load_lanes(values.data());
+#if defined(__AVX512F__)
+    return _mm512_sqrt_pd(a);
+#elif defined(__AVX__)
+    return _mm256_sqrt_pd(a);
+#elif defined(__SSE2__)
+    return _mm_sqrt_pd(a);
+#else
+    for (int k = 0; k < lane_count; ++k) a[k] = std::sqrt(a[k]);
+    return a;
+#endif
 }
 
 /// Bit k is set where lane k says yes.

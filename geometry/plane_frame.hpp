@@ -20,8 +20,13 @@ public:
     /// Shape (Dim, Dim - 1), one tangent per column.
     [[nodiscard]] const Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign>& tangents() const { return tangents_; }
     [[nodiscard]] PlaneVector<Dim> project(const Vector<Dim>& point) const { return tangents_.transpose() * point; }
-    /// The vector of space, orthogonal to the normal, that projects to `in_plane`.
-    [[nodiscard]] Vector<Dim> lift(const PlaneVector<Dim>& in_plane) const { return tangents_ * in_plane; }
+    /// The vector of space, orthogonal to the normal, that projects to `in_plane`. Products rounded before they are added:
+    /// Eigen's matrix times vector fuses the two where the processor can, and gives other bits there.
+    [[nodiscard]] Vector<Dim> lift(const PlaneVector<Dim>& in_plane) const {
+        Vector<Dim> lifted = in_plane[0] * tangents_.col(0);
+        if constexpr (Dim == 3) lifted += in_plane[1] * tangents_.col(1);
+        return lifted;
+    }
 
 private:
     static Eigen::Matrix<double, Dim, Dim - 1, Eigen::DontAlign> tangents_of(const Vector<Dim>& normal) {
