@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
-#include "abut/base/error.hpp"
 #include "abut/base/simd.hpp"
+#include "abut/contact/overlap_checks.hpp"
 #include "abut/contact/pair.hpp"
 #include "abut/geometry/overlap/batch.hpp"
 #include "abut/geometry/plane_frame.hpp"
@@ -48,34 +47,6 @@ struct Scene {
         return surface.face_offsets[face + 1] - surface.face_offsets[face];
     }
 };
-
-template <int Dim>
-bool are_faces(const SurfaceView<Dim>& surface, IndexPair pair) {
-    return pair.first >= 0 && pair.first < surface.size() && pair.second >= 0 && pair.second < surface.size();
-}
-
-template <int Dim>
-[[noreturn]] void refuse_pair(const SurfaceView<Dim>& surface, IndexPair pair, const std::string& name) {
-    const bool is_first = pair.first < 0 || pair.first >= surface.size();
-    throw BadInput("overlaps: " + name + " names face " + std::to_string(is_first ? pair.first : pair.second) +
-                       ", but there are " + std::to_string(surface.size()) + " faces. Correct `pairs`.",
-                   {.face_1 = pair.first, .face_2 = pair.second});
-}
-
-template <int Dim>
-void check_pairs(const SurfaceView<Dim>& surface, std::span<const IndexPair> pairs) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-        if (!are_faces(surface, pairs[i])) refuse_pair(surface, pairs[i], "pair " + std::to_string(i));
-}
-
-template <int Dim>
-void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement) {
-    check_sizes(surface);
-    if (displacement.size() != surface.area.size())
-        throw BadInput("overlaps: `displacement` has " + std::to_string(displacement.size()) + " entries, " +
-                           std::to_string(surface.size()) + " are needed: one per face.",
-                       {.value = static_cast<double>(displacement.size()), .allowed = static_cast<double>(surface.size())});
-}
 
 // One pair of any two faces, seen along its normal from a corner of face 1.
 template <int Dim>
@@ -337,7 +308,7 @@ template <int Dim>
 void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                    std::span<const IndexPair> pairs, AreaMethod method, Overlaps<Dim>& overlaps) {
     check_arrays(surface, displacement);
-    check_pairs(surface, pairs);
+    check_pairs(surface, displacement, pairs);
 
     overlaps.found.clear();
     overlaps.report = {};
@@ -367,7 +338,7 @@ template <int Dim>
 std::vector<Vector<Dim>> overlap_polygon(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                                          IndexPair pair) {
     check_arrays(surface, displacement);
-    if (!are_faces(surface, pair)) refuse_pair(surface, pair, "the pair");
+    check_pair(surface, displacement, pair);
     return polygon_of(Scene<Dim>{surface, displacement}, pair);
 }
 
@@ -376,7 +347,7 @@ std::vector<std::vector<Vector<Dim>>> overlap_polygons(const SurfaceView<Dim>& s
                                                        std::span<const Vector<Dim>> displacement,
                                                        std::span<const IndexPair> pairs) {
     check_arrays(surface, displacement);
-    check_pairs(surface, pairs);
+    check_pairs(surface, displacement, pairs);
     const Scene<Dim> scene{surface, displacement};
     std::vector<std::vector<Vector<Dim>>> polygons;
     polygons.reserve(pairs.size());

@@ -39,9 +39,10 @@ struct Overlaps {
 /// The narrow phase: of every pair of faces that faces each other, displaced, the overlap; pairs that share no area give
 /// none. Corners are projected in double arithmetic; whether the projected faces overlap is then decided exactly, by both
 /// methods. Faces that match to the last digit, displaced by the same or along an axis, meet in corners and edges to the
-/// last digit also in projection. The same bits for any number of threads. `displacement` has one vector per face [m].
-/// `surface` must be one that `check` lets pass. Throws BadInput for arrays whose sizes disagree and for a
-/// pair that names a face that does not exist.
+/// last digit also in projection. The same bits for any number of threads, compiled for any x86-64 processor.
+/// `displacement` has one vector per face [m]. `surface` must be one that `check` lets pass. Throws BadInput for arrays
+/// whose sizes disagree and for a pair that names a face that does not exist, Diverged naming the face if one that a pair
+/// names has a displacement that is not finite.
 template <int Dim>
 [[nodiscard]] Overlaps<Dim> find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                                           std::span<const geometry::IndexPair> pairs,

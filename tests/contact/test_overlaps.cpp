@@ -314,3 +314,34 @@ TEMPLATE_TEST_CASE_SIG("overlaps of wrong arrays or of faces that do not exist a
     broken.stiffness.pop_back();
     CHECK_THROWS_WITH(find<Dim>(broken, at_rest(surface), {}), Contains("`stiffness` has 3 entries"));
 }
+
+TEMPLATE_TEST_CASE_SIG(
+    "a displacement that is not finite is refused with its face if a pair names it, and no pair is dropped",
+    "[contact][overlaps][errors]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(8);
+    const int n = GENERATE(2, 40);  // few pairs of many faces are looked up, of few faces all displacements are
+    const auto surface = random_triangles<Dim>(random, n);
+    const auto method = GENERATE(AreaMethod::fast, AreaMethod::exact);
+    const double bad = GENERATE(std::numeric_limits<double>::quiet_NaN(), rigid);
+    const auto check_refused = [&](IndexPair pair, std::int32_t face) {
+        auto u = at_rest(surface);
+        u[face][Dim - 1] = bad;
+        const std::vector<IndexPair> pairs{{1, n}, pair};
+        const std::string says = "the displacement of face " + std::to_string(face) + " (body";
+        CHECK_THROWS_AS(find(surface, u, pairs, method), Diverged);
+        CHECK_THROWS_WITH(find(surface, u, pairs, method), Contains(says) && Contains("not finite"));
+        CHECK_THROWS_WITH(contact::overlap_polygon<Dim>(surface.view(), u, pair), Contains(says) && Contains("not finite"));
+        CHECK_THROWS_WITH(contact::overlap_polygons<Dim>(surface.view(), u, pairs),
+                          Contains(says) && Contains("not finite"));
+    };
+    check_refused({0, n}, 0);
+    check_refused({0, n}, n);
+    check_refused({0, 1}, 0);  // these do not face each other
+    auto u = at_rest(surface);
+    const auto before = find<Dim>(surface, u, {{1, n}}, method);
+    u[0][0] = bad;  // no pair names it
+    const auto after = find<Dim>(surface, u, {{1, n}}, method);
+    REQUIRE(after.found.size() == before.found.size());
+    CHECK(std::equal(after.found.begin(), after.found.end(), before.found.begin(), same_bits<Dim>));
+    CHECK(contact::overlap_polygon<Dim>(surface.view(), u, {1, n}).empty() == before.found.empty());
+}
