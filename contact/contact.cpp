@@ -83,7 +83,7 @@ public:
         list_.list_faces(faces_);
         clear_step();
         coupling_ = coupling_of(faces_);
-        check_coupling(coupling_, faces_.size());
+        check_coupling<Dim>(surface_, faces_, coupling_);
         list_holds_ = has_searched_ = true;
         ++report_.rebuilds;
         report_.candidates = list_.size();

@@ -68,7 +68,7 @@ public:
     [[nodiscard]] bool is_valid_for(double motion) const;
 
     /// Makes a new list for a step from u_0 to u_1, both of all faces (n_faces) [m]. Throws what CandidateSearch::search
-    /// throws, and BadInput for a coupling out of range; no list holds then until a search ends well.
+    /// throws, and BadInput for a coupling that `FaceCoupling` does not allow; no list holds then until a search ends well.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf<Dim>& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.

@@ -1,12 +1,123 @@
 #include "abut/contact/host_checks.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include "abut/base/error.hpp"
 #include "abut/contact/messages.hpp"
 
 namespace abut::contact {
+namespace {
+
+/// Rounding of a host's own sums, in parts of the largest entry of the blocks that are compared.
+constexpr double rounding = 1e-10;
+
+template <int Dim>
+struct CouplingCheck {
+    const SurfaceView<Dim>& surface;
+    std::span<const SurfaceFace> faces;
+    const FaceCoupling<Dim>& coupling;
+
+    void sizes() const {
+        const std::size_t n = coupling.columns.size(), n_faces = faces.size();
+        if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 ||
+            static_cast<std::size_t>(coupling.offsets.back()) != n ||
+            !std::is_sorted(coupling.offsets.begin(), coupling.offsets.end()))
+            refuse("has " + std::to_string(coupling.offsets.size()) + " offsets for " + std::to_string(n_faces) +
+                       " faces and " + std::to_string(n) +
+                       " columns; they must be one more than faces and rise from 0 to the number of columns.",
+                   {.value = static_cast<double>(coupling.offsets.size()), .allowed = static_cast<double>(n_faces + 1)});
+        if (coupling.blocks.size() != n)
+            refuse("has " + std::to_string(coupling.blocks.size()) + " blocks for " + std::to_string(n) +
+                       " columns; give one each.",
+                   {.value = static_cast<double>(coupling.blocks.size()), .allowed = static_cast<double>(n)});
+    }
+
+    /// Of row f: within range, increasing, finite, and f itself among them unless it is rigid: it takes no correction.
+    void columns_of(std::size_t f) const {
+        const std::int32_t n_faces = static_cast<std::int32_t>(faces.size());
+        for (std::int32_t i = begin(f); i < end(f); ++i) {
+            const std::int32_t column = coupling.columns[at(i)];
+            if (column < 0 || column >= n_faces)
+                refuse(row(f) + "names face " + std::to_string(column) + " of " + std::to_string(n_faces) +
+                           "; columns are indices into Contact::faces.",
+                       {.face_1 = face(f), .value = static_cast<double>(column), .allowed = static_cast<double>(n_faces)});
+            if (i > begin(f) && column <= coupling.columns[at(i) - 1])
+                refuse(row(f) + "has column " + std::to_string(column) + " after " +
+                           std::to_string(coupling.columns[at(i) - 1]) +
+                           "; columns must increase within a row. Sort them, and add up blocks of one column.",
+                       {.face_1 = face(f), .face_2 = face(at(column))});
+            if (!block(i).allFinite())
+                refuse(row(f) + "has a block with column " + std::to_string(column) +
+                           " that is not finite. Check the stiffness of the cells behind these faces.",
+                       {.face_1 = face(f), .face_2 = face(at(column))});
+        }
+        if (find(f, f) < 0 && !surface.is_rigid(face(f)))
+            refuse(row(f) + "lacks the column of the face itself, " + std::to_string(f) +
+                       ". Give its block Q_ff; only rows of rigid faces may be empty.",
+                   {.face_1 = face(f)});
+    }
+
+    /// A correction never takes energy out: no eigenvalue of Q_ff is negative.
+    void own_block(std::size_t f) const {
+        const std::int32_t own = find(f, f);
+        if (own < 0) return;
+        const Matrix<Dim> symmetric = 0.5 * (block(own) + block(own).transpose());
+        const double least = symmetric.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+        const double allowed = -rounding * largest_entry(own);
+        if (least < allowed)
+            refuse(row(f) + "has a block on the diagonal with the eigenvalue " + number(least) + " N/m, " + number(allowed) +
+                       " is allowed: it must be positive semi-definite. Q is the second derivative of the energy; check "
+                       "its sign.",
+                   {.face_1 = face(f), .value = least, .allowed = allowed});
+    }
+
+    /// Q_ff' is the transpose of Q_f'f, as second derivatives are.
+    void symmetry(std::size_t f) const {
+        for (std::int32_t i = begin(f); i < end(f); ++i) {
+            const std::size_t other = at(coupling.columns[at(i)]);
+            const std::int32_t twin = find(other, f);
+            if (twin < 0)
+                refuse(row(f) + "has column " + std::to_string(other) + ", but the row of " +
+                           face_name(surface, face(other)) + " lacks column " + std::to_string(f) +
+                           ". Give both blocks, or none.",
+                       {.face_1 = face(f), .face_2 = face(other)});
+            const double difference = (block(i) - block(twin).transpose()).cwiseAbs().maxCoeff();
+            const double allowed = rounding * std::max({largest_entry(i), largest_entry(twin), largest_entry(find(f, f)),
+                                                        largest_entry(find(other, other))});
+            if (difference > allowed)
+                refuse(row(f) + "has a block with " + face_name(surface, face(other)) + " that differs by " +
+                           number(difference) + " N/m from the transpose of that one's block with it, " + number(allowed) +
+                           " is allowed. Q is the second derivative of an energy; check the indices of its blocks.",
+                       {.face_1 = face(f), .face_2 = face(other), .value = difference, .allowed = allowed});
+        }
+    }
+
+private:
+    [[noreturn]] static void refuse(const std::string& what, const ErrorFacts& facts) {
+        throw BadInput("contact: the coupling of the listed faces " + what, facts);
+    }
+    template <class Index>
+    static std::size_t at(Index i) {
+        return static_cast<std::size_t>(i);
+    }
+    [[nodiscard]] std::int32_t begin(std::size_t f) const { return coupling.offsets[f]; }
+    [[nodiscard]] std::int32_t end(std::size_t f) const { return coupling.offsets[f + 1]; }
+    [[nodiscard]] const Matrix<Dim>& block(std::int32_t i) const { return coupling.blocks[at(i)]; }
+    [[nodiscard]] std::int32_t face(std::size_t f) const { return number_of(faces[f]); }
+    [[nodiscard]] std::string row(std::size_t f) const { return "in the row of " + face_name(surface, face(f)) + " "; }
+    [[nodiscard]] double largest_entry(std::int32_t i) const { return i < 0 ? 0.0 : block(i).cwiseAbs().maxCoeff(); }
+    /// Index of the block of row f and this column, -1 where there is none.
+    [[nodiscard]] std::int32_t find(std::size_t f, std::size_t column) const {
+        const auto from = coupling.columns.begin() + begin(f), to = coupling.columns.begin() + end(f);
+        const auto found = std::lower_bound(from, to, static_cast<std::int32_t>(column));
+        return found == to || at(*found) != column ? -1 : static_cast<std::int32_t>(found - coupling.columns.begin());
+    }
+};
+
+}  // namespace
 
 void check_options(const ContactOptions& options) {
     const auto refuse = [](const std::string& what, double value) {
@@ -29,27 +140,12 @@ void check_options(const ContactOptions& options) {
 }
 
 template <int Dim>
-void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces) {
-    const auto refuse = [](const std::string& what, const ErrorFacts& facts) {
-        throw BadInput("contact: the coupling of the listed faces " + what, facts);
-    };
-    const std::size_t n = coupling.columns.size();
-    if (coupling.offsets.size() != n_faces + 1 || coupling.offsets.front() != 0 ||
-        static_cast<std::size_t>(coupling.offsets.back()) != n ||
-        !std::is_sorted(coupling.offsets.begin(), coupling.offsets.end()))
-        refuse("has " + std::to_string(coupling.offsets.size()) + " offsets for " + std::to_string(n_faces) + " faces and " +
-                   std::to_string(n) +
-                   " columns; they must be one more than faces and rise from 0 to the number of columns.",
-               {.value = static_cast<double>(coupling.offsets.size()), .allowed = static_cast<double>(n_faces + 1)});
-    if (coupling.blocks.size() != n)
-        refuse("has " + std::to_string(coupling.blocks.size()) + " blocks for " + std::to_string(n) +
-                   " columns; give one each.",
-               {.value = static_cast<double>(coupling.blocks.size()), .allowed = static_cast<double>(n)});
-    for (const std::int32_t column : coupling.columns)
-        if (column < 0 || static_cast<std::size_t>(column) >= n_faces)
-            refuse("names face " + std::to_string(column) + " of " + std::to_string(n_faces) +
-                       "; columns are indices into Contact::faces.",
-                   {.value = static_cast<double>(column), .allowed = static_cast<double>(n_faces)});
+void check_coupling(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FaceCoupling<Dim>& coupling) {
+    const CouplingCheck<Dim> check{surface, faces, coupling};
+    check.sizes();
+    for (std::size_t f = 0; f < faces.size(); ++f) check.columns_of(f);
+    for (std::size_t f = 0; f < faces.size(); ++f) check.own_block(f);
+    for (std::size_t f = 0; f < faces.size(); ++f) check.symmetry(f);
 }
 
 void check_listed(std::size_t size, std::size_t n_faces) {
@@ -87,9 +183,9 @@ void check_host_step(const SurfaceView<Dim>& surface, const HostStep<Dim>& host)
             "both be set.");
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                   \
-    template void check_coupling<Dim>(const FaceCoupling<Dim>&, std::size_t);                                   \
-    template void check_path<Dim>(const SurfaceView<Dim>&, std::span<const SurfaceFace>, const FacePath<Dim>&); \
+#define ABUT_INSTANTIATE(Dim)                                                                                           \
+    template void check_coupling<Dim>(const SurfaceView<Dim>&, std::span<const SurfaceFace>, const FaceCoupling<Dim>&); \
+    template void check_path<Dim>(const SurfaceView<Dim>&, std::span<const SurfaceFace>, const FacePath<Dim>&);         \
     template void check_host_step<Dim>(const SurfaceView<Dim>&, const HostStep<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

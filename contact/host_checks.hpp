@@ -11,8 +11,10 @@ namespace abut::contact {
 void check_options(const ContactOptions& options);
 /// An array that should have one entry per listed face.
 void check_listed(std::size_t size, std::size_t n_faces);
+/// A coupling that is no second derivative of an energy would give a wrong force, or none. Linear in the number of blocks,
+/// except that the block of a column is looked for in its row.
 template <int Dim>
-void check_coupling(const FaceCoupling<Dim>& coupling, std::size_t n_faces);
+void check_coupling(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FaceCoupling<Dim>& coupling);
 template <int Dim>
 void check_path(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FacePath<Dim>& path);
 template <int Dim>

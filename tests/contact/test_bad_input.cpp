@@ -224,9 +224,7 @@ TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next 
     contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
     const auto u = at_rest(surface);
     CHECK_THROWS_WITH(contact.integrate({u, u, u, u}), Contains("no candidate list"));
-    const auto good = [](std::span<const contact::SurfaceFace> faces) {
-        return contact::FaceCoupling<Dim>{std::vector<std::int32_t>(faces.size() + 1, 0), {}, {}};
-    };
+    const auto good = [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); };
     contact.search(u, u, good);
     REQUIRE(contact.is_valid_for(0.0));
     CHECK_THROWS_WITH(contact.search(u, u, [](auto) -> contact::FaceCoupling<Dim> { throw std::runtime_error("host"); }),
@@ -276,4 +274,82 @@ TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both 
     CHECK_THROWS_WITH(with([](auto& c) { c.offsets.pop_back(); }), Contains("2 offsets for 2 faces"));
     CHECK_THROWS_WITH(with([](auto& c) { c.blocks.pop_back(); }), Contains("1 blocks for 2 columns"));
     CHECK_THROWS_WITH(with([](auto& c) { c.columns.back() = 2; }), Contains("names face 2 of 2"));
+}
+
+TEMPLATE_TEST_CASE_SIG("a coupling that is no second derivative of an energy is refused with face, value and limit",
+                       "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    const auto surface = two_tiles<Dim>();
+    contact::Contact<Dim> contact(surface.view(), {});
+    const Matrix<Dim> one = Matrix<Dim>::Identity();
+    contact::FaceCoupling<Dim> coupling{{0, 2, 4}, {0, 1, 0, 1}, {2.0 * one, one, one, 2.0 * one}};
+    std::string says, face = "in the row of face 0 (body 0";
+    SECTION("no rows at all") {
+        coupling = {{0, 0, 0}, {}, {}};
+        says = "lacks the column of the face itself, 0";
+    }
+    SECTION("a row without the face itself") {
+        coupling = {{0, 1, 2}, {0, 0}, {one, one}};
+        face = "in the row of face 1 (body 1";
+        says = "lacks the column of the face itself, 1";
+    }
+    SECTION("a column twice") {
+        coupling = {{0, 2, 3}, {0, 0, 1}, {one, one, one}};
+        says = "has column 0 after 0";
+    }
+    SECTION("columns that fall") {
+        coupling.columns = {1, 0, 0, 1};
+        says = "has column 0 after 1";
+    }
+    SECTION("a block that is not a number") {
+        coupling.blocks[1](0, 1) = not_a_number;
+        says = "a block with column 1 that is not finite";
+    }
+    SECTION("an infinite block") {
+        coupling.blocks[3](0, 0) = rigid;
+        face = "in the row of face 1 (body 1";
+        says = "a block with column 1 that is not finite";
+    }
+    SECTION("a sign turned around") {
+        coupling.blocks[0] = -2.0 * one;
+        says = "eigenvalue -2 N/m, -2e-10 is allowed";
+    }
+    SECTION("a block on the diagonal that pushes along one direction") {
+        coupling.blocks[3](1, 1) = -1e-6;
+        face = "in the row of face 1 (body 1";
+        says = "eigenvalue -1e-06 N/m, -2e-10 is allowed";
+    }
+    SECTION("a block on the diagonal that is not symmetric") {
+        coupling.blocks[0](0, 1) += 1e-6;
+        says = "differs by 1e-06 N/m from the transpose of that one's block with it, 2e-10 is allowed";
+    }
+    SECTION("a block that is not the transpose of its twin") {
+        coupling.blocks[1](0, 1) = 0.5;
+        says = "a block with face 1 (body 1";
+    }
+    SECTION("a block without its twin") {
+        coupling = {{0, 2, 3}, {0, 1, 1}, {one, one, one}};
+        says = "but the row of face 1 (body 1";
+    }
+    const auto search = [&] { contact.search(at_rest(surface), at_rest(surface), [&](auto) { return coupling; }); };
+    CHECK_THROWS_AS(search(), BadInput);
+    CHECK_THROWS_WITH(search(), Contains(face) && Contains(says));
+    CHECK_FALSE(contact.is_valid_for(0.0));
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "blocks that are zero, singular or symmetric up to rounding, and empty rows of rigid faces, are a "
+    "coupling",
+    "[contact][errors]", ((int Dim), Dim), 2, 3) {
+    auto surface = two_tiles<Dim>();
+    const Matrix<Dim> one = Matrix<Dim>::Identity(), zero = Matrix<Dim>::Zero();
+    contact::FaceCoupling<Dim> coupling{{0, 2, 4}, {0, 1, 0, 1}, {2.0 * one, one, one, 2.0 * one}};
+    SECTION("symmetric up to rounding") { coupling.blocks[1](0, 1) = 1e-11; }
+    SECTION("singular") { coupling.blocks[0] = up<Dim>() * up<Dim>().transpose(); }
+    SECTION("zero") { coupling.blocks.assign(4, zero); }
+    SECTION("empty row of a rigid face") {
+        surface.stiffness[1] = rigid;
+        coupling = {{0, 1, 1}, {0}, {one}};
+    }
+    contact::Contact<Dim> contact(surface.view(), {});
+    CHECK_NOTHROW(contact.search(at_rest(surface), at_rest(surface), [&](auto) { return coupling; }));
 }
