@@ -101,11 +101,17 @@ Json contacts_json(const DetectReport& report) {
 
 Json search_json(const DetectReport& report) {
     const auto& search = report.search;
-    return {{"lists_made", search.searches},         {"skin", report.skin},
-            {"box_pairs", search.box_pairs},         {"neighbours", search.neighbours},
-            {"not_facing", search.not_facing},       {"out_of_reach", search.too_far_apart},
-            {"candidates", search.candidates},       {"candidates_max", search.candidates_max},
-            {"seconds_boxes", search.seconds_boxes}, {"seconds_broad_phase", search.seconds_broad_phase}};
+    return {{"lists_made", search.searches},
+            {"skin", report.skin},
+            {"box_pairs", search.box_pairs},
+            {"neighbours", search.neighbours},
+            {"both_rigid", search.both_rigid},
+            {"not_facing", search.not_facing},
+            {"out_of_reach", search.too_far_apart},
+            {"candidates", search.candidates},
+            {"candidates_max", search.candidates_max},
+            {"seconds_boxes", search.seconds_boxes},
+            {"seconds_broad_phase", search.seconds_broad_phase}};
 }
 
 Json last_json(const DetectReport& report) {

@@ -58,6 +58,7 @@ const CandidateOptions& checked(const CandidateOptions& options) {
 struct Counts {
     std::int64_t box_pairs = 0;
     std::int64_t neighbours = 0;
+    std::int64_t both_rigid = 0;
     std::int64_t not_facing = 0;
     std::int64_t too_far_apart = 0;
 };
@@ -253,7 +254,7 @@ private:
         Counts& counts = counts_.local();
         ++counts.box_pairs;
         if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) {
-            ++counts.not_facing;
+            ++counts.both_rigid;
             return false;
         }
         if (!by_distance_alone(options_)) {
@@ -278,11 +279,13 @@ private:
         for (const Counts& counts : counts_) {
             sum.box_pairs += counts.box_pairs;
             sum.neighbours += counts.neighbours;
+            sum.both_rigid += counts.both_rigid;
             sum.not_facing += counts.not_facing;
             sum.too_far_apart += counts.too_far_apart;
         }
         report_.box_pairs = sum.box_pairs;
         report_.neighbours = sum.neighbours;
+        report_.both_rigid = sum.both_rigid;
         report_.not_facing = sum.not_facing;
         report_.too_far_apart = sum.too_far_apart;
     }

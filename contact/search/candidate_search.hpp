@@ -15,7 +15,8 @@ struct CandidateReport {
     std::int64_t orderings = 0;        ///< of them, how many put the faces into a new spatial order first
     std::int64_t box_pairs = 0;        ///< pairs of boxes that overlapped, of bodies that may touch: the last search
     std::int64_t neighbours = 0;       ///< of them, left out because the faces are neighbours on one body
-    std::int64_t not_facing = 0;       ///< left out because the faces do not look at each other, or are both rigid
+    std::int64_t both_rigid = 0;       ///< left out because both faces are rigid
+    std::int64_t not_facing = 0;       ///< left out because the faces do not look at each other
     std::int64_t too_far_apart = 0;    ///< left out because gap or tangential offset rule contact out
     std::int64_t candidates = 0;       ///< pairs in the list
     std::int64_t candidates_max = 0;   ///< over all searches

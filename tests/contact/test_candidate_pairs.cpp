@@ -21,6 +21,10 @@ std::vector<IndexPair> candidates_of(const contact::Surface<Dim>& surface, const
     return {search.candidates().begin(), search.candidates().end()};
 }
 
+std::int64_t sum_of_outcomes(const contact::CandidateReport& report) {
+    return report.neighbours + report.both_rigid + report.not_facing + report.too_far_apart + report.candidates;
+}
+
 bool holds(const std::vector<IndexPair>& list, std::int32_t face_1, std::int32_t face_2) {
     return std::binary_search(list.begin(), list.end(), IndexPair{face_1, face_2});
 }
@@ -204,9 +208,28 @@ TEST_CASE("neighbours on one body within the chosen rings are no candidates, and
         if (!near[pair.first][pair.second]) expected.push_back(pair);
     CHECK(std::ranges::equal(search.candidates(), expected));
     CHECK((search.report().neighbours > 0) == (rings > 0));
-    CHECK(search.report().box_pairs == search.report().neighbours + search.report().not_facing +
-                                           search.report().too_far_apart + search.report().candidates);
+    CHECK(search.report().box_pairs == sum_of_outcomes(search.report()));
     CHECK(all.size() > 100);
+}
+
+TEMPLATE_TEST_CASE_SIG("pairs of two rigid faces have a count of their own, and the counts add up to the pairs of boxes",
+                       "[contact][candidates]", ((int Dim), Dim), 2, 3) {
+    // Two bodies of two soft faces and three rigid ones each, all close together; one rigid face looks away.
+    contact::Surface<Dim> surface;
+    for (int body = 0; body < 2; ++body)
+        for (int i = 0; i < 5; ++i) {
+            const Vector<Dim> centre = (0.1 * body + 0.001 * i) * up<Dim>(), out = (body == 0 ? 1.0 : -1.0) * up<Dim>();
+            surface.append(tile<Dim>(centre, i < 4 ? out : Vector<Dim>(-out), 0.5), 0.3, i < 2 ? 1.0 : rigid, body);
+        }
+    const double facing_cosine = GENERATE(-0.5, 1.0);
+    contact::CandidateSearch<Dim> search(surface.view(), {.facing_cosine = facing_cosine, .distance = 1.0});
+    search.search(at_rest(surface), at_rest(surface));
+    const contact::CandidateReport& report = search.report();
+    CHECK(report.box_pairs == 25);
+    CHECK(report.both_rigid == 9);
+    CHECK(report.not_facing == (facing_cosine < 1.0 ? 4 : 0));  // the face that looks away, with two soft ones on each side
+    CHECK(report.candidates == (facing_cosine < 1.0 ? 12 : 16));
+    CHECK(sum_of_outcomes(report) == report.box_pairs);
 }
 
 TEMPLATE_TEST_CASE_SIG("pairs up to the chosen distance are candidates", "[contact][candidates]", ((int Dim), Dim), 2, 3) {

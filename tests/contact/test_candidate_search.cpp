@@ -81,7 +81,7 @@ TEST_CASE("any number of threads gives the same list and the same counts", "[con
             search.search(at_rest(surface), at_rest(surface));
             const auto& r = search.report();
             return std::pair(std::vector<IndexPair>(search.candidates().begin(), search.candidates().end()),
-                             std::array{r.box_pairs, r.neighbours, r.not_facing, r.too_far_apart});
+                             std::array{r.box_pairs, r.neighbours, r.both_rigid, r.not_facing, r.too_far_apart});
         });
     };
     const auto one = on_threads(1);
