@@ -128,7 +128,8 @@ void run(const DetectOptions& options) {
     std::optional<global_control> threads;
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-    if (!options.no_files) prepare_output(options.out);
+    std::optional<run::FolderLock> lock;
+    if (!options.no_files) lock = prepare_output(options.out);
     DetectTimes seconds;
     Bodies bodies = read_bodies(options, seconds.input);
     if (bodies.names.size() == 1 && !options.search.self_contact)

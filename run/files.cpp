@@ -16,12 +16,6 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> plain_results = {"summary.json", "energy.csv", "energy.png", "energy.gp"};
 
-[[noreturn]] void refuse_directory(const fs::path& directory, const std::string& reason) {
-    throw BadInput(
-        fmt::format("--out {}: the folder cannot be written to: {}. Choose another folder or change its permissions.",
-                    directory.string(), reason));
-}
-
 bool take(std::string_view& text, std::string_view start) {
     if (!text.starts_with(start)) return false;
     text.remove_prefix(start.size());
@@ -53,20 +47,6 @@ void remove_result(const fs::path& path) {
 }
 
 }  // namespace
-
-void prepare_directory(const fs::path& directory) {
-    std::error_code error, unknown;
-    fs::create_directories(directory, error);
-    const auto status = fs::status(directory, unknown);
-    if (!fs::is_directory(status))
-        refuse_directory(directory, fs::exists(status) ? "a file is in its place" : (error ? error : unknown).message());
-    const fs::path probe = directory / ".writable";
-    std::ofstream file(probe);
-    file << "abut\n";
-    file.close();
-    if (!file) refuse_directory(directory, "permission denied or no space left");
-    fs::remove(probe, error);
-}
 
 void remove_earlier_results(const fs::path& directory, const std::string& series) {
     remove_files(directory, plain_results);
@@ -100,6 +80,12 @@ void move_file(const fs::path& from, const fs::path& to) {
     std::error_code error;
     fs::rename(from, to, error);
     if (error) throw BadInput(cannot_be_written(to, error.message()));
+}
+
+void refuse_directory(const fs::path& directory, const std::string& reason) {
+    throw BadInput(
+        fmt::format("--out {}: the folder cannot be written to: {}. Choose another folder or change its permissions.",
+                    directory.string(), reason));
 }
 
 std::string cannot_be_written(const fs::path& path, const std::string& reason) {

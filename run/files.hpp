@@ -5,10 +5,6 @@
 
 namespace abut::run {
 
-/// Makes the folder with its parents and proves by a file that it can be written to. Throws BadInput naming the
-/// folder, the reason and what to do.
-void prepare_directory(const std::filesystem::path& directory);
-
 /// Removes what ResultFiles of an earlier run may have left: summary.json, energy.csv, its picture, and the lists and frames
 /// of `series`. Everything else stays. Throws BadInput naming the file.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
@@ -21,6 +17,9 @@ void write_whole(const std::filesystem::path& path, const std::string& text);
 
 /// Throws BadInput naming the file.
 void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
+/// Throws BadInput: the folder of --out cannot be written to, why, and what to do.
+[[noreturn]] void refuse_directory(const std::filesystem::path& directory, const std::string& reason);
 
 /// What is said wherever a file cannot be written.
 [[nodiscard]] std::string cannot_be_written(const std::filesystem::path& path, const std::string& reason = "");

@@ -25,8 +25,11 @@ std::string draw(const std::filesystem::path& out, const std::string& program, c
 
 template <int Dim>
 ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, std::string series)
-    : out_(options.out), program_(std::move(program)), name_(std::move(series)), energies_(out_ / "energy.csv") {
-    prepare_directory(out_);
+    : out_(options.out),
+      lock_(std::in_place, out_, program),
+      program_(std::move(program)),
+      name_(std::move(series)),
+      energies_(out_ / "energy.csv") {
     remove_earlier_results(out_, name_);
     if (options.frames > 0) frames_.emplace(out_, name_, options.frames);
 }
@@ -62,6 +65,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
+    lock_.reset();
 }
 
 template <int Dim>

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "abut/run/energy_file.hpp"
+#include "abut/run/folder_lock.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/observer.hpp"
 
 namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png
-/// and summary.json.
+/// and summary.json. The folder is its own (FolderLock) until `finish`, or until it goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
 ///     run::ResultFiles<2> files(options, "mine", "bodies");
@@ -19,9 +20,9 @@ namespace abut::run {
 template <int Dim>
 class ResultFiles : public Observer<Dim> {
 public:
-    /// Makes the folder, and removes results of an earlier run there before anything else can be refused. `program` is what
-    /// picture and summary call the run; `series` names the files for ParaView. Throws BadInput if the folder cannot be
-    /// written to.
+    /// Makes the folder and takes it, and removes results of an earlier run there before anything else can be refused.
+    /// `program` is what picture and summary call the run; `series` names the files for ParaView. Throws BadInput if the
+    /// folder cannot be written to, or if another run has it.
     ResultFiles(const RunOptions& options, std::string program, std::string series);
 
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
@@ -40,6 +41,7 @@ public:
 
 private:
     std::filesystem::path out_;
+    std::optional<FolderLock> lock_;
     std::string program_;
     std::string name_;  // of the series
     EnergyFile<Dim> energies_;

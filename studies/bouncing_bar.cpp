@@ -255,7 +255,7 @@ apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, co
 
 void run_study(const BounceOptions& options) {
     check(options);
-    apps::prepare_results(program, options.out);
+    const run::FolderLock lock = apps::prepare_results(program, options.out);
     const auto n = static_cast<std::size_t>(options.cells);
     const double h = the_bar.length / options.cells, dt = options.cfl * h / the_bar.wave_speed();
     const double speed = options.gravity > 0.0 ? 0.0 : -impact_speed;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "abut/run/files.hpp"
+#include "abut/run/folder_lock.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/run_options.hpp"
 #include "studies/extremes/families.hpp"
@@ -49,7 +50,7 @@ void add_options(CLI::App& app, Options& options) {
 }
 
 void sweep(const Options& options) {
-    run::prepare_directory(options.sweep.run.out);
+    const run::FolderLock lock(options.sweep.run.out, program.name);
     run::remove_files(options.sweep.run.out, {"extremes.csv", "summary.json"});
     const std::set<std::string> wanted(options.only.begin(), options.only.end());
     std::vector<Row> rows;

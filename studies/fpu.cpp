@@ -137,7 +137,7 @@ nlohmann::ordered_json to_json(const FpuOptions& options) {
 
 void run_study(const FpuOptions& options) {
     apps::check(options.schemes);
-    apps::prepare_results(program, options.out);
+    const run::FolderLock lock = apps::prepare_results(program, options.out);
     const double omega = options.omega, root = std::sqrt(2.0);
     const apps::Start start{.q = {(1.0 - 1.0 / omega) / root, (1.0 + 1.0 / omega) / root, 0.0, 0.0, 0.0, 0.0},
                             .p = {0.0, root, 0.0, 0.0, 0.0, 0.0},

@@ -265,7 +265,7 @@ Json to_json(const WaveOptions& options) {
 
 void run_study(const WaveOptions& options) {
     check(options);
-    apps::prepare_results(program, options.out, {"profile.csv"});
+    const run::FolderLock lock = apps::prepare_results(program, options.out, {"profile.csv"});
     apps::Comparison comparison{.options = to_json(options)};
     for (const apps::Scheme scheme : options.schemes.schemes) comparison.runs.push_back(run_refined(scheme, options));
     const double fine =

@@ -10,6 +10,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
+#include "abut/run/folder_lock.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/trade/report.hpp"
@@ -135,7 +136,7 @@ std::vector<Row> climb(const Problem& problem, const Options& options) {
 }
 
 void run(const Options& options) {
-    run::prepare_directory(options.out);
+    const run::FolderLock lock(options.out, program.name);
     run::remove_files(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
     std::vector<Row> rows;
     for (const Problem& problem : problems()) {

@@ -141,13 +141,14 @@ std::vector<double> problems_of(const Bodies& bodies) {
 
 }  // namespace
 
-void prepare_output(const fs::path& out) {
-    run::prepare_directory(out);
+run::FolderLock prepare_output(const fs::path& out) {
+    run::FolderLock lock(out, detect_program.name);
     run::remove_files(out, {"summary.json", "candidates.csv", "overlaps.csv", "steps.csv"});
     std::vector<std::string> pictures;
     for (const auto& entry : fs::directory_iterator(out))
         if (is_picture(entry.path().filename().string())) pictures.push_back(entry.path().filename().string());
     run::remove_files(out, pictures);
+    return lock;
 }
 
 Output::Output(const Bodies& bodies, const fs::path& out, int every)

@@ -2,12 +2,14 @@
 #include <filesystem>
 #include <string>
 
+#include "abut/run/folder_lock.hpp"
 #include "apps/detect/detection.hpp"
 
 namespace abut::apps {
 
-/// Makes the folder and removes what an earlier run left. Throws BadInput naming folder or file.
-void prepare_output(const std::filesystem::path& out);
+/// Makes the folder and takes it for as long as the result lives, and removes what an earlier run left there. Throws
+/// BadInput naming folder or file.
+[[nodiscard]] run::FolderLock prepare_output(const std::filesystem::path& out);
 
 /// The files of a run: pairs as .csv, and pictures for ParaView. A pair names faces as their files do.
 class Output {

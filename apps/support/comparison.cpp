@@ -114,11 +114,12 @@ std::int64_t rows_interval(int given, std::int64_t steps) {
     return given > 0 ? given : std::max<std::int64_t>(1, steps / about_rows);
 }
 
-void prepare_results(const Program& program, const fs::path& out, std::vector<std::string> more) {
+run::FolderLock prepare_results(const Program& program, const fs::path& out, std::vector<std::string> more) {
     for (const Scheme scheme : all_schemes) more.push_back(name_of(scheme) + ".csv");
     more.insert(more.end(), {"summary.json", program.name + ".gp", program.name + ".png"});
-    run::prepare_directory(out);
+    run::FolderLock lock(out, program.name);
     run::remove_files(out, more);
+    return lock;
 }
 
 void report(const Program& program, const fs::path& out, const Comparison& comparison) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/base/stopwatch.hpp"
+#include "abut/run/folder_lock.hpp"
 #include "abut/run/gnuplot.hpp"
 #include "abut/run/value.hpp"
 #include "apps/support/csv.hpp"
@@ -188,9 +189,10 @@ void add_interval_option(CLI::App& app, int& interval);
 /// Steps between two rows of a file of about 10,000 rows, unless the user has given it.
 [[nodiscard]] std::int64_t rows_interval(int given, std::int64_t steps);
 
-/// Makes the folder and removes what an earlier run of the program left: summary.json, a file of each scheme, the picture,
-/// and `more`.
-void prepare_results(const Program& program, const std::filesystem::path& out, std::vector<std::string> more = {});
+/// Makes the folder and takes it for as long as the result lives, and removes what an earlier run of the program left there:
+/// summary.json, a file of each scheme, the picture, and `more`.
+[[nodiscard]] run::FolderLock prepare_results(const Program& program, const std::filesystem::path& out,
+                                              std::vector<std::string> more = {});
 
 /// A finished comparison.
 struct Comparison {

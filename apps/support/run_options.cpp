@@ -104,7 +104,7 @@ void add_compression_limit(CLI::App& app, run::RunOptions& options) {
 }
 
 void add_output_options(CLI::App& app, run::RunOptions& options) {
-    app.add_option("--out", options.out, "folder of all results; made if it is not there")
+    app.add_option("--out", options.out, "folder of all results; made if it is not there, refused while another run has it")
         ->type_name("DIR")
         ->capture_default_str()
         ->group("Output");

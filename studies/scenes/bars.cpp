@@ -299,7 +299,7 @@ void run_study(const apps::Program& program, const BarOptions& options, const Ba
     options.check();
     std::vector<std::string> curves{"history", "exact"};
     curves.insert(curves.end(), bars.more_curves.begin(), bars.more_curves.end());
-    prepare_study(options.run.out, curves, {bars.picture.name});
+    const auto lock = prepare_study(program, options.run.out, curves, {bars.picture.name});
     Study study{.title = bars.title, .reference = bars.reference};
     apps::Table history{.columns = {"cells", "time", "gap", "speed_1", "speed_2", "middle", "pressure"}, .rows = {}};
     for (std::size_t i = 0; i < options.cells.size(); ++i) {

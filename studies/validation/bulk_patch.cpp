@@ -137,7 +137,7 @@ run::Picture picture(const Study& study) {
 }
 
 void run_study(const PatchOptions& options) {
-    prepare_study(options.out, {"patch"}, {"errors"});
+    const auto lock = prepare_study(program, options.out, {"patch"}, {"errors"});
     Study study{.title = "patch test and zero modes of the bulk",
                 .reference = "affine displacements and rigid motions, exact; relative errors, exact: 0"};
     for (const BoxCells cells : all_box_cells<2>()) study.levels.push_back(level<2>(options, cells));

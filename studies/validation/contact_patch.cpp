@@ -165,7 +165,7 @@ int main(int argc, char** argv) {
         apps::add_out_option(app, options.out);
     };
     return apps::run_program(program, argc, argv, add_options, [&] {
-        prepare_study(options.out, {"stress"}, {"stress"});
+        const auto lock = prepare_study(program, options.out, {"stress"}, {"stress"});
         report(program, options.out, options.dim == 2 ? solve<2>(options) : solve<3>(options));
     });
 }

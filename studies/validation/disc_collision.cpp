@@ -109,7 +109,7 @@ void run_study(const Options& options) {
     std::vector<std::string> curves;
     for (const double offset : offsets)
         for (const double size : options.sizes) curves.push_back(curve_name(offset, size));
-    prepare_study(options.run.out, curves, {"velocities"});
+    const auto lock = prepare_study(program, options.run.out, curves, {"velocities"});
     Study study{.title = "two discs that collide", .reference = "laws of conservation; speeds: a prototype on other meshes"};
     for (const double offset : offsets)
         for (const double size : options.sizes) {

@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
     return apps::run_program(program, argc, argv, add_options, [&] {
         std::vector<std::string> curves;
         for (const double cells : options.cells) curves.push_back(curve_name(cells));
-        prepare_study(options.run.out, curves, {"fall"});
+        const auto lock = prepare_study(program, options.run.out, curves, {"fall"});
         Study study{.title = "disc that falls on a rigid plane", .reference = "free fall: t = sqrt(2 h/g), v = g t"};
         for (const double cells : options.cells) {
             DroppedDisc disc;

@@ -194,7 +194,7 @@ int main(int argc, char** argv) {
             check(options);
             std::vector<std::string> curves;
             for (const double faces : options.faces) curves.push_back(curve_name(faces));
-            prepare_study(options.run.out, curves, {"pressure"});
+            const auto lock = prepare_study(program, options.run.out, curves, {"pressure"});
             Study study = options.dim == 2 ? solve<2>(options) : solve<3>(options);
             study.options = to_json(options);
             report(program, options.run.out, study);

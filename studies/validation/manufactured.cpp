@@ -130,7 +130,7 @@ void run_study(ManufacturedOptions options) {
     std::vector<std::string> curves;
     for (const BoxCells cells : all_box_cells<2>()) curves.push_back(name_of(cells));
     for (const BoxCells cells : all_box_cells<3>()) curves.push_back(name_of(cells));
-    prepare_study(options.out, curves, {"errors"});
+    const auto lock = prepare_study(program, options.out, curves, {"errors"});
     report(program, options.out, options.dim == 2 ? study<2>(options) : study<3>(options));
 }
 

@@ -203,7 +203,8 @@ plot "spectrum_P_2d.csv" using "theta":"exact" with lines lw 2 lc rgb "#2a78d6" 
 )gp"};
 
 void run_study(const SpectrumOptions& options) {
-    prepare_study(options.out, {"spectrum_P_2d", "spectrum_S_2d", "spectrum_P_3d", "spectrum_S_3d"}, {"spectrum"});
+    const auto lock = prepare_study(program, options.out,
+                                    {"spectrum_P_2d", "spectrum_S_2d", "spectrum_P_3d", "spectrum_S_3d"}, {"spectrum"});
     Study study{.title = "spectrum of the discrete operator on a uniform mesh",
                 .reference = "rho h^2 omega^2 = M sin^2 theta + 4 eta sin^6(theta/2)"};
     add_level<2>(study, options);

@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
     return apps::run_program(program, argc, argv, add_options, [&] {
         std::vector<std::string> curves{"hertz"};
         for (const double faces : options.faces) curves.push_back(curve_name(faces));
-        prepare_study(options.run.out, curves, {"impact"});
+        const auto lock = prepare_study(program, options.run.out, curves, {"impact"});
         Study study{.title = "two spheres that collide", .reference = "Hertz: m* d'' = -4/3 E* sqrt(R*) d^1.5"};
         study.curves.emplace_back("hertz", exact_curve(options.spheres));
         for (const double faces : options.faces) {

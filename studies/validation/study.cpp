@@ -140,9 +140,9 @@ std::optional<double> fitted_order(const Study& study, const std::string& quanti
     return (n * xy - x * y) / (n * xx - x * x);
 }
 
-void prepare_study(const std::filesystem::path& out, const std::vector<std::string>& curves,
-                   const std::vector<std::string>& pictures) {
-    run::prepare_directory(out);
+run::FolderLock prepare_study(const apps::Program& program, const std::filesystem::path& out,
+                              const std::vector<std::string>& curves, const std::vector<std::string>& pictures) {
+    run::FolderLock lock(out, program.name);
     std::vector<std::string> names{"values.csv", "summary.json"};
     for (const std::string& curve : curves) names.push_back(curve + ".csv");
     for (const std::string& picture : pictures) {
@@ -150,6 +150,7 @@ void prepare_study(const std::filesystem::path& out, const std::vector<std::stri
         names.push_back(picture + ".png");
     }
     run::remove_files(out, names);
+    return lock;
 }
 
 void report(const apps::Program& program, const std::filesystem::path& out, const Study& study) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/folder_lock.hpp"
 #include "abut/run/gnuplot.hpp"
 #include "abut/run/scene.hpp"
 #include "apps/support/csv.hpp"
@@ -74,10 +75,11 @@ struct Study {
 /// above 1e-13. Empty where fewer than two are left.
 [[nodiscard]] std::optional<double> fitted_order(const Study& study, const std::string& quantity);
 
-/// Makes the folder and removes what an earlier run of a study left there: values.csv, summary.json, its curves and
-/// pictures.
-void prepare_study(const std::filesystem::path& out, const std::vector<std::string>& curves,
-                   const std::vector<std::string>& pictures);
+/// Makes the folder and takes it for as long as the result lives, and removes what an earlier run of a study left there:
+/// values.csv, summary.json, its curves and pictures.
+[[nodiscard]] run::FolderLock prepare_study(const apps::Program& program, const std::filesystem::path& out,
+                                            const std::vector<std::string>& curves,
+                                            const std::vector<std::string>& pictures);
 
 /// Leaves values.csv (a row a quantity and level), the curves, the pictures and summary.json; prints the table: value,
 /// reference, error, target and whether it is met, orders of convergence with theirs, energies.

@@ -295,7 +295,8 @@ void add_half_planes(Study& study, const WaveOptions& options) {
 }
 
 void run_study(const WaveOptions& options) {
-    prepare_study(options.run.out, {"surface", "dispersion_P", "dispersion_S"}, {"seismogram", "dispersion"});
+    const auto lock =
+        prepare_study(program, options.run.out, {"surface", "dispersion_P", "dispersion_S"}, {"seismogram", "dispersion"});
     Study study{.title = "speeds of waves in a rock",
                 .reference = "sqrt((lambda + 2 mu)/rho), sqrt(mu/rho), root of Rayleigh's equation"};
     if (includes(options, Case::plane_2d)) add_plane_waves<2>(study, options);

@@ -1,9 +1,6 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -13,33 +10,15 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
+#include "run/folder.hpp"
 #include "run/scenes.hpp"
 
 namespace {
 
 using namespace abut;
+using test::Folder;
+using test::read_text;
 namespace fs = std::filesystem;
-
-/// A folder for this process alone that is not there at first, removed with the object.
-class Folder {
-public:
-    Folder() { fs::remove_all(path_); }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    [[nodiscard]] const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_ = fs::path(ABUT_RUN_RESULTS) / std::to_string(getpid());
-};
-
-std::string read_text(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 }  // namespace
 
@@ -104,6 +83,18 @@ TEST_CASE("a run that breaks off leaves its records under another name, and an e
     CHECK_FALSE(fs::exists(folder.path() / "energy.csv"));
     CHECK_FALSE(fs::exists(folder.path() / "summary.json"));
     CHECK(fs::exists(folder.path() / "somebody_elses.csv"));
+}
+
+TEST_CASE("files of a run have their folder for themselves until they are finished", "[run][files]") {
+    const Folder folder;
+    const run::RunOptions options{.steps = 2, .out = folder.path(), .frames = 0};
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    run::ResultFiles<2> files(options, "first", "block");
+    CHECK_THROWS_WITH(run::ResultFiles<2>(options, "second", "block"), Catch::Contains("first, process"));
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    CHECK_THROWS_AS(run::ResultFiles<2>(options, "second", "block"), BadInput);
+    files.finish(scene, result);
+    CHECK_NOTHROW(run::ResultFiles<2>(options, "second", "block"));
 }
 
 TEST_CASE("a folder with a file in its place is refused as bad input, by name", "[run][files]") {
