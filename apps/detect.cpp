@@ -93,8 +93,7 @@ private:
     void write(const StepResult& result) {
         if (options_.no_files) return;
         const Stopwatch watch(report_.seconds.writing);
-        output_.add_row(result);
-        if (output_.wants(result.step, motion_.steps())) output_.add(result, detection_.candidates());
+        output_.add(result, detection_.candidates(), result.step == motion_.steps());
     }
 
     Bodies& bodies_;

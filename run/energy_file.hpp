@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
-#include <fstream>
 
 #include "abut/run/observer.hpp"
+#include "abut/run/partial_file.hpp"
 
 namespace abut::run {
 
@@ -20,14 +20,10 @@ public:
     /// The run is complete: gives the file its name. Throws BadInput if it cannot.
     void finish();
 
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
 
 private:
-    void check() const;
-
-    std::filesystem::path path_;
-    std::filesystem::path partial_;
-    std::ofstream file_;
+    PartialFile file_;
 };
 
 }  // namespace abut::run

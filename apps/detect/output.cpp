@@ -155,21 +155,33 @@ Output::Output(const Bodies& bodies, const fs::path& out, int every)
     : bodies_(bodies),
       out_(out),
       every_(every),
-      steps_("step,searched,box_pairs,candidates,overlaps,area,gap_min,gap_max\n"),
-      candidates_("step,body_1,face_1,body_2,face_2\n"),
-      overlaps_("step,body_1,face_1,body_2,face_2,area,gap,nx,ny,nz,x,y,z\n") {}
+      steps_(out / "steps.csv"),
+      candidates_(out / "candidates.csv"),
+      overlaps_(out / "overlaps.csv") {}
 
-bool Output::wants(int step, int last_step) const { return step == last_step || (every_ > 0 && step % every_ == 0); }
+void Output::open() {
+    for (run::PartialFile* file : {&steps_, &candidates_, &overlaps_}) file->open();
+    steps_.write("step,searched,box_pairs,candidates,overlaps,area,gap_min,gap_max\n");
+    candidates_.write("step,body_1,face_1,body_2,face_2\n");
+    overlaps_.write("step,body_1,face_1,body_2,face_2,area,gap,nx,ny,nz,x,y,z\n");
+}
+
+void Output::add(const StepResult& result, std::span<const geometry::IndexPair> candidates, bool last) {
+    if (!steps_.is_open()) open();
+    add_row(result);
+    if (last || (every_ > 0 && result.step % every_ == 0)) add_pairs(result, candidates);
+    for (run::PartialFile* file : {&steps_, &candidates_, &overlaps_}) file->flush();
+}
 
 void Output::add_row(const StepResult& result) {
     const bool any = !result.overlaps.empty();
     const double none = std::numeric_limits<double>::quiet_NaN();
-    steps_ += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g}\n", result.step, result.searched ? 1 : 0, result.box_pairs,
-                          result.candidates, result.overlaps.size(), result.area, any ? result.gap_min : none,
-                          any ? result.gap_max : none);
+    steps_.write(fmt::format("{},{},{},{},{},{:.17g},{:.17g},{:.17g}\n", result.step, result.searched ? 1 : 0,
+                             result.box_pairs, result.candidates, result.overlaps.size(), result.area,
+                             any ? result.gap_min : none, any ? result.gap_max : none));
 }
 
-void Output::add(const StepResult& result, std::span<const geometry::IndexPair> candidates) {
+void Output::add_pairs(const StepResult& result, std::span<const geometry::IndexPair> candidates) {
     const Patches patches = patches_of(bodies_, result.overlaps);
     add_candidates(result.step, candidates);
     add_overlaps(result, patches);
@@ -179,22 +191,26 @@ void Output::add(const StepResult& result, std::span<const geometry::IndexPair> 
 
 void Output::add_candidates(int step, std::span<const geometry::IndexPair> candidates) {
     const auto& body = bodies_.surface.body;
+    fmt::memory_buffer rows;
     for (const auto& [face_1, face_2] : candidates)
-        fmt::format_to(std::back_inserter(candidates_), "{},{},{},{},{}\n", step, body[at(face_1)],
-                       bodies_.face_label[at(face_1)], body[at(face_2)], bodies_.face_label[at(face_2)]);
+        fmt::format_to(std::back_inserter(rows), "{},{},{},{},{}\n", step, body[at(face_1)], bodies_.face_label[at(face_1)],
+                       body[at(face_2)], bodies_.face_label[at(face_2)]);
+    candidates_.write({rows.data(), rows.size()});
 }
 
 void Output::add_overlaps(const StepResult& result, const Patches& patches) {
+    fmt::memory_buffer rows;
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const Overlap<3>& overlap = result.overlaps[i];
         const std::int32_t face_1 = overlap.face_1, face_2 = overlap.face_2;
         const Vector<3> x = middle(patches[i]);
-        fmt::format_to(std::back_inserter(overlaps_),
+        fmt::format_to(std::back_inserter(rows),
                        "{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", result.step,
                        bodies_.surface.body[at(face_1)], bodies_.face_label[at(face_1)], bodies_.surface.body[at(face_2)],
                        bodies_.face_label[at(face_2)], overlap.area, overlap.gap, overlap.normal[0], overlap.normal[1],
                        overlap.normal[2], x[0], x[1], x[2]);
     }
+    overlaps_.write({rows.data(), rows.size()});
 }
 
 fs::path Output::path(const std::string& stem, int step) const {
@@ -223,10 +239,8 @@ void Output::write_surface(const StepResult& result) const {
                     {.of_faces = of_faces});
 }
 
-void Output::finish() const {
-    run::write_whole(out_ / "candidates.csv", candidates_);
-    run::write_whole(out_ / "overlaps.csv", overlaps_);
-    run::write_whole(out_ / "steps.csv", steps_);
+void Output::finish() {
+    for (run::PartialFile* file : {&candidates_, &overlaps_, &steps_}) file->finish();
 }
 
 }  // namespace abut::apps

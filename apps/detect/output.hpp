@@ -3,6 +3,7 @@
 #include <string>
 
 #include "abut/run/folder_lock.hpp"
+#include "abut/run/partial_file.hpp"
 #include "apps/detect/detection.hpp"
 
 namespace abut::apps {
@@ -11,23 +12,26 @@ namespace abut::apps {
 /// BadInput naming folder or file.
 [[nodiscard]] run::FolderLock prepare_output(const std::filesystem::path& out);
 
-/// The files of a run: pairs as .csv, and pictures for ParaView. A pair names faces as their files do.
+/// The files of a run: pairs as .csv, and pictures for ParaView. A pair names faces as their files do. Rows are written as
+/// they come and outlive a process that is killed: candidates.csv, overlaps.csv and steps.csv are called
+/// candidates.csv.partial and so on until `finish`. Whatever cannot be written is BadInput that names the file.
 class Output {
 public:
     /// `every` > 0: also each so many-th step, and all .vtp files with the number of their step.
     Output(const Bodies& bodies, const std::filesystem::path& out, int every);
 
-    [[nodiscard]] bool wants(int step, int last_step) const;
-    /// Writes the .vtp files of this step and keeps its rows.
-    void add(const StepResult& result, std::span<const geometry::IndexPair> candidates);
-    /// Writes candidates.csv, overlaps.csv and steps.csv; none is ever seen half-written.
-    void finish() const;
-    /// A row of steps.csv.
-    void add_row(const StepResult& result);
+    /// A row of steps.csv; of a step whose pairs are wanted, the last one among them, also its rows of the other two and its
+    /// .vtp files. The first call makes the files.
+    void add(const StepResult& result, std::span<const geometry::IndexPair> candidates, bool last);
+    /// The run is at its end: gives the files of rows their names.
+    void finish();
 
 private:
     using Patches = std::vector<std::vector<Vector<3>>>;  // polygons of overlaps
 
+    void open();
+    void add_row(const StepResult& result);
+    void add_pairs(const StepResult& result, std::span<const geometry::IndexPair> candidates);
     void add_candidates(int step, std::span<const geometry::IndexPair> candidates);
     void add_overlaps(const StepResult& result, const Patches& patches);
     void write_overlaps(const StepResult& result, const Patches& patches) const;
@@ -37,7 +41,7 @@ private:
     const Bodies& bodies_;
     std::filesystem::path out_;
     int every_;
-    std::string steps_, candidates_, overlaps_;
+    run::PartialFile steps_, candidates_, overlaps_;
 };
 
 }  // namespace abut::apps
