@@ -23,6 +23,7 @@
 #include "abut/run/files.hpp"
 #include "apps/detect/output.hpp"
 #include "apps/detect/report.hpp"
+#include "apps/support/signals.hpp"
 
 namespace abut::apps {
 namespace {
@@ -64,7 +65,8 @@ public:
           output_(bodies, options.out, options.write_every) {}
 
     void all_steps() {
-        for (int step = 0; step <= motion_.steps(); ++step) one_step(step);
+        bool last = false;
+        for (int step = 0; !last; ++step) last = one_step(step);
         report_.skin = detection_.skin();
         report_.search = detection_.report();
         report_.seconds.search = detection_.seconds_search();
@@ -74,7 +76,8 @@ public:
     }
 
 private:
-    void one_step(int step) {
+    /// Whether it was the last one.
+    bool one_step(int step) {
         if (step > 0) {
             const Stopwatch watch(report_.seconds.motion);
             motion_.move(bodies_, step);
@@ -87,13 +90,18 @@ private:
             const Stopwatch watch(report_.seconds.verification);
             report_.verification += verified(bodies_, options_, report_.near, detection_, result);
         }
-        write(result);
-        if (step == motion_.steps()) report_.last = result;
+        const bool at_end = step == motion_.steps(), last = at_end || noted_signal() != 0;
+        write(result, last);
+        if (!last) return false;
+        report_.last = result;
+        report_.steps = step;
+        report_.complete = at_end;
+        return true;
     }
-    void write(const StepResult& result) {
+    void write(const StepResult& result, bool last) {
         if (options_.no_files) return;
         const Stopwatch watch(report_.seconds.writing);
-        output_.add(result, detection_.candidates(), result.step == motion_.steps());
+        output_.add(result, detection_.candidates(), last);
     }
 
     Bodies& bodies_;
@@ -138,14 +146,16 @@ void run(const DetectOptions& options) {
     const Nearness near = nearness(options, bodies, motion);
     set_depth(bodies, near.depth, near.distance);
     warn_of_far_reach(bodies, near);
-    DetectReport report{
-        .bodies = bodies, .near = near, .steps = motion.steps(), .verified = options.verify, .seconds = seconds};
+    DetectReport report{.bodies = bodies, .near = near, .verified = options.verify, .seconds = seconds};
     std::optional<Run> steps;
     {
         const Stopwatch watch(report.seconds.setup);
         steps.emplace(bodies, options, motion, report);
     }
+    const StopSignals signals;
     steps->all_steps();
+    if (!report.complete)
+        spdlog::warn("{}: ends after step {} of {}", name_of_signal(noted_signal()), report.steps, motion.steps());
     if (!options.no_files) run::write_whole(options.out / "summary.json", summary(report, options).dump(2) + "\n");
     print(report, options);
     throw_if_missed(report.verification);

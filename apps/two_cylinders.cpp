@@ -225,12 +225,13 @@ run::Scene<Dim> two_cylinders(const CylinderOptions& options) {
 }
 
 int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
-    const Program program{.name = cylinders.program,
-                          .purpose = cylinders.purpose,
-                          .series = "cylinders",
-                          .footer =
-                              "A pair of values, one for the left and one for the right body, is separated by a comma: "
-                              "--young 1,100. Units are SI."};
+    const Program program{
+        .name = cylinders.program,
+        .purpose = cylinders.purpose,
+        .series = "cylinders",
+        .footer =
+            "A pair of values, one for the left and one for the right body, is separated by a comma: "
+            "--young 1,100. Units are SI. Ctrl-C ends a run after its present step; its files are complete until there."};
     CylinderOptions scene;
     run::RunOptions options{.out = "out/" + cylinders.program};
     const auto add_options = [&](CLI::App& app) {

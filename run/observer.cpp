@@ -1,5 +1,7 @@
 #include "abut/run/observer.hpp"
 
+#include <algorithm>
+
 namespace abut::run {
 
 template <int Dim>
@@ -15,6 +17,11 @@ void Observers<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const RunRe
 template <int Dim>
 void Observers<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     for (Observer<Dim>& observer : observers_) observer.look(run, solid);
+}
+
+template <int Dim>
+bool Observers<Dim>::asks_to_stop() const {
+    return std::ranges::any_of(observers_, [](const Observer<Dim>& observer) { return observer.asks_to_stop(); });
 }
 
 template class Observers<2>;

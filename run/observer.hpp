@@ -7,7 +7,8 @@
 
 namespace abut::run {
 
-/// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run.
+/// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run; a run that it asks to stop
+/// ends well, earlier.
 template <int Dim>
 class Observer {
 public:
@@ -17,9 +18,11 @@ public:
     /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
     virtual void record(const dynamics::LedgerEntry<Dim>&, const RunResult<Dim>&) {}
     virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
+    /// Asked at the start and after each step but the last, before that is recorded: true makes it the last one.
+    [[nodiscard]] virtual bool asks_to_stop() const { return false; }
 };
 
-/// Several observers as one; they are called in the order given, and must outlive it.
+/// Several observers as one; they are called in the order given, and must outlive it. Any of them may ask to stop.
 ///
 ///     run::Observers<2> all{files, progress};
 template <int Dim>
@@ -31,6 +34,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    [[nodiscard]] bool asks_to_stop() const override;
 
 private:
     std::vector<std::reference_wrapper<Observer<Dim>>> observers_;

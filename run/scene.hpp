@@ -58,10 +58,11 @@ struct RunResult {
     double finest_dt = 0.0;                 ///< of the finest cells; dt itself except with memm_async [s]
     std::vector<std::int64_t> level_cells;  ///< cells that step with dt, dt/2, ... (memm_async); empty: all with dt
     std::int64_t evaluations = 0;           ///< forces of cells, in the steps
-    std::int64_t steps = 0;
-    EnergyScale scale;  ///< with its value, > 0
-    double skin = 0.0;  ///< of the last candidate list [m]
-    int threads = 0;    ///< allowed
+    std::int64_t steps = 0;                 ///< to the end; taken, once the run has ended
+    bool complete = true;                   ///< false: an observer asked to stop before the last step
+    EnergyScale scale;                      ///< with its value, > 0
+    double skin = 0.0;                      ///< of the last candidate list [m]
+    int threads = 0;                        ///< allowed
     contact::ContactReport contact;
     std::int64_t inadmissible_overlaps_max = 0;  ///< largest number of `inadmissible_overlaps` at any record
     std::vector<Vector<Dim>> blind_corners;      ///< too sharp for contact to see them [m]

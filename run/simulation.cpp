@@ -140,10 +140,12 @@ public:
 
     void run() {
         result_.start = solid::body_motions<Dim>(integrator_, solid_);
+        stop_if_asked();
         record();
         observer_.look(integrator_, solid_);
         while (integrator_.steps() < result_.steps) {
             step();
+            stop_if_asked();
             if (integrator_.steps() % options_.interval == 0 || integrator_.steps() == result_.steps) record();
             observer_.look(integrator_, solid_);
         }
@@ -165,6 +167,12 @@ private:
             throw std::runtime_error(at_this_step(error.what()));
         }
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+    }
+
+    void stop_if_asked() {
+        if (integrator_.steps() == result_.steps || !observer_.asks_to_stop()) return;
+        result_.steps = integrator_.steps();
+        result_.complete = false;
     }
 
     [[nodiscard]] std::string at_this_step(const char* what) const {

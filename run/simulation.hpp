@@ -6,7 +6,10 @@
 namespace abut::run {
 
 /// Runs a scene from its first step to its last. It writes and prints nothing: observers do (ResultFiles, Frames, EnergyFile).
-/// The result is complete except for the times of mesh and output. `Scene::after_step` is called before the observers.
+/// The result lacks the times of mesh and output, which others know. `Scene::after_step` is called before the observers.
+///
+/// An observer that asks to stop ends the run after its present step, or before the first one: that step is recorded as the
+/// last one, and all figures of the result are those until then; RunResult::complete is false if steps were left.
 ///
 /// Throws BadInput with place, value, limit and remedy for options that do not go together, for bodies that overlap where the
 /// scene has contact, for a time step above the stable one, and where nothing moves and no `energy_scale` is given. An error

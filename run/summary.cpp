@@ -60,6 +60,7 @@ template <int Dim>
 Json run_json(const RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
     return {{"steps", result.steps},
+            {"complete", result.complete},
             {"dt", result.dt},
             {"stable_dt", result.stable.dt},
             {"dt_over_stable_dt", result.dt / result.stable.dt},
@@ -206,6 +207,8 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
                                    result.level_cells.empty() ? "" : "the finest ", result.finest_dt / result.stable.dt);
     if (!result.level_cells.empty())
         text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
+    if (!result.complete)
+        text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
     text += energy_lines(result) + contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + body_lines(scene, result) + time_line(result);

@@ -24,7 +24,9 @@ const apps::Program program{
     .purpose =
         "Bar, a strip of cells, that bounces on a rigid wall under gravity: pseudo-energy, energy and parasitic mode.",
     .series = "strip",
-    .footer = "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2."};
+    .footer =
+        "The bar: L = 10 m, E = 900 Pa, rho = 1 kg/m^3, nu = 0; it falls 5 m at 10 m/s^2. Ctrl-C ends a run after its "
+        "present step; its files are complete until there."};
 
 struct StripOptions {
     int cells = 100;

@@ -209,15 +209,11 @@ void print_costs(const DetectReport& report) {
 }  // namespace
 
 Json summary(const DetectReport& report, const DetectOptions& options) {
-    Json json = {{"program", detect_program.name},
-                 {"version", ABUT_VERSION},
-                 {"inputs", inputs_json(report.bodies)},
-                 {"bodies", report.bodies.names},
-                 {"faces", report.bodies.surface.size()},
-                 {"steps", report.steps},
-                 {"mean_face_size", report.bodies.mean_face_size()},
-                 {"distance", report.near.distance},
-                 {"depth", report.near.depth}};
+    Json json = {{"program", detect_program.name},        {"version", ABUT_VERSION},
+                 {"inputs", inputs_json(report.bodies)},  {"bodies", report.bodies.names},
+                 {"faces", report.bodies.surface.size()}, {"steps", report.steps},
+                 {"complete", report.complete},           {"mean_face_size", report.bodies.mean_face_size()},
+                 {"distance", report.near.distance},      {"depth", report.near.depth}};
     json["search"] = search_json(report);
     json["last_step"] = last_json(report);
     json["overlaps_max"] = report.overlaps_max;
@@ -234,9 +230,9 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
 
 void print(const DetectReport& report, const DetectOptions& options) {
     const Bodies& bodies = report.bodies;
-    fmt::print("detect: {}, {} faces, step {} of {}\n",
+    fmt::print("detect: {}, {} faces, step {}{}\n",
                bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()), bodies.surface.size(),
-               report.last.step, report.steps);
+               report.last.step, report.complete ? fmt::format(" of {}", report.steps) : ", asked to stop before the end");
     print_bodies(bodies);
     print_line("mean size of a face, sqrt(area)", fmt::format("{:.6g} m", bodies.mean_face_size()));
     print_line("gaps kept", fmt::format("above {:.6g} m, up to {:.6g} m", -report.near.depth, report.near.distance));

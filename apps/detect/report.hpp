@@ -16,8 +16,9 @@ struct DetectTimes {
 struct DetectReport {
     const Bodies& bodies;
     const Nearness& near;
-    int steps = 0;      ///< after the start
-    double skin = 0.0;  ///< of the last list [m]
+    int steps = 0;         ///< taken after the start
+    bool complete = true;  ///< false: a signal ended the run before its last step
+    double skin = 0.0;     ///< of the last list [m]
     StepResult last;
     contact::CandidateReport search;
     geometry::DecisionCounts decided;  ///< over all steps

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "apps/support/choices.hpp"
+#include "apps/support/signals.hpp"
 
 namespace abut::apps {
 namespace {
@@ -22,7 +23,7 @@ int report_errors(const std::string& name, const std::function<void()>& body) {
         spdlog::set_default_logger(spdlog::stdout_color_mt(name));
         spdlog::set_pattern("[%T] %v");
         body();
-        return 0;
+        return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: error: {}\n", name, error.what());
         return 1;

@@ -15,7 +15,8 @@ struct Program {
 };
 
 /// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either
-/// fails; 0 after --help or a good end. A command line that cannot be read touches no file.
+/// fails; 0 after --help or a good end; 130 or 143 if SIGINT or SIGTERM were noted (StopSignals) and `body` ended well. A
+/// command line that cannot be read touches no file.
 int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
                 const std::function<void()>& body);
 

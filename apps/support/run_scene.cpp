@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
+#include <spdlog/spdlog.h>
 
 #include <optional>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "abut/run/summary.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/signals.hpp"
 
 namespace abut::apps {
 namespace {
@@ -26,7 +28,8 @@ run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene
                                   const run::RunOptions& options) {
     RunLog<Dim> log;
     ShowProgress<Dim> progress;
-    run::Observers<Dim> observers{log, files, progress};
+    StopOnSignal<Dim> stop;
+    run::Observers<Dim> observers{log, files, progress, stop};
     const auto with_rest = [&](const char* what) {
         return what + std::string(files.has_begun() ? " energy.csv.partial holds the records so far." : "");
     };
@@ -57,7 +60,11 @@ void run_scene(const Program& program, const run::RunOptions& options, const std
     run::check(options);
     double seconds = 0.0;
     const run::Scene<Dim> scene = timed_scene(make_scene, seconds);
+    const StopSignals signals;  // from here on there is something to save
     run::RunResult<Dim> result = simulate_into(files, scene, options);
+    if (!result.complete)
+        spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then",
+                     name_of_signal(noted_signal()), result.steps);
     result.seconds.mesh = seconds;
     result.seconds.total += seconds;
     files.finish(scene, result);

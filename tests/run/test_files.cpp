@@ -20,6 +20,18 @@ using test::Folder;
 using test::read_text;
 namespace fs = std::filesystem;
 
+/// Asks to stop once a step is taken.
+class StopAt : public run::Observer<2> {
+public:
+    explicit StopAt(std::int64_t step) : step_(step) {}
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>&) override { seen_ = view.steps; }
+    [[nodiscard]] bool asks_to_stop() const override { return seen_ + 1 >= step_; }
+
+private:
+    std::int64_t step_;
+    std::int64_t seen_ = -1;
+};
+
 }  // namespace
 
 TEST_CASE("a program of a few lines leaves the files of a run, and a summary of what the result holds", "[run][files]") {
@@ -85,6 +97,24 @@ TEST_CASE("a run that breaks off leaves its records under another name, and an e
     CHECK(fs::exists(folder.path() / "somebody_elses.csv"));
 }
 
+TEST_CASE("a run that is asked to stop leaves all its files, and its summary says that it is not complete", "[run][files]") {
+    const Folder folder;
+    const run::RunOptions options{.out = folder.path(), .interval = 2, .frames = 2};
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    run::ResultFiles<2> files(options, "mine", "block");
+    StopAt stop(3);  // of 5
+    run::Observers<2> observers{files, stop};
+    run::RunResult<2> result = run::simulate<2>(scene, options, observers);
+    files.finish(scene, result);
+    const auto summary = nlohmann::json::parse(read_text(folder.path() / "summary.json"));
+    CHECK(summary["complete"] == false);
+    CHECK(summary["steps"] == 3);
+    CHECK(summary["time"].get<double>() == Approx(3 * result.dt));
+    CHECK(run::closing_table("mine", scene, result).find("asked to stop") != std::string::npos);
+    for (const char* name : {"energy.csv", "energy.gp", "block.pvd"}) CHECK(fs::exists(folder.path() / name));
+    CHECK_FALSE(fs::exists(folder.path() / "energy.csv.partial"));
+}
+
 TEST_CASE("files of a run have their folder for themselves until they are finished", "[run][files]") {
     const Folder folder;
     const run::RunOptions options{.steps = 2, .out = folder.path(), .frames = 0};
@@ -94,6 +124,7 @@ TEST_CASE("files of a run have their folder for themselves until they are finish
     run::RunResult<2> result = run::simulate<2>(scene, options, files);
     CHECK_THROWS_AS(run::ResultFiles<2>(options, "second", "block"), BadInput);
     files.finish(scene, result);
+    CHECK(nlohmann::json::parse(read_text(folder.path() / "summary.json"))["complete"] == true);
     CHECK_NOTHROW(run::ResultFiles<2>(options, "second", "block"));
 }
 

@@ -48,6 +48,32 @@ TEST_CASE("several observers are called in turn, at the start and after each ste
     CHECK(calls == expected);
 }
 
+TEST_CASE("an observer that asks to stop ends the run after the present step, which is recorded whatever the interval",
+          "[run]") {
+    class Stop : public run::Observer<2> {
+    public:
+        explicit Stop(int answers) : answers_(answers) {}
+        [[nodiscard]] bool asks_to_stop() const override { return asked_++ == answers_; }
+
+    private:
+        int answers_;
+        mutable int asked_ = 0;
+    };
+    const int step = GENERATE(0, 1, 3, 4);
+    run::Observer<2> nobody;
+    Stop stop(step);
+    run::Observers<2> both{stop, nobody};
+    const run::RunResult<2> result = run::simulate<2>(test::block_on_plane(0.01), {.steps = 20, .interval = 4}, both);
+    CHECK_FALSE(result.complete);
+    CHECK(result.steps == step);
+    CHECK(result.ledger.entries().back().step == step);
+    CHECK(result.ledger.entries().size() == (step == 0 ? 1 : 2));
+    CHECK(result.end.size() == 1);
+
+    Stop at_the_end(20);  // no step is left out
+    CHECK(run::simulate<2>(test::block_on_plane(0.01), {.steps = 20}, at_the_end).complete);
+}
+
 TEST_CASE("a block bounces off a plane with the speed it came with on the mean, and H~ stays", "[run]") {
     run::Scene<2> scene = test::block_on_plane(0.01);
     scene.time = 8.0;
