@@ -102,14 +102,14 @@ TEST_CASE("a run that is asked to stop leaves all its files, and its summary say
     const run::RunOptions options{.out = folder.path(), .interval = 2, .frames = 2};
     const run::Scene<2> scene = test::block_on_plane(0.01);
     run::ResultFiles<2> files(options, "mine", "block");
-    StopAt stop(5);
+    StopAt stop(3);  // of 5
     run::Observers<2> observers{files, stop};
     run::RunResult<2> result = run::simulate<2>(scene, options, observers);
     files.finish(scene, result);
     const auto summary = nlohmann::json::parse(read_text(folder.path() / "summary.json"));
     CHECK(summary["complete"] == false);
-    CHECK(summary["steps"] == 5);
-    CHECK(summary["time"].get<double>() == Approx(5 * result.dt));
+    CHECK(summary["steps"] == 3);
+    CHECK(summary["time"].get<double>() == Approx(3 * result.dt));
     CHECK(run::closing_table("mine", scene, result).find("asked to stop") != std::string::npos);
     for (const char* name : {"energy.csv", "energy.gp", "block.pvd"}) CHECK(fs::exists(folder.path() / name));
     CHECK_FALSE(fs::exists(folder.path() / "energy.csv.partial"));
