@@ -73,6 +73,12 @@ void detail::add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::s
     entry.parasitic = largest(n, [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; });
 }
 
+double detail::largest_angle(std::span<const double> angles) {
+    double so_far = 0.0;
+    for (const double angle : angles) so_far = larger(so_far, angle);
+    return so_far;
+}
+
 template <int Dim>
 void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     entries_.push_back(entry);

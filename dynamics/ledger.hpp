@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "abut/base/parallel.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/integrator.hpp"
 
@@ -91,6 +90,8 @@ namespace detail {
 template <int Dim>
 void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<const double> e,
                 std::span<const Vector<Dim>> rest_position, std::span<const double> mass);
+/// 0 without any, NaN if one is.
+[[nodiscard]] double largest_angle(std::span<const double> angles);
 }  // namespace detail
 
 /// Measures the present state; costs about two force evaluations. `system` is that of the integrator.
@@ -112,7 +113,7 @@ template <class Scheme, PointSystem S>
         entry.events = counts.events;
     }
     if constexpr (requires { system.rotations(integrator.q()); })
-        for (const double angle : system.rotations(integrator.q())) entry.rotation = larger(entry.rotation, angle);
+        entry.rotation = detail::largest_angle(system.rotations(integrator.q()));
     detail::add_motion<Dim>(entry, integrator, e, system.rest_positions(), system.masses());
     return entry;
 }
