@@ -30,15 +30,6 @@ std::string exact_text(const Vector<Dim>& vector) {
     return text;
 }
 
-template <int Dim>
-std::vector<IndexPair> all_pairs(const contact::Surface<Dim>& surface) {
-    std::vector<IndexPair> pairs;
-    for (std::int32_t i = 0; i < surface.size(); ++i)
-        for (std::int32_t j = i + 1; j < surface.size(); ++j)
-            if (surface.body[i] != surface.body[j]) pairs.push_back({i, j});
-    return pairs;
-}
-
 /// What is cut, then what comes of it.
 template <int Dim>
 void append(const std::string& name, const contact::Surface<Dim>& surface, const std::vector<Vector<Dim>>& u,

@@ -119,6 +119,16 @@ std::vector<Vector<Dim>> random_displacement(std::mt19937& random, const contact
     return u;
 }
 
+/// All pairs of faces of different bodies.
+template <int Dim>
+std::vector<geometry::IndexPair> all_pairs(const contact::Surface<Dim>& surface) {
+    std::vector<geometry::IndexPair> pairs;
+    for (std::int32_t i = 0; i < surface.size(); ++i)
+        for (std::int32_t j = i + 1; j < surface.size(); ++j)
+            if (surface.body[i] != surface.body[j]) pairs.push_back({i, j});
+    return pairs;
+}
+
 template <int Dim>
 std::vector<Vector<Dim>> at_rest(const contact::Surface<Dim>& surface) {
     return std::vector<Vector<Dim>>(static_cast<std::size_t>(surface.size()), Vector<Dim>::Zero());

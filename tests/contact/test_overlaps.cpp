@@ -17,15 +17,6 @@ using geometry::IndexPair;
 namespace {
 
 template <int Dim>
-std::vector<IndexPair> all_pairs(const contact::Surface<Dim>& surface) {
-    std::vector<IndexPair> pairs;
-    for (std::int32_t i = 0; i < surface.size(); ++i)
-        for (std::int32_t j = i + 1; j < surface.size(); ++j)
-            if (surface.body[i] != surface.body[j]) pairs.push_back({i, j});
-    return pairs;
-}
-
-template <int Dim>
 contact::Overlaps<Dim> find(const contact::Surface<Dim>& surface, const std::vector<Vector<Dim>>& u,
                             const std::vector<IndexPair>& pairs, AreaMethod method = AreaMethod::fast) {
     return contact::find_overlaps<Dim>(surface.view(), u, pairs, method);
