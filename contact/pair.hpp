@@ -22,20 +22,39 @@ template <int Dim>
     return (surface.centroid[face_2] - surface.centroid[face_1]) + (u_2 - u_1);
 }
 
-/// n_12 of any length: n_1 - n_2, or the normal of the face that is rigid, because an obstacle's face may be far larger than
-/// its partner and a gap read at its centroid along a tilted normal would mean nothing.
+/// Whose normal n_12 is: a face that is rigid, because an obstacle's face may be far larger than its partner and a gap read at
+/// its centroid along a tilted normal would mean nothing; or the face that is farther from the sharp edges of
+/// its body, because the faces of a corner that comes down on a flat side would push it aside by their tilt.
+enum class NormalOf { both, face_1, face_2 };
+
+template <int Dim>
+[[nodiscard]] NormalOf normal_of(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
+    if (surface.is_rigid(face_2)) return NormalOf::face_2;
+    if (surface.is_rigid(face_1)) return NormalOf::face_1;
+    const std::uint8_t steps_1 = surface.steps_to_edge(face_1), steps_2 = surface.steps_to_edge(face_2);
+    if (steps_1 == steps_2) return NormalOf::both;
+    return steps_1 < steps_2 ? NormalOf::face_2 : NormalOf::face_1;
+}
+
+/// n_12 of any length.
 template <int Dim>
 [[nodiscard]] Vector<Dim> pair_direction(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
     const Vector<Dim>&n_1 = surface.normal[face_1], &n_2 = surface.normal[face_2];
-    if (surface.is_rigid(face_2)) return -n_2;
-    return surface.is_rigid(face_1) ? n_1 : Vector<Dim>(n_1 - n_2);
+    switch (normal_of(surface, face_1, face_2)) {
+        case NormalOf::face_1:
+            return n_1;
+        case NormalOf::face_2:
+            return -n_2;
+        default:
+            return n_1 - n_2;
+    }
 }
 
 /// n_12, unit, from face 1's body into face 2's.
 template <int Dim>
 [[nodiscard]] Vector<Dim> pair_normal(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
     const Vector<Dim> direction = pair_direction(surface, face_1, face_2);
-    if (surface.is_rigid(face_1) || surface.is_rigid(face_2)) return direction;
+    if (normal_of(surface, face_1, face_2) != NormalOf::both) return direction;
     return direction.normalized();
 }
 

@@ -18,6 +18,7 @@ struct ContactReport {
     double sliding_ratio_max = 0.0;          ///< largest |g| |dA/ds| over the smaller face of a pair
     std::int64_t slipped_pairs = 0;          ///< slid off each other while pressed in, all steps (StepReport)
     double slipped_compression_max = 0.0;    ///< their largest |g|/D
+    std::int64_t tilted_pairs_max = 0;       ///< the most in a step (StepReport)
 };
 
 }  // namespace abut::contact

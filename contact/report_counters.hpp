@@ -15,6 +15,7 @@ void for_each_counter(Report& report, const Visit& visit) {
     visit(report.events), visit(report.rebuilds), visit(report.missed_contacts), visit(report.inadmissible_overlaps);
     visit(report.compressed_steps), visit(report.compression_max), visit(report.sliding_ratio_max);
     visit(report.slipped_pairs), visit(report.slipped_compression_max);
+    visit(report.tilted_pairs_max);
 }
 
 /// Adds what a step did.
@@ -28,6 +29,7 @@ void count_step(ContactReport& report, const ContactStep<Dim>& step, double comp
     report.sliding_ratio_max = std::max(report.sliding_ratio_max, of_step.sliding_ratio);
     report.slipped_pairs += of_step.slipped_pairs;
     report.slipped_compression_max = std::max(report.slipped_compression_max, of_step.slipped_compression);
+    report.tilted_pairs_max = std::max(report.tilted_pairs_max, of_step.tilted_pairs);
     if (of_step.compression > compression_warning) ++report.compressed_steps;
 }
 

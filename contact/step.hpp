@@ -44,6 +44,8 @@ struct PairStep {
     double compression;   ///< largest |g|/D at the ends of the step [-]
 };
 
+inline constexpr double far_tilt = 0.34906585039886592;  ///< [rad], 20 degrees
+
 /// Figures of a step as a whole.
 struct StepReport {
     std::int64_t events = 0;            ///< of all pairs
@@ -57,6 +59,9 @@ struct StepReport {
     /// comes to its end just when the step does.
     std::int64_t slipped_pairs = 0;
     double slipped_compression = 0.0;  ///< their largest |g|/D when the overlap came to its end
+    /// Active pairs whose normal is turned by more than `far_tilt` from those of both faces: edges on edges. Their force has a
+    /// part along the faces.
+    std::int64_t tilted_pairs = 0;
 };
 
 /// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is

@@ -143,7 +143,7 @@ void check_face(const SurfaceView<Dim>& surface, std::int32_t face) {
 
 template <int Dim>
 SurfaceView<Dim> Surface<Dim>::view() const {
-    return {vertices, face_offsets, face_vertices, centroid, normal, area, cell_depth, stiffness, body};
+    return {vertices, face_offsets, face_vertices, centroid, normal, area, cell_depth, stiffness, body, steps_to_sharp_edge};
 }
 
 template <int Dim>
@@ -161,6 +161,7 @@ void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_cell
     cell_depth.push_back(face_cell_depth);
     stiffness.push_back(face_stiffness);
     body.push_back(face_body);
+    if (!steps_to_sharp_edge.empty()) steps_to_sharp_edge.push_back(far_from_sharp_edge);
 }
 
 template <int Dim>
@@ -178,6 +179,7 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     require_size(surface.cell_depth.size(), n, "cell_depth");
     require_size(surface.stiffness.size(), n, "stiffness");
     require_size(surface.body.size(), n, "body");
+    if (!surface.steps_to_sharp_edge.empty()) require_size(surface.steps_to_sharp_edge.size(), n, "steps_to_sharp_edge");
     const auto refuse_offsets = [](const std::string& what) {
         throw BadInput("contact surface: `face_offsets` " + what + "; it must rise from 0 to the size of `face_vertices`.");
     };
@@ -217,6 +219,7 @@ std::uint64_t fingerprint(const SurfaceView<Dim>& surface) {
     checksum.add_values(surface.cell_depth);
     checksum.add_values(surface.stiffness);
     checksum.add_values(surface.body);
+    checksum.add_values(surface.steps_to_sharp_edge);
     return checksum.value();
 }
 

@@ -13,6 +13,9 @@ enum class SurfaceFace : std::int32_t {};
 /// Index of a face in the candidate list of a Contact: index in `Contact::faces()`.
 enum class ListedFace : std::int32_t {};
 
+/// As many steps from face to face, or more, and the sharp edges of a body do not matter.
+inline constexpr std::uint8_t far_from_sharp_edge = 3;
+
 /// The boundary of the bodies at rest, as views of a host's own arrays: all that contact knows of a solid.
 /// Faces are flat and convex; each translates with its displacement. n is the number of faces.
 template <int Dim>
@@ -28,6 +31,9 @@ struct SurfaceView {
     /// k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
     std::span<const double> stiffness;
     std::span<const std::int32_t> body;  ///< (n) faces of one body do not touch each other unless self-contact is asked for
+    /// (n), or empty: steps from face to face to a sharp convex edge of the body, at most `far_from_sharp_edge` (the function of
+    /// this name gives them). Two faces meet along the normal of that which is farther from an edge, or the mean of both
+    std::span<const std::uint8_t> steps_to_sharp_edge = {};
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
     [[nodiscard]] std::span<const std::int32_t> vertices_of(std::int32_t face) const {
@@ -36,6 +42,9 @@ struct SurfaceView {
     }
     [[nodiscard]] bool is_rigid(std::int32_t face) const {
         return stiffness[face] == std::numeric_limits<double>::infinity();
+    }
+    [[nodiscard]] std::uint8_t steps_to_edge(std::int32_t face) const {
+        return steps_to_sharp_edge.empty() ? far_from_sharp_edge : steps_to_sharp_edge[face];
     }
 };
 
@@ -51,6 +60,7 @@ struct Surface {
     std::vector<double> cell_depth;
     std::vector<double> stiffness;
     std::vector<std::int32_t> body;
+    std::vector<std::uint8_t> steps_to_sharp_edge;  ///< empty until it is set; appended faces are far then
 
     [[nodiscard]] SurfaceView<Dim> view() const;
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
@@ -73,7 +83,7 @@ void check_sizes(const SurfaceView<Dim>& surface);
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 
-/// A 64-bit checksum of corners, cell depths, stiffnesses and bodies, to the last bit: tells whether a saved state fits. Two
+/// A 64-bit checksum of corners, cell depths, stiffnesses, bodies and sharp edges, to the last bit: tells whether a saved state fits. Two
 /// different surfaces share one by accident only.
 template <int Dim>
 [[nodiscard]] std::uint64_t fingerprint(const SurfaceView<Dim>& surface);

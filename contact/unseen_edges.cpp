@@ -3,40 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
-#include <vector>
 
-#include "abut/geometry/merged_vertices.hpp"
+#include "abut/contact/ridges.hpp"
 
 namespace abut::contact {
 namespace {
 
 constexpr double rounding = 1e-9;  // of cosines: edges of just the limiting angle are unseen
-
-/// One side of an edge: the face that has it.
-struct HalfEdge {
-    std::int32_t lower, upper;  // merged vertices of its ends
-    std::int32_t body;
-    std::int32_t face;
-
-    [[nodiscard]] auto edge() const { return std::tie(lower, upper, body); }
-};
-
-std::vector<HalfEdge> half_edges(const SurfaceView<3>& surface) {
-    const std::vector<std::int32_t> merged = geometry::merged_vertices<3>(surface.vertices);
-    std::vector<HalfEdge> all;
-    all.reserve(surface.face_vertices.size());
-    for (std::int32_t face = 0; face < surface.size(); ++face) {
-        const auto corners = surface.vertices_of(face);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const std::int32_t a = merged[static_cast<std::size_t>(corners[i])];
-            const std::int32_t b = merged[static_cast<std::size_t>(corners[(i + 1) % corners.size()])];
-            all.push_back({std::min(a, b), std::max(a, b), surface.body[face], face});
-        }
-    }
-    std::ranges::sort(all, {}, [](const HalfEdge& half) { return std::tie(half.lower, half.upper, half.body, half.face); });
-    return all;
-}
 
 struct Body {
     SharpEdge<3> sharpest;
@@ -45,16 +18,13 @@ struct Body {
 
 /// By body; those without a convex edge are left out.
 std::map<std::int32_t, Body> sharpest_edges(const SurfaceView<3>& surface) {
-    const std::vector<HalfEdge> all = half_edges(surface);
     std::map<std::int32_t, Body> bodies;
-    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-        while (end < all.size() && all[end].edge() == all[begin].edge()) ++end;
-        if (end - begin != 2) continue;
-        const std::int32_t face_1 = all[begin].face, face_2 = all[begin + 1].face, body = all[begin].body;
-        const Vector<3>&n_1 = surface.normal[face_1], &n_2 = surface.normal[face_2];
-        if ((surface.centroid[face_2] - surface.centroid[face_1]).dot(n_1 - n_2) >= 0.0) continue;  // not convex
-        const SharpEdge<3> edge{body, std::sqrt(std::max(0.0, 0.5 * (1.0 + n_1.dot(n_2)))),
-                                0.5 * (surface.vertices[all[begin].lower] + surface.vertices[all[begin].upper])};
+    for (const Ridge& ridge : ridges(surface)) {
+        if (!is_convex(surface, ridge)) continue;
+        const std::int32_t face_1 = ridge.face_1, body = surface.body[face_1];
+        const double cosine = surface.normal[face_1].dot(surface.normal[ridge.face_2]);
+        const SharpEdge<3> edge{body, std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine))),
+                                0.5 * (surface.vertices[ridge.vertex_1] + surface.vertices[ridge.vertex_2])};
         const auto [known, is_new] = bodies.try_emplace(body, Body{edge, surface.is_rigid(face_1)});
         if (!is_new && edge.half_angle_sine < known->second.sharpest.half_angle_sine) known->second.sharpest = edge;
     }

@@ -113,6 +113,7 @@ Json counts_json(const RunResult<Dim>& result) {
             {"slipped_pairs", contact.slipped_pairs},
             {"slipped_compression_max", contact.slipped_compression_max},
             {"compressed_steps", contact.compressed_steps},
+            {"tilted_pairs_max", contact.tilted_pairs_max},
             {"stencil_faces", result.stencils.faces},
             {"stencil_extrapolations", result.stencils.extrapolated},
             {"stencil_worst_weight", result.stencils.worst_weight},

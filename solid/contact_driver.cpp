@@ -9,6 +9,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/blind_corners.hpp"
+#include "abut/contact/sharp_edges.hpp"
 #include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
@@ -44,6 +45,7 @@ void ContactDriver<Dim>::build_surface() {
         boundary_of_surface_.push_back(b);
     }
     obstacles_.append_to(surface_, mesh_.n_bodies());
+    surface_.steps_to_sharp_edge = contact::steps_to_sharp_edge(surface_.view());
 }
 
 // The path of the listed faces ---------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #include "abut/contact/path/measures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace abut::contact {
 namespace {
@@ -27,6 +28,13 @@ PairStep<Dim> geometry_of(const ContactPair<Dim>& pair, const ActivePairs<Dim>& 
             .compression = -std::min(motion.at_0.gap, motion.at_1.gap) / pair.admission_depth};
 }
 
+template <int Dim>
+bool is_tilted(const SurfaceView<Dim>& surface, const ContactPair<Dim>& pair) {
+    static const double cosine = std::cos(far_tilt);
+    const Vector<Dim>& n = pair.frame.normal();
+    return n.dot(surface.normal[pair.face_1]) < cosine && -n.dot(surface.normal[pair.face_2]) < cosine;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -42,6 +50,7 @@ void PathMeasures<Dim>::fill(const SurfaceView<Dim>& surface, const PairList<Dim
             step.report.compression = compression;
             step.report.most_compressed = a;
         }
+        if (is_tilted(surface, pair)) ++step.report.tilted_pairs;
         const double face = std::min(surface.area[pair.face_1], surface.area[pair.face_2]);
         for (const PathPiece<Dim>& piece : active.pieces_of(a))
             for (const double t : {0.0, 1.0})

@@ -8,10 +8,11 @@
 namespace abut::contact {
 namespace {
 
-/// Largest sine of the angle between a face and the plane of a pair it takes part in. Between deformable faces the pair
-/// normal halves the angle that facing allows; against a rigid face it is that face's own normal.
-double largest_tilt_sine(double facing_cosine, bool against_rigid) {
-    const double angle = std::acos(-facing_cosine), tilt = against_rigid ? angle : 0.5 * angle;
+/// Largest sine of the angle between a face and the plane of a pair it takes part in. Where the normal of a pair is the mean of
+/// those of its faces, the angle is half of that by which they may turn away from each other; where it is the normal of the
+/// other face, the whole of it.
+double largest_tilt_sine(double facing_cosine, bool along_other_normal) {
+    const double angle = std::acos(-facing_cosine), tilt = along_other_normal ? angle : 0.5 * angle;
     return tilt < 0.5 * std::numbers::pi ? std::sin(tilt) : 1.0;
 }
 
@@ -28,14 +29,17 @@ template <int Dim>
 RestFaceMaker<Dim>::RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)
     : surface_(surface),
       by_distance_alone_(by_distance_alone(options)),
-      tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))) {}
+      tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))),
+      tilt_near_sharp_edge_(largest_tilt_sine(options.facing_cosine, true)) {}
 
 template <int Dim>
 RestFace<Dim> RestFaceMaker<Dim>::operator()(std::int32_t face) const {
     RestFace<Dim> rest{.corners = {}, .interaction_radius = 0.0, .radius = circumradius(surface_, face), .face = face};
     for (const std::int32_t v : surface_.vertices_of(face)) rest.corners.extend(surface_.vertices[v]);
     if (!by_distance_alone_ && !surface_.is_rigid(face))
-        rest.interaction_radius = 2.0 * surface_.cell_depth[face] + rest.radius * tilt_;
+        rest.interaction_radius =
+            2.0 * surface_.cell_depth[face] +
+            rest.radius * (surface_.steps_to_edge(face) < far_from_sharp_edge ? tilt_near_sharp_edge_ : tilt_);
     return rest;
 }
 

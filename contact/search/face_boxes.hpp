@@ -31,6 +31,7 @@ private:
     const SurfaceView<Dim>& surface_;
     bool by_distance_alone_;
     double tilt_;  // largest sine of the angle between a face and the plane of a pair it takes part in
+    double tilt_near_sharp_edge_;
 };
 
 /// The box of a face on its path from u_0 to u_1, grown by all that an active pair can reach past its faces (2 d_f, the tilt

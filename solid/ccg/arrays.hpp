@@ -44,7 +44,7 @@ struct Occurrences {
 template <int Dim>
 struct CcgArrays {
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-              FreeFaceRule rule);
+              FreeFaceRule rule, CornerRule corner_rule);
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
@@ -83,7 +83,7 @@ private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                      const FaceConditions<Dim>& conditions, FreeFaceRule rule);
+                      const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule);
 };
 
 }  // namespace abut::solid

@@ -8,6 +8,11 @@ namespace {
 
 inline constexpr double null_space_cut = 1e-10;  // of the largest eigenvalue
 
+// Corners of a cell at which a free face answers to contact of another one. Faces that lie nearly in one plane are pressed
+// together, and a plate of one cell would give way altogether.
+inline constexpr double largest_corner_cosine = 0.6;  // |n_f . n_g|: between 53 and 127 degrees
+inline constexpr double least_stiffness = 0.5;        // that must be left to the face, of Young's modulus |f|/|c|
+
 /// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
 template <int Dim>
 struct Row {
@@ -19,6 +24,8 @@ struct Row {
     std::vector<Term<std::int32_t>> cells;
     std::vector<Term<BoundaryFace>> displacement;
     std::vector<Term<BoundaryFace>> traction;
+    std::vector<Term<BoundaryFace>> answers;
+    double normal_stiffness = 0.0;
 
     template <class Index>
     static void add(std::vector<Term<Index>>& terms, Index index, const Matrix<Dim>& weight) {
@@ -38,12 +45,13 @@ template <int Dim>
 class Builder {
 public:
     Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
-            const FaceConditions<Dim>& conditions, FreeFaceRule rule)
+            const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule)
         : mesh_(mesh),
           interior_(interior),
           materials_(materials),
           conditions_(conditions),
           rule_(rule),
+          corner_rule_(corner_rule),
           index_(static_cast<std::size_t>(mesh.n_faces()), no_face),
           affine_(mesh.boundary_faces.size()),
           rows_(mesh.boundary_faces.size()) {
@@ -88,8 +96,17 @@ private:
     void reconstruct(std::int32_t cell) {
         const auto boundary = boundary_of(cell);
         if (boundary.empty()) return;
-        for (const BoundaryFace b : boundary) Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
-        if (rule_ == FreeFaceRule::local_equilibrium) return balance(cell, boundary);
+        for (const BoundaryFace b : boundary) {
+            Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
+            rows_[b].normal_stiffness = materials_[mesh_.cell_body[cell]].wave_modulus() *
+                                        mesh_.face_measure[mesh_face(mesh_, b)] / mesh_.cell_measure[cell];
+        }
+        if (rule_ == FreeFaceRule::local_equilibrium) {
+            balance(cell, boundary);
+            if (corner_rule_ == CornerRule::relaxed)
+                for (const BoundaryFace b : boundary) relax_corners(cell, b, boundary);
+            return;
+        }
         for (const BoundaryFace b : boundary) {
             const Matrix<Dim> free = Matrix<Dim>::Identity() - conditions_.prescribed[b];
             if (free.isZero(1e-12)) continue;
@@ -108,6 +125,57 @@ private:
         return face_stiffness<Dim>(material.lambda(), material.mu(), mesh_.cell_measure[cell], outward(f), outward(g));
     }
 
+    /// Symmetric and not negative definite: what is of the null space becomes 0.
+    static Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
+        Eigen::VectorXd inverse = eigen.eigenvalues();
+        const double cut = null_space_cut * inverse.maxCoeff();
+        for (Eigen::Index i = 0; i < inverse.size(); ++i) inverse[i] = inverse[i] > cut ? 1.0 / inverse[i] : 0.0;
+        return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+    }
+
+    /// The other faces of the cell that turn away from b by a right angle or so, and are free in some direction.
+    std::vector<BoundaryFace> corners_with(BoundaryFace b, const std::vector<BoundaryFace>& boundary) const {
+        const auto normal = [&](BoundaryFace face) -> const Vector<Dim>& {
+            return mesh_.face_normal[mesh_face(mesh_, face)];
+        };
+        std::vector<BoundaryFace> corners;
+        for (const BoundaryFace other : boundary)
+            if (other != b && is_free(other) && std::abs(normal(b).dot(normal(other))) <= largest_corner_cosine)
+                corners.push_back(other);
+        return corners;
+    }
+
+    /// The minimum of the cell's energy over these faces when b is displaced by delta:  N A N z = -N A_b delta.
+    void relax_corners(std::int32_t cell, BoundaryFace b, const std::vector<BoundaryFace>& boundary) {
+        if (!conditions_.prescribed[b].isZero(0.0)) return;  // contact leaves it alone
+        const std::vector<BoundaryFace> corners = corners_with(b, boundary);
+        if (corners.empty()) return;
+        const std::int32_t face = mesh_face(mesh_, b);
+        const auto n = static_cast<Eigen::Index>(corners.size()) * Dim;
+        const auto rows_of = [](std::size_t i) { return static_cast<Eigen::Index>(i) * Dim; };
+        const auto free = [&](std::size_t i) -> Matrix<Dim> {
+            return Matrix<Dim>::Identity() - conditions_.prescribed[corners[i]];
+        };
+        Eigen::MatrixXd among(n, n), with_b(n, Dim);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const std::int32_t f = mesh_face(mesh_, corners[i]);
+            with_b.block<Dim, Dim>(rows_of(i), 0) = free(i) * stiffness(cell, f, face);
+            for (std::size_t j = 0; j < corners.size(); ++j)
+                among.block<Dim, Dim>(rows_of(i), rows_of(j)) =
+                    free(i) * stiffness(cell, f, mesh_face(mesh_, corners[j])) * free(j);
+        }
+        const Eigen::MatrixXd answer = -pseudo_inverse(among) * with_b;
+        const Matrix<Dim> relaxed = stiffness(cell, face, face) + with_b.transpose() * answer;
+        const Vector<Dim>& normal = mesh_.face_normal[face];
+        const double along_normal = normal.dot(relaxed * normal), measure = mesh_.face_measure[face];
+        const double young = materials_[mesh_.cell_body[cell]].young;
+        if (along_normal < least_stiffness * young * measure * measure / mesh_.cell_measure[cell]) return;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            Row<Dim>::add(rows_[b].answers, corners[i], answer.block<Dim, Dim>(rows_of(i), 0));
+        rows_[b].normal_stiffness = along_normal / measure;
+    }
+
     /// Minimum of the cell's energy over what is free of its boundary faces:
     ///   N A N z = N (|f| t - A_interior u_g - A P u_D),  z = pinv(...) + the part of the affine extrapolation in the null
     /// space.
@@ -123,12 +191,7 @@ private:
             for (std::size_t j = 0; j < boundary.size(); ++j)
                 block(a, i, j) = stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j]));
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(free * a * free);
-        Eigen::VectorXd inverse = eigen.eigenvalues();
-        const double cut = null_space_cut * inverse.maxCoeff();
-        for (Eigen::Index i = 0; i < n; ++i) inverse[i] = inverse[i] > cut ? 1.0 / inverse[i] : 0.0;
-        Eigen::MatrixXd compliance = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-        compliance = free * compliance * free;
+        Eigen::MatrixXd compliance = free * pseudo_inverse(free * a * free) * free;
         Eigen::MatrixXd undetermined = free - compliance * a * free;
         Eigen::MatrixXd from_prescribed = -compliance * a;
 
@@ -170,6 +233,12 @@ private:
                                                                     : row.traction[i].weight);
             }
             packed.load_offsets.push_back(static_cast<std::int32_t>(packed.load_faces.size()));
+            for (const auto& [face, answer] : row.answers) {
+                packed.answer_faces.push_back(face);
+                packed.answers.push_back(answer);
+            }
+            packed.answer_offsets.push_back(static_cast<std::int32_t>(packed.answer_faces.size()));
+            packed.normal_stiffness.push_back(row.normal_stiffness);
         }
         return packed;
     }
@@ -179,6 +248,7 @@ private:
     std::span<const Material> materials_;
     const FaceConditions<Dim>& conditions_;
     FreeFaceRule rule_;
+    CornerRule corner_rule_;
     std::vector<BoundaryFace> index_;                  // by face; none inside
     IdVector<BoundaryFace, FaceStencil<Dim>> affine_;  // where wanted
     IdVector<BoundaryFace, Row<Dim>> rows_;
@@ -198,15 +268,15 @@ Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const 
 template <int Dim>
 BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior,
                                                  std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-                                                 FreeFaceRule rule) {
-    return Builder<Dim>(mesh, interior, materials, conditions, rule).build();
+                                                 FreeFaceRule rule, CornerRule corner_rule) {
+    return Builder<Dim>(mesh, interior, materials, conditions, rule, corner_rule).build();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                             \
     template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
     template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
         const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
-        FreeFaceRule);
+        FreeFaceRule, CornerRule);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -10,20 +10,32 @@
 
 namespace abut::solid {
 
-/// û = R u + B u_D + L t on the boundary faces. docs/method.md, Space.
+/// û = R u + B u_D + L t on the boundary faces, and w = û + delta + sum of K delta where contact moves faces by delta.
+/// docs/method.md, Space and Contact.
 template <int Dim>
 struct BoundaryReconstruction {
     std::vector<std::int32_t> offsets{0};  ///< (n_boundary + 1)
     std::vector<std::int32_t> cells;
-    std::vector<Matrix<Dim>> weights;            ///< R; they sum to the identity where nothing is prescribed
-    std::vector<Matrix<Dim>> deficit;            ///< identity less the sum of a row's weights (n_boundary)
-    std::vector<std::int32_t> load_offsets{0};   ///< (n_boundary + 1)
-    std::vector<BoundaryFace> load_faces;        ///< boundary faces whose u_D or t enters
-    std::vector<Matrix<Dim>> from_displacement;  ///< B
-    std::vector<Matrix<Dim>> from_traction;      ///< L [m/Pa]
-    StencilReport report;                        ///< of the affine extrapolations that were needed
+    std::vector<Matrix<Dim>> weights;             ///< R; they sum to the identity where nothing is prescribed
+    std::vector<Matrix<Dim>> deficit;             ///< identity less the sum of a row's weights (n_boundary)
+    std::vector<std::int32_t> load_offsets{0};    ///< (n_boundary + 1)
+    std::vector<BoundaryFace> load_faces;         ///< boundary faces whose u_D or t enters
+    std::vector<Matrix<Dim>> from_displacement;   ///< B
+    std::vector<Matrix<Dim>> from_traction;       ///< L [m/Pa]
+    std::vector<std::int32_t> answer_offsets{0};  ///< (n_boundary + 1)
+    std::vector<BoundaryFace> answer_faces;       ///< free faces of the same cell that a correction of a face moves
+    std::vector<Matrix<Dim>> answers;             ///< K: by how much
+    /// n . dy_f/ddelta_f n / |f|, the answers included (n_boundary) [Pa/m]
+    std::vector<double> normal_stiffness;
+    StencilReport report;  ///< of the affine extrapolations that were needed
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
+    /// visit(face, K) for each face that answers to a correction of b.
+    template <class Visit>
+    void for_each_answer(BoundaryFace b, const Visit& visit) const {
+        for (std::int32_t i = answer_offsets[number_of(b)]; i < answer_offsets[number_of(b) + 1]; ++i)
+            visit(answer_faces[i], answers[i]);
+    }
 };
 
 /// `interior` holds a stencil for every interior face, by face number.
@@ -31,7 +43,8 @@ template <int Dim>
 [[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh,
                                                                std::span<const FaceStencil<Dim>> interior,
                                                                std::span<const Material> materials,
-                                                               const FaceConditions<Dim>& conditions, FreeFaceRule rule);
+                                                               const FaceConditions<Dim>& conditions, FreeFaceRule rule,
+                                                               CornerRule corner_rule);
 
 /// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.

@@ -37,7 +37,6 @@ struct Ccg<Dim>::Impl {
     MotionBound<Dim> motion_bound;
     IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
     IdVector<BoundaryFace, double> boundary_measure;
-    IdVector<BoundaryFace, double> boundary_stiffness;
     bool varies = false;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
@@ -49,15 +48,12 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
                      const BoundaryConditions<Dim>& boundary_conditions)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule),
       sweeps(arrays),
       motion_bound(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
-        const std::int32_t c = mesh.face_cells[f][0];
         boundary_centroid.push_back(mesh.face_centroid[f]);
         boundary_measure.push_back(mesh.face_measure[f]);
-        boundary_stiffness.push_back(materials[mesh.cell_body[c]].wave_modulus() * mesh.face_measure[f] /
-                                     mesh.cell_measure[c]);
     }
     for (const auto& condition : conditions.dirichlet) varies = varies || condition.history;
     for (const auto& condition : conditions.traction) varies = varies || condition.history;
@@ -245,7 +241,7 @@ std::span<const FaceStencil<Dim>> Ccg<Dim>::stencils() const {
 
 template <int Dim>
 double Ccg<Dim>::normal_stiffness(BoundaryFace face) const {
-    return impl_->boundary_stiffness[face];
+    return impl_->arrays.boundary.normal_stiffness[static_cast<std::size_t>(face)];
 }
 
 template <int Dim>

@@ -17,11 +17,12 @@ struct BoundaryLoad {
     std::vector<Vector<Dim>> traction;  ///< |f| t_f (n_boundary) [N]
 };
 
-/// Changes of some boundary faces: what contact adds. Empty where there is no contact.
+/// Changes of some boundary faces: what contact adds. Other free faces of their cells answer (CornerRule). Empty where there
+/// is no contact.
 template <int Dim>
 struct FaceCorrections {
     std::span<const BoundaryFace> faces;           ///< boundary faces, increasing (n)
-    std::span<const Vector<Dim>> displacement;     ///< delta_f = ũ_f - û_f (n) [m]
+    std::span<const Vector<Dim>> displacement;     ///< delta_f (n) [m]
     std::span<const Vector<Dim>> energy_gradient;  ///< dV/dû_f of the pairs (n) [N]; may be empty
 };
 
@@ -95,14 +96,15 @@ public:
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const BoundaryFace> faces) const;
     /// What `evaluate_cells` needs for these cells, increasing.
     [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
-    /// û [m] and y - |f| t [N] of the region's faces (region.faces), without contact.
+    /// û [m], and the answer of V to a correction, y - |f| t where no other face answers [N], of the region's faces
+    /// (region.faces), without contact.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
     /// dV/du_c of the region's cells, as `gradient` gives it (region.cells) [N].
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
-    /// Q_ff' among these boundary faces. docs/method.md, Time.
+    /// Q_ff' among these boundary faces: how the gradients of `evaluate_faces` answer to corrections. docs/method.md, Time.
     [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const BoundaryFace> faces) const;
 
     /// How far a boundary face has moved at most from one state to another [m]; a close bound, much cheaper than the motion.
@@ -120,7 +122,7 @@ public:
     [[nodiscard]] const StencilReport& stencil_report() const;
     [[nodiscard]] const BoundaryReconstruction<Dim>& boundary() const;
     [[nodiscard]] std::span<const FaceStencil<Dim>> stencils() const;  ///< by face; a boundary face has weight 0 throughout
-    /// Normal stiffness (lambda + 2 mu) |f|/|c| of a boundary half-cell [Pa/m].
+    /// Normal stiffness of a boundary half-cell [Pa/m]: (lambda + 2 mu) |f|/|c|, less where other faces answer (CornerRule).
     [[nodiscard]] double normal_stiffness(BoundaryFace face) const;
     /// Cells on whose displacement û of this boundary face depends.
     [[nodiscard]] std::span<const std::int32_t> cells_of(BoundaryFace face) const;

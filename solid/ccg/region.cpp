@@ -93,6 +93,22 @@ Matrix<Dim> coupling_block(const CcgArrays<Dim>& arrays, BoundaryFace b, Boundar
     return block;
 }
 
+/// The same between corrections: with all faces that answer to them.
+template <int Dim>
+Matrix<Dim> answered_block(const CcgArrays<Dim>& arrays, BoundaryFace b, BoundaryFace other) {
+    const auto row = [&](BoundaryFace face) {
+        Matrix<Dim> sum = coupling_block(arrays, face, other);
+        arrays.boundary.for_each_answer(other, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
+            sum += coupling_block(arrays, face, answering) * answer;
+        });
+        return sum;
+    };
+    Matrix<Dim> block = row(b);
+    arrays.boundary.for_each_answer(
+        b, [&](BoundaryFace face, const Matrix<Dim>& answer) { block += answer.transpose() * row(face); });
+    return block;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -135,7 +151,7 @@ contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span
             const auto at = std::lower_bound(faces.begin(), faces.end(), other);
             if (at == faces.end() || *at != other) continue;
             coupling.columns.push_back(static_cast<std::int32_t>(at - faces.begin()));
-            coupling.blocks.push_back(coupling_block(arrays, b, other));
+            coupling.blocks.push_back(answered_block(arrays, b, other));
         }
         coupling.offsets.push_back(static_cast<std::int32_t>(coupling.columns.size()));
     }

@@ -195,7 +195,13 @@ public:
         : sweeps_(sweeps), corrections_(corrections) {
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
             const std::int32_t b = number_of(corrections.faces[i]);
-            store(load_packed<Dim>(corrections.displacement[i]), sweeps.correction_, b);
+            const Vector<Dim>& correction = corrections.displacement[i];
+            store(load_packed<Dim>(sweeps.correction_, b) + load_packed<Dim>(correction), sweeps.correction_, b);
+            sweeps.arrays_.boundary.for_each_answer(corrections.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
+                store(load_packed<Dim>(sweeps.correction_, number_of(face)) +
+                          load_packed<Dim>(Vector<Dim>(answer * correction)),
+                      sweeps.correction_, number_of(face));
+            });
             if (!corrections.energy_gradient.empty())
                 store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, b);
         }
@@ -204,6 +210,9 @@ public:
         for (const BoundaryFace face : corrections_.faces) {
             store(Lanes<Dim>{}, sweeps_.correction_, number_of(face));
             store(Lanes<Dim>{}, sweeps_.pair_gradient_, number_of(face));
+            sweeps_.arrays_.boundary.for_each_answer(face, [&](BoundaryFace answering, const Matrix<Dim>&) {
+                store(Lanes<Dim>{}, sweeps_.correction_, number_of(answering));
+            });
         }
     }
     PlacedCorrections(const PlacedCorrections&) = delete;
@@ -292,6 +301,9 @@ void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const V
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
         gradient[i] = unload<Dim>(boundary_gradient(region.faces[i], boundary_load));
+        arrays_.boundary.for_each_answer(region.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
+            gradient[i] += answer.transpose() * unload<Dim>(boundary_gradient(face, boundary_load));
+        });
     }
 }
 

@@ -15,6 +15,7 @@ const std::vector<Family>& families() {
         {"refinement", "cells across the contact up to 100 times smaller", sweep_refinement},
         {"thickness", "plates of one, two and four cells", sweep_thickness},
         {"wedge", "a tip that comes down on a plane and on a block", sweep_wedge},
+        {"corner", "a square that comes down with a corner on the flat side of a block", sweep_corner},
         {"crossing", "beams with edges of 60 to 100 degrees that cross at right angles", sweep_crossing},
         {"edge", "a block that presses on another and slides off its edge or corner", sweep_edge},
         {"crowd", "many discs that run into one another at once", sweep_crowd},

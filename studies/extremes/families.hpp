@@ -36,6 +36,7 @@ void sweep_aspect(const SweepOptions& options, const Sink& sink);
 void sweep_refinement(const SweepOptions& options, const Sink& sink);
 void sweep_thickness(const SweepOptions& options, const Sink& sink);
 void sweep_wedge(const SweepOptions& options, const Sink& sink);
+void sweep_corner(const SweepOptions& options, const Sink& sink);
 void sweep_crossing(const SweepOptions& options, const Sink& sink);
 void sweep_edge(const SweepOptions& options, const Sink& sink);
 void sweep_crowd(const SweepOptions& options, const Sink& sink);

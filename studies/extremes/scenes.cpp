@@ -55,6 +55,20 @@ mesh::Mesh<2> triangle(const Vector<2>& tip, double angle, double unit) {
     return mesh::build_mesh(std::move(soup));
 }
 
+/// Of side 1, a corner below.
+mesh::Mesh<2> turned_square(const Vector<2>& corner, int cells, double unit) {
+    const auto square = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {cells, cells}, mesh::CellShape::quadrangle);
+    mesh::CellSoup<2> soup;
+    soup.name = "square";
+    soup.body_names = {soup.name};
+    soup.cell_shape = square.cell_shape;
+    soup.cell_vertices = square.cell_vertices;
+    soup.cell_body = square.cell_body;
+    for (const Vector<2>& x : square.vertices)
+        soup.vertices.push_back(corner + unit * std::numbers::sqrt2 / 2.0 * Vector<2>(x[0] - x[1], x[0] + x[1]));
+    return mesh::build_mesh(std::move(soup));
+}
+
 /// A beam along `axis` with its lower or upper edge at the height of `middle`.
 mesh::Mesh<3> beam(const Vector<3>& axis, const Vector<3>& middle, double angle, bool is_upper, double unit) {
     constexpr double length = 2.0, side = 0.5;
@@ -130,6 +144,18 @@ run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane) {
     const auto block = mesh::structured_box<2>(unit * (meeting.place + lower), unit * (meeting.place + upper), {11, 6},
                                                mesh::CellShape::quadrangle, "block");
     scene.mesh = mesh::combine<2>(std::vector{block, triangle(tip, angle, unit)});
+    set_in_motion(scene, meeting, 1);
+    return scene;
+}
+
+run::Scene<2> square_on_corner(const Meeting<2>& meeting, int cells) {
+    const double unit = meeting.units.length;
+    const auto block = mesh::structured_box<2>(unit * (meeting.place + Vector<2>(-1.0, -1.0)),
+                                               unit * (meeting.place + Vector<2>(1.0, 0.0)), {2 * cells, cells},
+                                               mesh::CellShape::quadrangle, "block");
+    const Vector<2> corner = unit * (meeting.place + Vector<2>(meeting.aside, meeting.gap));
+    run::Scene<2> scene;
+    scene.mesh = mesh::combine<2>(std::vector{block, turned_square(corner, cells, unit)});
     set_in_motion(scene, meeting, 1);
     return scene;
 }

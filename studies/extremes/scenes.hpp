@@ -48,6 +48,9 @@ template <int Dim>
 /// A triangle whose tip, of this angle [rad], comes down on the middle of a block, or on a rigid plane.
 [[nodiscard]] run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane);
 
+/// A square of side 1 that comes down with a corner on the middle of a block of sides 2 and 1; so many cells along 1.
+[[nodiscard]] run::Scene<2> square_on_corner(const Meeting<2>& meeting, int cells);
+
 /// Two beams of length 2 and sides 0.5, their sections rhombi with this angle [rad] above and below, which meet at right
 /// angles, edge on edge.
 [[nodiscard]] run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle);

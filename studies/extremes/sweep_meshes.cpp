@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "abut/mesh/cell_shape.hpp"
@@ -15,6 +17,19 @@ const std::array plane_shapes = {CellShape::quadrangle, CellShape::triangle};
 const std::array solid_shapes = {CellShape::hexahedron, CellShape::tetrahedron};
 
 constexpr int steps_of_thin_cells = 2000;
+
+/// A corner that comes down on a flat side is not pushed along it.
+void require_straight_rebound(Row& row) {
+    if (row.verdict == Verdict::refused) return;
+    const double aside = std::max(std::abs(row.numbers[0].value), std::abs(row.numbers[2].value));
+    const std::string seen = fmt::format("speed aside {:.2g} v, up {:.2g} v", aside, row.numbers[3].value);
+    if (aside > largest_speed_aside) {
+        row.verdict = Verdict::failed;
+        row.message += fmt::format("{}; {:g} v aside is allowed", seen, largest_speed_aside);
+    } else if (row.message.empty()) {
+        row.message = seen;
+    }
+}
 
 }  // namespace
 
@@ -102,6 +117,25 @@ void sweep_wedge(const SweepOptions& options, const Sink& sink) {
                      .make = [=] { return wedge(meeting, degrees * std::numbers::pi / 180.0, on_plane); },
                      .run = run}));
             }
+}
+
+/// The corner meets a face of the block off its middle, so that the two sides do not mirror each other.
+void sweep_corner(const SweepOptions& options, const Sink& sink) {
+    for (const int cells : {20, 40})
+        for (const double speed : {0.02, 0.005, 0.001}) {
+            if (options.quick && cells > 20) continue;
+            // Gaps are read at the middle of faces: the corner is in contact when that of its faces has come down.
+            const double depth = 0.25 * std::numbers::sqrt2 / cells;
+            const Meeting<2> meeting{
+                .speed = speed, .gap = 0.4 * speed, .aside = 0.3 / cells, .time = 8.0 + 0.5 * depth / speed};
+            Row row = attempt<2>({.family = "corner",
+                                  .value = fmt::format("{} cells, v = {:g} c", cells, speed),
+                                  .speed = meeting.speed,
+                                  .make = [=] { return square_on_corner(meeting, cells); },
+                                  .run = options.run});
+            require_straight_rebound(row);
+            sink(row);
+        }
 }
 
 void sweep_crossing(const SweepOptions& options, const Sink& sink) {

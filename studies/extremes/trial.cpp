@@ -54,6 +54,7 @@ void append_dimensionless(Row& row, const run::RunResult<Dim>& result) {
                                                    {"active pairs", count(row.active_pairs_max)},
                                                    {"lists of candidates", count(result.contact.rebuilds)},
                                                    {"candidates", count(result.contact.candidates_max)},
+                                                   {"tilted pairs", count(result.contact.tilted_pairs_max)},
                                                    {"pairs not admitted", count(result.inadmissible_overlaps_max)}};
     row.numbers.insert(row.numbers.end(), numbers);
 }

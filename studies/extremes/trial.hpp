@@ -22,6 +22,7 @@ enum class Verdict {
 inline constexpr double largest_drift = 1e-10;           ///< of H~ over the scale of the scene
 inline constexpr double largest_momentum_drift = 1e-10;  ///< over the sum of m |v| at the start
 inline constexpr double largest_excess = 1.0;      ///< H - H~ over the scale: the parasitic mode owns less than the run
+inline constexpr double largest_speed_aside = 0.05;  ///< over the speed: of a corner on a flat side, along it
 inline constexpr double largest_deviation = 1e-9;  ///< of dimensionless numbers that must not depend on the units
 
 /// A run and what is expected of it.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::studies {
@@ -41,9 +42,9 @@ struct Uniform {
 };
 
 template <int Dim>
-Uniform uniform(const solid::Material& material, bool free_sides, double p) {
+Uniform uniform(const solid::Material& material, PatchSides sides, double p) {
     const double nu = material.poisson, e = material.young;
-    if (!free_sides) return {0.0, -p / material.wave_modulus(), -p * nu / (1.0 - nu)};
+    if (sides != PatchSides::free) return {0.0, -p / material.wave_modulus(), -p * nu / (1.0 - nu)};
     if (Dim == 2) return {nu * (1.0 + nu) * p / e, -(1.0 - nu * nu) * p / e, 0.0};
     return {nu * p / e, -p / e, 0.0};
 }
@@ -56,8 +57,11 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
     const std::string top = Dim == 2 ? "ymax" : "zmax", bottom = Dim == 2 ? "ymin" : "zmin";
     std::vector<std::string> rollers{"xmin"};
     if (Dim == 3) rollers.push_back("ymin");
-    if (!options.free_sides) rollers.push_back("xmax");
-    if (!options.free_sides && Dim == 3) rollers.push_back("ymax");
+    for (int axis = 0; axis < Dim - 1; ++axis) {
+        if (options.sides == PatchSides::rollers) rollers.push_back(axis == 0 ? "xmax" : "ymax");
+        if (options.sides == PatchSides::walls)
+            solid.obstacles.push_back(contact::plane_obstacle<Dim>(Vector<Dim>::Ones(), -Vector<Dim>::Unit(axis), 4.0));
+    }
     for (const char* name : names)
         for (const std::string& side : rollers)
             solid.boundary.dirichlet.push_back(
@@ -66,6 +70,7 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
     const double p = options.strain * solid.materials[0].wave_modulus();
     solid.boundary.traction = {{.group = "upper." + top, .value = -p * Vector<Dim>::Unit(Dim - 1)}};
     solid.boundary.free_face_rule = options.neumann;
+    solid.boundary.corner_rule = options.corners;
     solid.contact = options.contact;
     return solid;
 }
@@ -75,12 +80,15 @@ ContactPatchErrors errors(solid::Solid<Dim>& solid, const PatchOptions& options,
     const mesh::Mesh<Dim>& mesh = solid.mesh();
     const auto& materials = solid.options().materials;
     const double p = options.strain * materials[0].wave_modulus();
-    const std::array<Uniform, 2> exact{uniform<Dim>(materials[0], options.free_sides, p),
-                                       uniform<Dim>(materials[1], options.free_sides, p)};
+    const std::array<Uniform, 2> exact{uniform<Dim>(materials[0], options.sides, p),
+                                       uniform<Dim>(materials[1], options.sides, p)};
     ContactPatchErrors result;
     const auto field = solid.contact_field(q);
+    const auto is_of_the_interface = [&](std::size_t b) {  // and not at a wall
+        return std::isfinite(field.gap[b]) && std::abs(mesh.face_normal[mesh.boundary_faces[b]][Dim - 1]) > 0.5;
+    };
     for (std::size_t b = 0; b < field.pressure.size(); ++b)
-        if (std::isfinite(field.gap[b])) result.pressure = std::max(result.pressure, std::abs(field.pressure[b] - p) / p);
+        if (is_of_the_interface(b)) result.pressure = std::max(result.pressure, std::abs(field.pressure[b] - p) / p);
     std::vector<double> force(q.size());
     solid.force(q, force);  // sets the stresses
     double largest = 0.0;

@@ -15,14 +15,22 @@ enum class PatchMesh {
     unstructured,  ///< triangles or tetrahedra of Gmsh that do not match
 };
 
+/// What holds the sides at xmax (and ymax); the others stand on rollers.
+enum class PatchSides {
+    rollers,
+    free,
+    walls,  ///< contact with rigid planes: cells in the corner are pressed on two sides or three
+};
+
 struct PatchOptions {
     PatchMesh mesh = PatchMesh::matching;
-    bool free_sides = false;                ///< the sides at xmax (and ymax) are free, instead of held by rollers
+    PatchSides sides = PatchSides::rollers;
+    solid::CornerRule corners = solid::CornerRule::relaxed;
     std::array<double, 2> young{1.0, 7.0};  ///< lower and upper [Pa]
     std::array<double, 2> poisson{0.3, 0.2};
     /// Pressure over the wave modulus of the lower block [-]. Contact answers to the second order of it: areas shared by
     /// faces at the edges change as the blocks slide
-    double strain = 1e-9;
+    double strain = 1e-11;
     contact::ContactOptions contact;
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
 };

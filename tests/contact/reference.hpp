@@ -104,6 +104,11 @@ public:
         : surface_(surface) {
         for (const auto& [f_1, f_2] : pairs) {
             ReferencePair<Dim> pair{f_1, f_2, (surface.normal[f_1] - surface.normal[f_2]).normalized(), 0.5, 0.5};
+            if (!surface.steps_to_sharp_edge.empty()) {
+                const int steps_1 = surface.steps_to_sharp_edge[f_1], steps_2 = surface.steps_to_sharp_edge[f_2];
+                if (steps_1 < steps_2) pair.normal = -surface.normal[f_2];
+                if (steps_1 > steps_2) pair.normal = surface.normal[f_1];
+            }
             const double k_1 = surface.stiffness[f_1], k_2 = surface.stiffness[f_2];
             if (weighting == contact::InterfaceWeighting::stiffness)
                 pair.theta_1 = k_2 / (k_1 + k_2), pair.theta_2 = k_1 / (k_1 + k_2);

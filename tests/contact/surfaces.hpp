@@ -70,7 +70,7 @@ std::vector<Vector<Dim>> random_face(std::mt19937& random, const Vector<Dim>& ce
 }
 
 /// Body 0 below, faces looking up; body 1 above, looking down; every normal up to `tilt` away from the vertical, every
-/// face somewhere over a common ground. Not a closed surface: contact asks for none.
+/// face somewhere over a common ground, and some near sharp edges. Not a closed surface: contact asks for none.
 template <int Dim>
 contact::Surface<Dim> random_surface(std::mt19937& random, int faces_per_body, double tilt = 0.3, double ground = 1.0) {
     contact::Surface<Dim> surface;
@@ -83,6 +83,9 @@ contact::Surface<Dim> random_surface(std::mt19937& random, int faces_per_body, d
             surface.append(random_face<Dim>(random, centre, normal, uniform(random, 0.3, 0.8)), uniform(random, 0.3, 0.8),
                            uniform(random, 1.0, 10.0), body);
         }
+    for (std::int32_t face = 0; face < surface.size(); ++face)
+        surface.steps_to_sharp_edge.push_back(
+            static_cast<std::uint8_t>((7 * face / 3) % (contact::far_from_sharp_edge + 1)));
     return surface;
 }
 

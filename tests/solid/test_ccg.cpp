@@ -63,6 +63,16 @@ struct Operators {
     }
 };
 
+/// dV/ddelta_f: of the face itself and of those that answer to it.
+template <int Dim>
+Vector<Dim> answered_gradient(const solid::Ccg<Dim>& ccg, BoundaryFace face) {
+    Vector<Dim> gradient = ccg.boundary_gradient(face);
+    ccg.boundary().for_each_answer(face, [&](BoundaryFace answering, const Matrix<Dim>& answer) {
+        gradient += answer.transpose() * ccg.boundary_gradient(answering);
+    });
+    return gradient;
+}
+
 template <int Dim>
 std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
     const auto values = random_state(n * Dim, seed);
@@ -213,7 +223,7 @@ TEMPLATE_TEST_CASE_SIG("what is evaluated on a part of the mesh has the bits of 
     ccg.gradient(u, {}, {}, vectors<Dim>(whole_force));
     for (std::size_t i = 0; i < faces.size(); ++i) {
         CHECK(displacement[i] == whole_displacement[static_cast<std::size_t>(faces[i])]);
-        CHECK(force[i] == ccg.boundary_gradient(faces[i]));
+        CHECK(force[i] == answered_gradient(ccg, faces[i]));
     }
 
     std::vector<std::int32_t> cells;
@@ -251,7 +261,7 @@ TEMPLATE_TEST_CASE_SIG(
                 Vector<Dim> expected = Vector<Dim>::Zero();
                 for (std::int32_t i = coupling.offsets[number_of(f)]; i < coupling.offsets[number_of(f) + 1]; ++i)
                     if (coupling.columns[i] == number_of(g)) expected = coupling.blocks[i].col(j);
-                raise(worst, (ccg.boundary_gradient(f) - expected).norm());
+                raise(worst, (answered_gradient(ccg, f) - expected).norm());
                 raise(size, expected.norm());
             }
         }
@@ -354,6 +364,7 @@ TEMPLATE_TEST_CASE_SIG("a boundary half-cell has the normal stiffness (lambda + 
     const auto mesh = round_body<Dim>(0.5);
     auto options = bodies<Dim>(1);
     options.materials = {material};
+    options.boundary.corner_rule = solid::CornerRule::fixed;
     solid::Solid<Dim> solid(mesh, options);
     const auto& surface = solid.contact()->surface();
     for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) {

@@ -1,0 +1,29 @@
+#pragma once
+// Private to the layer.
+#include <cstdint>
+#include <vector>
+
+#include "abut/contact/surface.hpp"
+
+namespace abut::contact {
+
+/// Where two faces of a body meet: an edge in 3D, a corner in 2D.
+struct Ridge {
+    std::int32_t face_1;
+    std::int32_t face_2;
+    std::int32_t vertex_1;  ///< its ends; in 2D the same vertex twice
+    std::int32_t vertex_2;
+};
+
+/// Those that exactly two faces of a body share, with ends at exactly the same positions; in a fixed order. n log n.
+template <int Dim>
+[[nodiscard]] std::vector<Ridge> ridges(const SurfaceView<Dim>& surface);
+
+/// Whether the body lies on the inner side of both faces.
+template <int Dim>
+[[nodiscard]] bool is_convex(const SurfaceView<Dim>& surface, const Ridge& ridge) {
+    const Vector<Dim> from_1_to_2 = surface.centroid[ridge.face_2] - surface.centroid[ridge.face_1];
+    return from_1_to_2.dot(surface.normal[ridge.face_1] - surface.normal[ridge.face_2]) < 0.0;
+}
+
+}  // namespace abut::contact
