@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "abut/base/fork_join.hpp"
+
 namespace abut {
 
 inline constexpr std::ptrdiff_t parallel_grain = 1024;
@@ -32,9 +34,13 @@ void parallel_ranges(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = 
         body(std::ptrdiff_t{0}, n);
         return;
     }
+    ForkJoin loop;
     oneapi::tbb::parallel_for(
         oneapi::tbb::blocked_range<std::ptrdiff_t>(0, n, grain),
-        [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range) { body(range.begin(), range.end()); },
+        [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range) {
+            const ForkJoin::Task task(loop);
+            body(range.begin(), range.end());
+        },
         oneapi::tbb::static_partitioner{});
 }
 
@@ -46,6 +52,25 @@ void parallel_each(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = pa
             for (std::ptrdiff_t i = begin; i < end; ++i) body(i);
         },
         grain);
+}
+
+/// Calls body(i) for i in [0, n), concurrently, each by itself: for work that is worth a task, and may be uneven.
+template <class Index, class Body, class Partitioner = oneapi::tbb::auto_partitioner>
+void parallel_tasks(Index n, const Body& body, const Partitioner& partitioner = {}) {
+    ForkJoin loop;
+    oneapi::tbb::parallel_for(
+        Index{0}, n,
+        [&](Index i) {
+            const ForkJoin::Task task(loop);
+            body(i);
+        },
+        partitioner);
+}
+
+/// Calls body(begin, end) on parts of [0, n) of that size, concurrently: as parallel_ranges, for work that may be uneven.
+template <class Body>
+void parallel_parts(std::size_t n, std::size_t size, const Body& body) {
+    parallel_tasks((n + size - 1) / size, [&](std::size_t i) { body(i * size, std::min(n, (i + 1) * size)); });
 }
 
 /// Sum of term(i) over [0, n): blocks of fixed size, then the blocks in order, so that the bits depend on n alone.
@@ -64,8 +89,7 @@ Value ordered_sum(std::ptrdiff_t n, const Value& zero, const Term& term) {
         return total;
     }
     std::vector<Value> sums(static_cast<std::size_t>(n_blocks), zero);
-    oneapi::tbb::parallel_for(std::ptrdiff_t{0}, n_blocks,
-                              [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); });
+    parallel_tasks(n_blocks, [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); });
     for (const Value& sum : sums) total += sum;
     return total;
 }
@@ -76,7 +100,9 @@ inline double larger(double a, double b) { return std::isnan(a) || b <= a ? a : 
 /// Largest value(i) >= 0 over [0, n), 0 for n = 0; NaN if one of them is. Concurrently for n above twice `grain`.
 template <class Value>
 double largest(std::ptrdiff_t n, const Value& value, std::ptrdiff_t grain = parallel_grain) {
+    ForkJoin loop;
     const auto in_range = [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range, double so_far) {
+        const ForkJoin::Task task(loop);
         for (std::ptrdiff_t i = range.begin(); i < range.end(); ++i) so_far = larger(so_far, value(i));
         return so_far;
     };

@@ -1,11 +1,11 @@
 #include "abut/contact/overlaps.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 
+#include "abut/base/parallel.hpp"
 #include "abut/base/simd.hpp"
 #include "abut/contact/overlap_checks.hpp"
 #include "abut/contact/pair.hpp"
@@ -315,7 +315,7 @@ void find_overlaps(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>>
     const Scene<Dim> scene{surface, displacement};
     const std::size_t n_parts = number_of_parts(pairs.size());
     std::vector<Overlaps<Dim>> others(n_parts - 1);
-    oneapi::tbb::parallel_for(std::size_t{0}, n_parts, [&](std::size_t i) {
+    parallel_tasks(n_parts, [&](std::size_t i) {
         const std::size_t begin = i * pairs.size() / n_parts, end = (i + 1) * pairs.size() / n_parts;
         Overlaps<Dim>& part = i == 0 ? overlaps : others[i - 1];
         part.found.reserve(end - begin);

@@ -89,6 +89,11 @@ struct Start {
             for (std::size_t c = 0; c < u.size(); ++c) u[c] = scene.displacement(scene.mesh.cell_centroid[c]);
         }
         momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
+        if (scene.more_velocity) {
+            const auto p = as_vectors<Dim>(std::span<double>(momentum));
+            for (std::size_t c = 0; c < p.size(); ++c)
+                p[c] += solid.masses()[c] * scene.more_velocity(scene.mesh.cell_centroid[c]);
+        }
     }
 
     solid::Solid<Dim> solid;

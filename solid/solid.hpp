@@ -102,6 +102,7 @@ public:
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
+    [[nodiscard]] const Ccg<Dim>& ccg() const { return ccg_; }
     /// Figures of contact since the start; all zero without contact.
     [[nodiscard]] contact::ContactReport contact_report() const;
     [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records

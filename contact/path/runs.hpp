@@ -1,10 +1,10 @@
 #pragma once
 // Private to the layer.
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>
+
+#include "abut/base/parallel.hpp"
 
 namespace abut::contact {
 
@@ -20,7 +20,7 @@ void for_each_run(std::size_t n, std::vector<Work>& work, const Body& body) {
     if (n_runs <= 2)
         for (std::size_t i = 0; i < n_runs; ++i) run(i);
     else
-        oneapi::tbb::parallel_for(std::size_t{0}, n_runs, run);
+        parallel_tasks(n_runs, run);
 }
 
 /// Adds both ends to the cuts of an interval and sorts them.

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "abut/base/error.hpp"
+#include "abut/base/fork_join.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/broad_phase/backends.hpp"
 
@@ -110,18 +111,27 @@ std::vector<FloatBoxes> float_boxes(std::span<const Boxes> sets) {
     return result;
 }
 
+/// What Embree's threads read while it builds a tree.
+struct Source {
+    const FloatBoxes& boxes;
+    ForkJoin loop{};
+};
+
 void give_bounds(const RTCBoundsFunctionArguments* arguments) {
-    const FloatBox& box = (*static_cast<const FloatBoxes*>(arguments->geometryUserPtr))[arguments->primID];
+    Source& source = *static_cast<Source*>(arguments->geometryUserPtr);
+    const ForkJoin::Task task(source.loop);
+    const FloatBox& box = source.boxes[arguments->primID];
     RTCBounds& bounds = *arguments->bounds_o;
     bounds.lower_x = box.lower[0], bounds.lower_y = box.lower[1], bounds.lower_z = box.lower[2];
     bounds.upper_x = box.upper[0], bounds.upper_y = box.upper[1], bounds.upper_z = box.upper[2];
 }
 
-Scene scene_of(FloatBoxes& boxes) {
+Scene scene_of(const FloatBoxes& boxes) {
+    Source source{boxes};
     Scene scene(rtcNewScene(device()));
     const Geometry geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_USER));
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(boxes.size()));
-    rtcSetGeometryUserData(geometry.get(), &boxes);
+    rtcSetGeometryUserData(geometry.get(), &source);
     rtcSetGeometryBoundsFunction(geometry.get(), give_bounds, nullptr);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
@@ -137,9 +147,11 @@ struct Collector {
     Boxes boxes_1, boxes_2;
     bool within_one_set;
     FoundPairs& found;
+    ForkJoin loop{};
 
     static void report(void* user, RTCCollision* collisions, unsigned count) {
         auto& self = *static_cast<Collector*>(user);
+        const ForkJoin::Task task(self.loop);
         FoundPairs::Local& mine = self.found.local();
         for (const RTCCollision& collision : std::span(collisions, count)) {
             const IndexPair pair{static_cast<std::int32_t>(collision.primID0), static_cast<std::int32_t>(collision.primID1)};
@@ -157,14 +169,14 @@ void collide(RTCScene scene_1, RTCScene scene_2, Collector& collector) {
 }  // namespace
 
 void find_by_embree(Boxes boxes_1, Boxes boxes_2, FoundPairs& found) {
-    std::vector<FloatBoxes> images = float_boxes(std::array{boxes_1, boxes_2});
+    const std::vector<FloatBoxes> images = float_boxes(std::array{boxes_1, boxes_2});
     const Scene scene_1 = scene_of(images[0]), scene_2 = scene_of(images[1]);
     Collector collector{boxes_1, boxes_2, false, found};
     collide(scene_1.get(), scene_2.get(), collector);
 }
 
 void find_by_embree(Boxes boxes, FoundPairs& found) {
-    std::vector<FloatBoxes> images = float_boxes(std::array{boxes});
+    const std::vector<FloatBoxes> images = float_boxes(std::array{boxes});
     const Scene scene = scene_of(images[0]);
     Collector collector{boxes, boxes, true, found};
     collide(scene.get(), scene.get(), collector);

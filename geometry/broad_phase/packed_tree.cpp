@@ -1,12 +1,10 @@
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "abut/base/parallel.hpp"
 #include "abut/geometry/broad_phase/backends.hpp"
 #include "abut/geometry/broad_phase/spatial_order.hpp"
 
@@ -58,8 +56,8 @@ void for_each_lane(Mask mask, const Use& use) {
 
 template <class Body>
 void for_each_parallel(std::size_t n, const Body& body) {
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n, 512), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+    parallel_parts(n, 512, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) body(i);
     });
 }
 
@@ -142,7 +140,7 @@ public:
 
     void find(FoundPairs& found) const {
         const std::vector<Meeting> meetings = split_into_tasks();
-        oneapi::tbb::parallel_for(std::size_t{0}, meetings.size(), [&](std::size_t i) {
+        parallel_tasks(meetings.size(), [&](std::size_t i) {
             FoundPairs::Local& mine = found.local();
             visit(meetings[i], mine);
         });

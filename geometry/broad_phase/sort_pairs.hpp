@@ -1,13 +1,11 @@
 #pragma once
 // Private to the sources of the layers.
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 
@@ -29,8 +27,8 @@ template <class ForEach>
     for_each([&](const IndexPair& pair) { ++end[static_cast<std::size_t>(pair.first) + 1]; });
     for (std::size_t row = 0; row < n_first; ++row) end[row + 1] += end[row];
     for_each([&](const IndexPair& pair) { pairs[end[static_cast<std::size_t>(pair.first)]++] = pair; });
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n_first, 4096), [&](const auto& rows) {
-        for (std::size_t row = rows.begin(); row < rows.end(); ++row)
+    parallel_parts(n_first, 4096, [&](std::size_t first_row, std::size_t last_row) {
+        for (std::size_t row = first_row; row < last_row; ++row)
             std::sort(pairs.begin() + (row == 0 ? 0 : end[row - 1]), pairs.begin() + end[row]);
     });
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

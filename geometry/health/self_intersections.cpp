@@ -4,13 +4,11 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Intersections_3/Segment_3_Triangle_3.h>
 #include <CGAL/Intersections_3/Triangle_3_Triangle_3.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <array>
 #include <cstddef>
 #include <utility>
 
+#include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/triangulate.hpp"
 
@@ -118,8 +116,8 @@ std::vector<Box<3>> boxes_of(std::span<const Vector<3>> vertices, const std::vec
 std::vector<IndexPair> intersecting_faces(const std::vector<IndexPair>& candidates, const std::vector<Piece>& pieces,
                                           const PieceTest& test) {
     std::vector<char> intersect(candidates.size(), 0);
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, candidates.size(), 1024), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+    parallel_parts(candidates.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i) {
             const Piece& piece_1 = pieces[static_cast<std::size_t>(candidates[i].first)];
             const Piece& piece_2 = pieces[static_cast<std::size_t>(candidates[i].second)];
             intersect[i] = piece_1.face != piece_2.face && test.intersect(piece_1, piece_2) ? 1 : 0;

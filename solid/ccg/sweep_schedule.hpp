@@ -47,15 +47,15 @@ public:
             return static_cast<std::int32_t>(std::int64_t{n_chunks_} * part / n_parts);
         };
         if (n_parts == 1) return run_part(0, n_chunks_, task);
-        oneapi::tbb::parallel_for(
-            std::int32_t{0}, n_parts, [&](std::int32_t part) { run_part(begin_of(part), begin_of(part + 1), task); },
+        parallel_tasks(
+            n_parts, [&](std::int32_t part) { run_part(begin_of(part), begin_of(part + 1), task); },
             oneapi::tbb::static_partitioner{});
         for (int s = 1; s < Stages; ++s) {
             std::vector<std::int32_t> rest;
             for (std::int32_t part = 0; part < n_parts; ++part)
                 for (std::int32_t k = begin_of(part); k < begin_of(part + 1); ++k)
                     if (!is_inside(spans_[s][k], begin_of(part), begin_of(part + 1))) rest.push_back(k);
-            oneapi::tbb::parallel_for(std::size_t{0}, rest.size(), [&](std::size_t i) { task(s, rest[i]); });
+            parallel_tasks(rest.size(), [&](std::size_t i) { task(s, rest[i]); });
         }
     }
 

@@ -265,8 +265,8 @@ double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const Bound
     const PlacedCorrections placed(*this, corrections);
     load_displacement(u);
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
-    oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
-    oneapi::tbb::parallel_for(std::int32_t{0}, n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k); });
+    parallel_tasks(n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
+    parallel_tasks(n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k); });
     return ordered_sum(arrays_.n_cells(), 0.0, [&](std::ptrdiff_t c) { return energy(c); });
 }
 

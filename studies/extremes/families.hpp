@@ -38,6 +38,8 @@ void sweep_thickness(const SweepOptions& options, const Sink& sink);
 void sweep_wedge(const SweepOptions& options, const Sink& sink);
 void sweep_corner(const SweepOptions& options, const Sink& sink);
 void sweep_crossing(const SweepOptions& options, const Sink& sink);
+void sweep_spin(const SweepOptions& options, const Sink& sink);
+void sweep_rollers(const SweepOptions& options, const Sink& sink);
 void sweep_edge(const SweepOptions& options, const Sink& sink);
 void sweep_crowd(const SweepOptions& options, const Sink& sink);
 void sweep_long(const SweepOptions& options, const Sink& sink);

@@ -150,13 +150,14 @@ run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane) {
 
 run::Scene<2> square_on_corner(const Meeting<2>& meeting, int cells) {
     const double unit = meeting.units.length;
-    const auto block = mesh::structured_box<2>(unit * (meeting.place + Vector<2>(-1.0, -1.0)),
-                                               unit * (meeting.place + Vector<2>(1.0, 0.0)), {2 * cells, cells},
-                                               mesh::CellShape::quadrangle, "block");
+    const auto block =
+        mesh::structured_box<2>(unit * (meeting.place + Vector<2>(-1.0, -1.0)), unit * (meeting.place + Vector<2>(1.0, 0.0)),
+                                {2 * cells, cells}, mesh::CellShape::quadrangle, "block");
     const Vector<2> corner = unit * (meeting.place + Vector<2>(meeting.aside, meeting.gap));
     run::Scene<2> scene;
     scene.mesh = mesh::combine<2>(std::vector{block, turned_square(corner, cells, unit)});
     set_in_motion(scene, meeting, 1);
+    scene.velocity[0].setZero();
     return scene;
 }
 
@@ -166,6 +167,33 @@ run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle) {
     scene.mesh = mesh::combine<3>(std::vector{beam(Vector<3>::UnitX(), meeting.place, angle, false, meeting.units.length),
                                               beam(Vector<3>::UnitY(), above, angle, true, meeting.units.length)});
     set_in_motion(scene, meeting, 2);
+    return scene;
+}
+
+template <int Dim>
+run::Scene<Dim> blocks_on_rollers(const Meeting<Dim>& meeting) {
+    std::array<Block<Dim>, 2> pair;
+    pair[0].cells.fill(Dim == 2 ? 5 : 3);
+    pair[1].cells.fill(Dim == 2 ? 4 : 2);
+    run::Scene<Dim> scene = blocks<Dim>(meeting, pair);
+    for (const char* side : {"lower.xmin", "upper.xmin"})
+        scene.solid.boundary.dirichlet.push_back({.group = side, .constraint = solid::Constraint::normal});
+    return scene;
+}
+
+run::Scene<2> spinning_bar(double rate, double angle, Growth& growth) {
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({-1.0, -0.25}, {1.0, 0.25}, {16, 4}, mesh::CellShape::quadrangle, "bar");
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+    scene.velocity = {Vector<2>::Zero()};
+    scene.more_velocity = [rate](const Vector<2>& x) { return Vector<2>(-rate * x.y(), rate * x.x()); };
+    scene.time = std::tan(angle) / rate;  // every point flies straight on
+    scene.remedy_if_overlapping = "The bar is one body.";
+    scene.after_step = [&growth](const solid::Solid<2>& solid, double dt) {
+        const Matrix<2> stretched = Matrix<2>::Identity() + solid.ccg().displacement_gradient(0);
+        growth.of_cell = std::sqrt(stretched.determinant()) - 1.0;
+        growth.time += growth.time == 0.0 ? 0.5 * dt : dt;
+    };
     return scene;
 }
 
@@ -235,5 +263,7 @@ run::Scene<2> falling_strip(int cells) {
 
 template run::Scene<2> blocks<2>(const Meeting<2>&, const std::array<Block<2>, 2>&);
 template run::Scene<3> blocks<3>(const Meeting<3>&, const std::array<Block<3>, 2>&);
+template run::Scene<2> blocks_on_rollers<2>(const Meeting<2>&);
+template run::Scene<3> blocks_on_rollers<3>(const Meeting<3>&);
 
 }  // namespace abut::studies::extremes

@@ -48,12 +48,25 @@ template <int Dim>
 /// A triangle whose tip, of this angle [rad], comes down on the middle of a block, or on a rigid plane.
 [[nodiscard]] run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane);
 
-/// A square of side 1 that comes down with a corner on the middle of a block of sides 2 and 1; so many cells along 1.
+/// A square of side 1 that comes down with a corner on the middle of a block of sides 2 and 1 at rest; so many cells along 1.
 [[nodiscard]] run::Scene<2> square_on_corner(const Meeting<2>& meeting, int cells);
 
 /// Two beams of length 2 and sides 0.5, their sections rhombi with this angle [rad] above and below, which meet at right
 /// angles, edge on edge.
 [[nodiscard]] run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle);
+
+/// Two unit blocks on rollers, which run into each other along these: the last axis.
+template <int Dim>
+[[nodiscard]] run::Scene<Dim> blocks_on_rollers(const Meeting<Dim>& meeting);
+
+/// How much wider and higher a cell is than at rest.
+struct Growth {
+    double of_cell = 0.0;  ///< [-]
+    double time = 0.0;     ///< when it was measured [s]
+};
+/// A bar of sides 2 and 0.5 that spins freely, this fast [rad/s], until it has turned by `angle` [rad]. `growth` becomes that of
+/// a cell halfway through the last step; it must outlive the run.
+[[nodiscard]] run::Scene<2> spinning_bar(double rate, double angle, Growth& growth);
 
 /// n x n discs of diameter 1 - gap that all fly towards the middle, each as fast as it is far from it.
 [[nodiscard]] run::Scene<2> crowd(int n, double speed, double gap);

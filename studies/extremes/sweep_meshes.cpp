@@ -127,7 +127,7 @@ void sweep_corner(const SweepOptions& options, const Sink& sink) {
             // Gaps are read at the middle of faces: the corner is in contact when that of its faces has come down.
             const double depth = 0.25 * std::numbers::sqrt2 / cells;
             const Meeting<2> meeting{
-                .speed = speed, .gap = 0.4 * speed, .aside = 0.3 / cells, .time = 8.0 + 0.5 * depth / speed};
+                .speed = speed, .gap = 0.2 * speed, .aside = 0.3 / cells, .time = 8.0 + depth / speed};
             Row row = attempt<2>({.family = "corner",
                                   .value = fmt::format("{} cells, v = {:g} c", cells, speed),
                                   .speed = meeting.speed,

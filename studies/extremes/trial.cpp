@@ -60,13 +60,14 @@ void append_dimensionless(Row& row, const run::RunResult<Dim>& result) {
 }
 
 /// Why a run that came to its end is not one that holds; empty if it is.
-std::string defect(const Row& row, bool keeps_momentum) {
+template <int Dim>
+std::string defect(const Row& row, const Trial<Dim>& trial) {
     if (!row.is_finite) return "a number of it is not finite";
-    if (row.active_pairs_max == 0)
+    if (trial.meets && row.active_pairs_max == 0)
         return fmt::format("the bodies never met; {} corners are too sharp for contact to see", row.blind_corners);
     if (!(row.drift <= largest_drift))
         return fmt::format("H~ drifts by {:.2g}, {:g} of the scale is allowed", row.drift, largest_drift);
-    if (keeps_momentum && !(row.momentum <= largest_momentum_drift))
+    if (trial.keeps_momentum && !(row.momentum <= largest_momentum_drift))
         return fmt::format("momentum drifts by {:.2g}, {:g} is allowed", row.momentum, largest_momentum_drift);
     if (!(row.excess <= largest_excess))
         return fmt::format(
@@ -94,7 +95,11 @@ void measure(Row& row, const Trial<Dim>& trial, const run::RunResult<Dim>& resul
     row.blind_corners = static_cast<std::int64_t>(result.blind_corners.size());
     row.numbers = speeds_at_end(result, trial.speed);
     append_dimensionless(row, result);
-    row.message = defect(row, trial.keeps_momentum);
+    row.message = defect(row, trial);
+    if (trial.ask_more) {
+        const std::string more = trial.ask_more(result, row);
+        if (row.message.empty()) row.message = more;
+    }
     row.verdict = row.message.empty() ? Verdict::held : Verdict::failed;
 }
 

@@ -21,25 +21,9 @@ enum class Verdict {
 /// What is asked of a run for `held`, beside that the bodies meet and no contact is lost.
 inline constexpr double largest_drift = 1e-10;           ///< of H~ over the scale of the scene
 inline constexpr double largest_momentum_drift = 1e-10;  ///< over the sum of m |v| at the start
-inline constexpr double largest_excess = 1.0;      ///< H - H~ over the scale: the parasitic mode owns less than the run
+inline constexpr double largest_excess = 1.0;        ///< H - H~ over the scale: the parasitic mode owns less than the run
 inline constexpr double largest_speed_aside = 0.05;  ///< over the speed: of a corner on a flat side, along it
-inline constexpr double largest_deviation = 1e-9;  ///< of dimensionless numbers that must not depend on the units
-
-/// A run and what is expected of it.
-template <int Dim>
-struct Trial {
-    std::string family;
-    std::string value;           ///< "E_2/E_1 = 1e+06"
-    double speed = 1.0;          ///< |e|/m is given over it [m/s]
-    bool keeps_momentum = true;  ///< false: walls or gravity act
-    std::function<run::Scene<Dim>()> make;
-    run::RunOptions run;
-};
-
-/// Two blocks that run into each other.
-template <int Dim>
-[[nodiscard]] Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
-                                           const std::array<Block<Dim>, 2>& pair, const run::RunOptions& run);
+inline constexpr double largest_deviation = 1e-9;    ///< of dimensionless numbers that must not depend on the units
 
 /// A number without a unit.
 struct Number {
@@ -64,6 +48,25 @@ struct Row {
     std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
     std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts
 };
+
+/// A run and what is expected of it.
+template <int Dim>
+struct Trial {
+    std::string family;
+    std::string value;           ///< "E_2/E_1 = 1e+06"
+    double speed = 1.0;          ///< |e|/m is given over it [m/s]
+    bool keeps_momentum = true;  ///< false: walls or gravity act
+    bool meets = true;           ///< false: there is no contact to expect
+    std::function<run::Scene<Dim>()> make;
+    run::RunOptions run;
+    /// What else is asked of the run: it returns what is not so, or nothing. It may set numbers of the row; empty: no more.
+    std::function<std::string(const run::RunResult<Dim>&, Row&)> ask_more;
+};
+
+/// Two blocks that run into each other.
+template <int Dim>
+[[nodiscard]] Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value, const Meeting<Dim>& meeting,
+                                           const std::array<Block<Dim>, 2>& pair, const run::RunOptions& run);
 
 /// Runs it; every exception becomes a row.
 template <int Dim>

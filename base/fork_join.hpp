@@ -1,0 +1,44 @@
+#pragma once
+// Private to the sources of the layers.
+
+#if defined(__SANITIZE_THREAD__)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
+namespace abut {
+
+/// Tells ThreadSanitizer in which order a parallel loop runs, since the libraries that run it are not compiled for it: all that
+/// comes before the loop comes before each task, and each task comes before all that follows the loop. The tasks themselves
+/// stay unordered, so a race between two of them is found. In other builds it is nothing.
+class ForkJoin {
+public:
+    ForkJoin() { release(forked_); }
+    ~ForkJoin() { acquire(joined_); }
+    ForkJoin(const ForkJoin&) = delete;
+    ForkJoin& operator=(const ForkJoin&) = delete;
+
+    /// Lives as long as a task.
+    class Task {
+    public:
+        explicit Task(ForkJoin& loop) : loop_(loop) { acquire(loop.forked_); }
+        ~Task() { release(loop_.joined_); }
+        Task(const Task&) = delete;
+        Task& operator=(const Task&) = delete;
+
+    private:
+        ForkJoin& loop_;
+    };
+
+private:
+#if defined(__SANITIZE_THREAD__)
+    static void acquire(char& place) { __tsan_acquire(&place); }
+    static void release(char& place) { __tsan_release(&place); }
+#else
+    static void acquire(char&) {}
+    static void release(char&) {}
+#endif
+    char forked_ = 0, joined_ = 0;  // their addresses are what counts
+};
+
+}  // namespace abut
