@@ -1,7 +1,15 @@
 #pragma once
 // Private to the sources of the layers.
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define ABUT_THREAD_SANITIZER
+#endif
+#elif defined(__SANITIZE_THREAD__)
+#define ABUT_THREAD_SANITIZER
+#endif
+
+#if defined(ABUT_THREAD_SANITIZER)
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
 #endif
@@ -31,14 +39,16 @@ public:
     };
 
 private:
-#if defined(__SANITIZE_THREAD__)
-    static void acquire(char& place) { __tsan_acquire(&place); }
-    static void release(char& place) { __tsan_release(&place); }
+#if defined(ABUT_THREAD_SANITIZER)
+    static void acquire(char& address) { __tsan_acquire(&address); }
+    static void release(char& address) { __tsan_release(&address); }
 #else
     static void acquire(char&) {}
     static void release(char&) {}
 #endif
-    char forked_ = 0, joined_ = 0;  // their addresses are what counts
+    char forked_ = 0, joined_ = 0;  // only their addresses matter
 };
 
 }  // namespace abut
+
+#undef ABUT_THREAD_SANITIZER

@@ -31,7 +31,8 @@ struct HostStep {
     std::span<const Vector<Dim>> displacement_0;  ///< û of all faces of the surface at the start of the step (n_faces) [m]
     std::span<const Vector<Dim>> displacement_1;  ///< the same at its end
     CouplingOf<Dim> coupling_of;
-    /// Asked at each step: y_f = dV/dũ_f at ũ = û, less |f| t_f, of the listed faces at both ends (n_listed) [N].
+    /// Asked at each step: y_f = dV/ddelta_f at delta = 0, less applied tractions, of the listed faces at both ends (n_listed)
+    /// [N]. It is dV/dũ_f - |f| t_f where a correction moves its own face alone.
     std::function<void(std::span<const SurfaceFace> faces, std::span<Vector<Dim>> gradient_0,
                        std::span<Vector<Dim>> gradient_1)>
         gradients_of;

@@ -17,7 +17,7 @@ struct Overlap {
     std::int32_t face_1;  ///< index into the surface
     std::int32_t face_2;
     double area;                ///< A_12 [m^(Dim-1)], > 0
-    Vector<Dim> normal;         ///< n_12, unit, from face 1's body into face 2's: along n_1 - n_2, or that of the rigid face
+    Vector<Dim> normal;         ///< n_12, unit, from face 1's body into face 2's: docs/method.md, The normal of a pair
     double gap;                 ///< g [m], between the centroids along the normal; > 0 apart
     Vector<Dim> area_gradient;  ///< dA/ds [m^(Dim-2)], orthogonal to the normal: what A gains as face 2 moves
 };

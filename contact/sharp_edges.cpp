@@ -7,9 +7,12 @@
 namespace abut::contact {
 namespace {
 
+constexpr double rounding = 1e-9;  // of cosines: edges of just the limiting angle are not sharp
+
 template <int Dim>
 bool is_sharp(const SurfaceView<Dim>& surface, const Ridge& ridge) {
-    return surface.normal[ridge.face_1].dot(surface.normal[ridge.face_2]) < sharp_edge_cosine && is_convex(surface, ridge);
+    const double cosine = surface.normal[ridge.face_1].dot(surface.normal[ridge.face_2]);
+    return cosine < sharp_edge_cosine - rounding && is_convex(surface, ridge);
 }
 
 }  // namespace
@@ -21,12 +24,11 @@ std::vector<std::uint8_t> steps_to_sharp_edge(const SurfaceView<Dim>& surface) {
     const std::vector<Ridge> all = ridges(surface);
     for (const Ridge& ridge : all)
         if (is_sharp(surface, ridge)) steps[ridge.face_1] = steps[ridge.face_2] = 0;
-    for (std::uint8_t step = 0; step + 1 < far_from_sharp_edge; ++step)
+    for (std::uint8_t next = 1; next < far_from_sharp_edge; ++next)
         for (const Ridge& ridge : all) {
             std::uint8_t &steps_1 = steps[ridge.face_1], &steps_2 = steps[ridge.face_2];
-            const auto next = static_cast<std::uint8_t>(step + 1);
-            if (steps_1 == step) steps_2 = std::min(steps_2, next);
-            if (steps_2 == step) steps_1 = std::min(steps_1, next);
+            if (steps_1 + 1 == next) steps_2 = std::min(steps_2, next);
+            if (steps_2 + 1 == next) steps_1 = std::min(steps_1, next);
         }
     return steps;
 }

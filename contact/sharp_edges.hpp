@@ -11,7 +11,7 @@ namespace abut::contact {
 /// mesh is very coarse.
 inline constexpr double sharp_edge_cosine = 0.6;
 
-/// Of each face, how many steps from face to face over common edges (corners in 2D) it takes from it to one that borders a
+/// For each face the number of steps from face to face, over common edges (corners in 2D), to the nearest one that borders a
 /// sharp convex edge of its body, at most `far_from_sharp_edge`: SurfaceView::steps_to_sharp_edge. Edges are those that exactly
 /// two faces of the surface share, with ends at exactly the same positions: the rim of an open surface, as where a plane of
 /// symmetry cuts a body, is none. Throws BadInput for array sizes that disagree; otherwise the surface must be one that `check`

@@ -7,8 +7,8 @@
 
 namespace abut::contact {
 
-/// How the energy gradients of a host's faces answer to a correction: y_f = y_free,f + sum_f' Q_ff' delta_f', among the
-/// listed faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary
+/// How the energy gradients of a host's faces answer to corrections: y_f = y_free,f + sum_f' Q_ff' delta_f', Q_ff' =
+/// d²V/ddelta_f ddelta_f', among the listed faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary
 /// faces of its cell, those of cells that share a stabilised interior face with it. Rows of rigid faces may be empty.
 /// Q is a second derivative: finite, Q_f'f the transpose of Q_ff', no eigenvalue of Q_ff below 0 (both within 1e-10 of the
 /// largest entry of these blocks; all zero is allowed). A search refuses anything else with BadInput naming the face.
@@ -24,8 +24,9 @@ template <int Dim>
 struct FacePath {
     std::span<const Vector<Dim>> displacement_0;  ///< û_f at the start (n) [m]
     std::span<const Vector<Dim>> displacement_1;  ///< û_f at the end (n) [m]
-    std::span<const Vector<Dim>> gradient_0;      ///< y_free,f = dV/dũ_f at ũ = û, less |f| t_f, at the start (n) [N]
-    std::span<const Vector<Dim>> gradient_1;      ///< the same at the end (n) [N]
+    std::span<const Vector<Dim>>
+        gradient_0;  ///< y_free,f = dV/ddelta_f at delta = 0, as HostStep asks, at the start (n) [N]
+    std::span<const Vector<Dim>> gradient_1;  ///< the same at the end (n) [N]
 };
 
 /// What one pair of faces did in a step: a pair with A > 0 and g < 0 at some time of it.
@@ -44,8 +45,6 @@ struct PairStep {
     double compression;   ///< largest |g|/D at the ends of the step [-]
 };
 
-inline constexpr double far_tilt = 0.34906585039886592;  ///< [rad], 20 degrees
-
 /// Figures of a step as a whole.
 struct StepReport {
     std::int64_t events = 0;            ///< of all pairs
@@ -59,8 +58,8 @@ struct StepReport {
     /// comes to its end just when the step does.
     std::int64_t slipped_pairs = 0;
     double slipped_compression = 0.0;  ///< their largest |g|/D when the overlap came to its end
-    /// Active pairs whose normal is turned by more than `far_tilt` from those of both faces: edges on edges. Their force has a
-    /// part along the faces.
+    /// Active pairs whose normal is more than 20 degrees away from those of both faces: edges on edges, and coarse round bodies.
+    /// Their force has a part along the faces.
     std::int64_t tilted_pairs = 0;
 };
 
@@ -69,7 +68,7 @@ struct StepReport {
 template <int Dim>
 struct ContactStep {
     std::vector<SurfaceFace> faces;                     ///< the listed faces, increasing (n)
-    IdVector<ListedFace, Vector<Dim>> mean_correction;  ///< mean over the step of delta_f = ũ_f - û_f (n) [m]
+    IdVector<ListedFace, Vector<Dim>> mean_correction;  ///< mean over the step of delta_f (n) [m]
     /// Mean over the step of what the pairs add to dV/dû_f (n) [N]; on a rigid face: minus the force on the obstacle.
     IdVector<ListedFace, Vector<Dim>> mean_gradient;
     IdVector<ListedFace, double> mean_normal_force;  ///< of all pairs of a face (n) [N], > 0 in compression

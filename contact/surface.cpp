@@ -70,6 +70,10 @@ void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
         refuse(surface, face,
                "has the stiffness " + number(surface.stiffness[face]) +
                    " Pa/m; it must be > 0. Give (lambda + 2 mu) |f|/|c|, or infinity for a rigid face.");
+    if (surface.steps_to_edge(face) > far_from_sharp_edge)
+        refuse(surface, face,
+               "is said to be " + std::to_string(surface.steps_to_edge(face)) + " steps away from a sharp edge, at most " +
+                   std::to_string(far_from_sharp_edge) + " are counted. Take contact::steps_to_sharp_edge.");
     if (!(surface.cell_depth[face] >= 0.0) || (surface.cell_depth[face] == 0.0 && !surface.is_rigid(face)))
         refuse(surface, face,
                "has the cell depth " + number(surface.cell_depth[face]) +

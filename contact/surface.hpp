@@ -13,7 +13,7 @@ enum class SurfaceFace : std::int32_t {};
 /// Index of a face in the candidate list of a Contact: index in `Contact::faces()`.
 enum class ListedFace : std::int32_t {};
 
-/// As many steps from face to face, or more, and the sharp edges of a body do not matter.
+/// A face that is so many steps from a sharp edge, or more, is far from it: the edge has no say in its pairs.
 inline constexpr std::uint8_t far_from_sharp_edge = 3;
 
 /// The boundary of the bodies at rest, as views of a host's own arrays: all that contact knows of a solid.
@@ -28,7 +28,8 @@ struct SurfaceView {
     std::span<const double> area;                 ///< |f| (n) [m^(Dim-1)]
     /// d_f = (x_f - x_c) . n_f (n) [m]: how deep a contact may be admitted; 0 for a rigid face
     std::span<const double> cell_depth;
-    /// k_f (n) [Pa/m], normal stiffness (lambda + 2 mu) |f|/|c| of the boundary half-cell; infinity: a rigid face
+    /// k_f (n) [Pa/m], normal stiffness of the boundary half-cell, (lambda + 2 mu) |f|/|c| less what other free faces of the
+    /// cell take off where they answer to a correction; infinity: a rigid face
     std::span<const double> stiffness;
     std::span<const std::int32_t> body;  ///< (n) faces of one body do not touch each other unless self-contact is asked for
     /// (n), or empty: steps from face to face to a sharp convex edge of the body, at most `far_from_sharp_edge` (the function of
@@ -60,7 +61,7 @@ struct Surface {
     std::vector<double> cell_depth;
     std::vector<double> stiffness;
     std::vector<std::int32_t> body;
-    std::vector<std::uint8_t> steps_to_sharp_edge;  ///< empty until it is set; appended faces are far then
+    std::vector<std::uint8_t> steps_to_sharp_edge;  ///< empty until it is set; faces appended later are far
 
     [[nodiscard]] SurfaceView<Dim> view() const;
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
@@ -79,7 +80,7 @@ void check_sizes(const SurfaceView<Dim>& surface);
 /// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
 /// normal that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the
 /// corners (all within 1e-10 of the face, and what rounding adds far from the origin), a cell depth that is not > 0
-/// (rigid: >= 0), a stiffness that is not > 0.
+/// (rigid: >= 0), a stiffness that is not > 0, more steps to a sharp edge than are counted.
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 

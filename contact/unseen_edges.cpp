@@ -12,7 +12,7 @@ namespace {
 constexpr double rounding = 1e-9;  // of cosines: edges of just the limiting angle are unseen
 
 struct Body {
-    SharpEdge<3> sharpest;
+    SharpestEdge<3> sharpest;
     bool is_rigid;
 };
 
@@ -23,8 +23,8 @@ std::map<std::int32_t, Body> sharpest_edges(const SurfaceView<3>& surface) {
         if (!is_convex(surface, ridge)) continue;
         const std::int32_t face_1 = ridge.face_1, body = surface.body[face_1];
         const double cosine = surface.normal[face_1].dot(surface.normal[ridge.face_2]);
-        const SharpEdge<3> edge{body, std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine))),
-                                0.5 * (surface.vertices[ridge.vertex_1] + surface.vertices[ridge.vertex_2])};
+        const SharpestEdge<3> edge{body, std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine))),
+                                   0.5 * (surface.vertices[ridge.vertex_1] + surface.vertices[ridge.vertex_2])};
         const auto [known, is_new] = bodies.try_emplace(body, Body{edge, surface.is_rigid(face_1)});
         if (!is_new && edge.half_angle_sine < known->second.sharpest.half_angle_sine) known->second.sharpest = edge;
     }

@@ -8,7 +8,7 @@ namespace abut::contact {
 
 /// The sharpest convex edge of a body, where two of its faces meet at the angle b inside the body.
 template <int Dim>
-struct SharpEdge {
+struct SharpestEdge {
     std::int32_t body;
     double half_angle_sine;  ///< sin(b/2) [-]: 1 where the faces lie in one plane, 0.707 at the edge of a box
     Vector<Dim> midpoint;    ///< at rest [m]
@@ -17,8 +17,8 @@ struct SharpEdge {
 /// The sharpest edges of two bodies.
 template <int Dim>
 struct EdgePair {
-    SharpEdge<Dim> edge_1;
-    SharpEdge<Dim> edge_2;
+    SharpestEdge<Dim> edge_1;
+    SharpestEdge<Dim> edge_2;
 
     /// sin(b_1/2) sin(b_2/2) [-]: where the edges cross at right angles, -n_1 . n_2 of each face of one with each of the other.
     /// At other angles some pair of faces looks at each other more.

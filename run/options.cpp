@@ -66,7 +66,8 @@ void check(const RunOptions& options) {
 NamedValues model_values(const RunOptions& options) {
     return {{"weights", word_of(weighting_words, options.contact.weighting)},
             {"area", word_of(area_words, options.contact.area)},
-            {"neumann", word_of(free_face_words, options.neumann)}};
+            {"neumann", word_of(free_face_words, options.neumann)},
+            {"corners", word_of(corner_words, options.corners)}};
 }
 
 NamedValues named_values(const RunOptions& options) {
@@ -93,6 +94,7 @@ NamedValues named_values(const RunOptions& options) {
                     {"facing_cosine", contact.search.facing_cosine},
                     {"compression_limit", contact.compression_limit},
                     {"neumann", word_of(free_face_words, options.neumann)},
+                    {"corners", word_of(corner_words, options.corners)},
                     {"out", options.out.string()},
                     {"interval", options.interval},
                     {"frames", options.frames}});

@@ -26,6 +26,7 @@ struct RunOptions {
     bool allow_unstable = false;  ///< takes `dt` even above the stable step
     contact::ContactOptions contact;
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
+    solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;
     int levels = 0;             ///< of memm_async, at most; 0: 8
     int contact_margin = 1;     ///< of memm_async: levels that cells in contact are finer than they need to be alone
@@ -58,6 +59,8 @@ inline constexpr std::array<Word<solid::FreeFaceRule>, 3> free_face_words{
     {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
      {"extrapolate", solid::FreeFaceRule::extrapolate},
      {"adjacent", solid::FreeFaceRule::adjacent}}};
+inline constexpr std::array<Word<solid::CornerRule>, 2> corner_words{
+    {{"relaxed", solid::CornerRule::relaxed}, {"fixed", solid::CornerRule::fixed}}};
 inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neutral", true}}};
 inline constexpr std::array<Word<bool>, 2> event_words{{{"on", true}, {"off", false}}};
 
@@ -78,7 +81,7 @@ void check(const RunOptions& options);
 /// The options by name, as given; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are
 /// in RunResult.
 [[nodiscard]] NamedValues named_values(const RunOptions& options);
-/// Those on which bodies at rest depend as well: "weights", "area", "neumann".
+/// Those on which bodies at rest depend as well: "weights", "area", "neumann", "corners".
 [[nodiscard]] NamedValues model_values(const RunOptions& options);
 
 }  // namespace abut::run

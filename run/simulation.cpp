@@ -33,6 +33,7 @@ template <int Dim>
 solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
     solid::SolidOptions<Dim> solid = scene.solid;
     solid.boundary.free_face_rule = options.neumann;
+    solid.boundary.corner_rule = options.corners;
     solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
     return solid;
 }
@@ -89,10 +90,10 @@ struct Start {
             for (std::size_t c = 0; c < u.size(); ++c) u[c] = scene.displacement(scene.mesh.cell_centroid[c]);
         }
         momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
-        if (scene.more_velocity) {
+        if (scene.added_velocity) {
             const auto p = as_vectors<Dim>(std::span<double>(momentum));
             for (std::size_t c = 0; c < p.size(); ++c)
-                p[c] += solid.masses()[c] * scene.more_velocity(scene.mesh.cell_centroid[c]);
+                p[c] += solid.masses()[c] * scene.added_velocity(scene.mesh.cell_centroid[c]);
         }
     }
 

@@ -14,6 +14,7 @@ const auto integrators = choices_of(run::integrator_words);
 const auto switches = choices_of(run::event_words);
 const auto filters = choices_of(run::filter_words);
 const auto free_face_rules = choices_of(run::free_face_words);
+const auto corner_rules = choices_of(run::corner_words);
 const Choices<int> quadratures = {{"1", 1}, {"2", 2}, {"3", 3}};
 
 nlohmann::ordered_json to_json(const run::NamedValues& values) {
@@ -72,6 +73,11 @@ void add_model_options(CLI::App& app, run::RunOptions& options) {
                        areas));
     grouped(add_choice(app, "--neumann", options.neumann,
                        "displacement of free faces; extrapolate and adjacent are there for comparison", free_face_rules));
+    grouped(
+        add_choice(app, "--corners", options.corners,
+                   "free faces of a cell beside one in contact: relaxed keeps them in balance, fixed is for cavities that "
+                   "press on two sides",
+                   corner_rules));
 }
 
 void add_contact_options(CLI::App& app, run::RunOptions& options) {

@@ -1,10 +1,11 @@
 #include "abut/contact/path/measures.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace abut::contact {
 namespace {
+
+constexpr double far_tilt_cosine = 0.93969262078590843;  // of 20 degrees
 
 template <int Dim>
 PairStep<Dim> geometry_of(const ContactPair<Dim>& pair, const ActivePairs<Dim>& active, std::int32_t a) {
@@ -30,9 +31,8 @@ PairStep<Dim> geometry_of(const ContactPair<Dim>& pair, const ActivePairs<Dim>& 
 
 template <int Dim>
 bool is_tilted(const SurfaceView<Dim>& surface, const ContactPair<Dim>& pair) {
-    static const double cosine = std::cos(far_tilt);
     const Vector<Dim>& n = pair.frame.normal();
-    return n.dot(surface.normal[pair.face_1]) < cosine && -n.dot(surface.normal[pair.face_2]) < cosine;
+    return n.dot(surface.normal[pair.face_1]) < far_tilt_cosine && -n.dot(surface.normal[pair.face_2]) < far_tilt_cosine;
 }
 
 }  // namespace

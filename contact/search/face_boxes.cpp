@@ -8,9 +8,8 @@
 namespace abut::contact {
 namespace {
 
-/// Largest sine of the angle between a face and the plane of a pair it takes part in. Where the normal of a pair is the mean of
-/// those of its faces, the angle is half of that by which they may turn away from each other; where it is the normal of the
-/// other face, the whole of it.
+/// Largest sine of the angle between a face and the plane of a pair it takes part in. Where the pair normal is the mean, the
+/// angle is half of that between n_1 and -n_2; where it is that of the other face, the whole.
 double largest_tilt_sine(double facing_cosine, bool along_other_normal) {
     const double angle = std::acos(-facing_cosine), tilt = along_other_normal ? angle : 0.5 * angle;
     return tilt < 0.5 * std::numbers::pi ? std::sin(tilt) : 1.0;

@@ -137,6 +137,7 @@ Scene scene_of(const FloatBoxes& boxes) {
     rtcAttachGeometry(scene.get(), geometry.get());
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);  // half the build time for the same query time
     rtcCommitScene(scene.get());
+    rtcSetGeometryUserData(geometry.get(), nullptr);  // `source` ends here, and the scene lives on
     check_device();
     return scene;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 
 namespace abut::solid {
 namespace {
@@ -11,6 +12,7 @@ inline constexpr double null_space_cut = 1e-10;  // of the largest eigenvalue
 // Corners of a cell at which a free face answers to contact of another one. Faces that lie nearly in one plane are pressed
 // together, and a plate of one cell would give way altogether.
 inline constexpr double largest_corner_cosine = 0.6;  // |n_f . n_g|: between 53 and 127 degrees
+inline constexpr double rounding = 1e-9;              // of cosines
 inline constexpr double least_stiffness = 0.5;        // that must be left to the face, of Young's modulus |f|/|c|
 
 /// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
@@ -73,6 +75,11 @@ private:
         return boundary;
     }
 
+    const Vector<Dim>& normal_of(BoundaryFace b) const { return mesh_.face_normal[mesh_face(mesh_, b)]; }
+    /// Projector onto the directions that are not prescribed.
+    Matrix<Dim> free_part(BoundaryFace b) const { return Matrix<Dim>::Identity() - conditions_.prescribed[b]; }
+    static Eigen::Index first_row(std::size_t face) { return static_cast<Eigen::Index>(face) * Dim; }
+
     bool is_free(BoundaryFace b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
 
     /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces.
@@ -108,7 +115,7 @@ private:
             return;
         }
         for (const BoundaryFace b : boundary) {
-            const Matrix<Dim> free = Matrix<Dim>::Identity() - conditions_.prescribed[b];
+            const Matrix<Dim> free = free_part(b);
             if (free.isZero(1e-12)) continue;
             if (rule_ == FreeFaceRule::extrapolate)
                 rows_[b].add_stencil(affine_[b], free);
@@ -125,7 +132,11 @@ private:
         return face_stiffness<Dim>(material.lambda(), material.mu(), mesh_.cell_measure[cell], outward(f), outward(g));
     }
 
-    /// Symmetric and not negative definite: what is of the null space becomes 0.
+    Matrix<Dim> stiffness(std::int32_t cell, BoundaryFace f, BoundaryFace g) const {
+        return stiffness(cell, mesh_face(mesh_, f), mesh_face(mesh_, g));
+    }
+
+    /// Of a symmetric matrix without negative eigenvalues: what is of the null space becomes 0.
     static Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
         Eigen::VectorXd inverse = eigen.eigenvalues();
@@ -136,43 +147,46 @@ private:
 
     /// The other faces of the cell that turn away from b by a right angle or so, and are free in some direction.
     std::vector<BoundaryFace> corners_with(BoundaryFace b, const std::vector<BoundaryFace>& boundary) const {
-        const auto normal = [&](BoundaryFace face) -> const Vector<Dim>& {
-            return mesh_.face_normal[mesh_face(mesh_, face)];
-        };
         std::vector<BoundaryFace> corners;
         for (const BoundaryFace other : boundary)
-            if (other != b && is_free(other) && std::abs(normal(b).dot(normal(other))) <= largest_corner_cosine)
+            if (other != b && is_free(other) &&
+                std::abs(normal_of(b).dot(normal_of(other))) <= largest_corner_cosine + rounding)
                 corners.push_back(other);
         return corners;
     }
 
-    /// The minimum of the cell's energy over these faces when b is displaced by delta:  N A N z = -N A_b delta.
+    /// The stiffness among some faces in their free directions, and that with b: A and the columns A_b.
+    struct Condensed {
+        Eigen::MatrixXd among;
+        Eigen::MatrixXd with_b;
+    };
+    Condensed stiffness_of(const std::vector<BoundaryFace>& faces, std::int32_t cell, BoundaryFace b) const {
+        const auto n = static_cast<Eigen::Index>(faces.size()) * Dim;
+        Eigen::MatrixXd among(n, n), with_b(n, Dim);
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            with_b.block<Dim, Dim>(first_row(i), 0) = free_part(faces[i]) * stiffness(cell, faces[i], b);
+            for (std::size_t j = 0; j < faces.size(); ++j)
+                among.block<Dim, Dim>(first_row(i), first_row(j)) =
+                    free_part(faces[i]) * stiffness(cell, faces[i], faces[j]) * free_part(faces[j]);
+        }
+        return {std::move(among), std::move(with_b)};
+    }
+
+    /// Static condensation: the minimum of the cell's energy over its corner faces when b is displaced by delta,
+    /// N A N z = -N A_b delta.
     void relax_corners(std::int32_t cell, BoundaryFace b, const std::vector<BoundaryFace>& boundary) {
         if (!conditions_.prescribed[b].isZero(0.0)) return;  // contact leaves it alone
         const std::vector<BoundaryFace> corners = corners_with(b, boundary);
         if (corners.empty()) return;
-        const std::int32_t face = mesh_face(mesh_, b);
-        const auto n = static_cast<Eigen::Index>(corners.size()) * Dim;
-        const auto rows_of = [](std::size_t i) { return static_cast<Eigen::Index>(i) * Dim; };
-        const auto free = [&](std::size_t i) -> Matrix<Dim> {
-            return Matrix<Dim>::Identity() - conditions_.prescribed[corners[i]];
-        };
-        Eigen::MatrixXd among(n, n), with_b(n, Dim);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const std::int32_t f = mesh_face(mesh_, corners[i]);
-            with_b.block<Dim, Dim>(rows_of(i), 0) = free(i) * stiffness(cell, f, face);
-            for (std::size_t j = 0; j < corners.size(); ++j)
-                among.block<Dim, Dim>(rows_of(i), rows_of(j)) =
-                    free(i) * stiffness(cell, f, mesh_face(mesh_, corners[j])) * free(j);
-        }
-        const Eigen::MatrixXd answer = -pseudo_inverse(among) * with_b;
-        const Matrix<Dim> relaxed = stiffness(cell, face, face) + with_b.transpose() * answer;
-        const Vector<Dim>& normal = mesh_.face_normal[face];
-        const double along_normal = normal.dot(relaxed * normal), measure = mesh_.face_measure[face];
+        const Condensed of_corners = stiffness_of(corners, cell, b);
+        const Eigen::MatrixXd answers = -pseudo_inverse(of_corners.among) * of_corners.with_b;
+        const Matrix<Dim> relaxed = stiffness(cell, b, b) + of_corners.with_b.transpose() * answers;
+        const Vector<Dim>& normal = normal_of(b);
+        const double along_normal = normal.dot(relaxed * normal), measure = mesh_.face_measure[mesh_face(mesh_, b)];
         const double young = materials_[mesh_.cell_body[cell]].young;
         if (along_normal < least_stiffness * young * measure * measure / mesh_.cell_measure[cell]) return;
         for (std::size_t i = 0; i < corners.size(); ++i)
-            Row<Dim>::add(rows_[b].answers, corners[i], answer.block<Dim, Dim>(rows_of(i), 0));
+            Row<Dim>::add(rows_[b].answers, corners[i], answers.block<Dim, Dim>(first_row(i), 0));
         rows_[b].normal_stiffness = along_normal / measure;
     }
 
@@ -182,12 +196,12 @@ private:
     void balance(std::int32_t cell, const std::vector<BoundaryFace>& boundary) {
         const auto n = static_cast<Eigen::Index>(boundary.size()) * Dim;
         const auto block = [](Eigen::MatrixXd& m, std::size_t i, std::size_t j) {
-            return m.block<Dim, Dim>(static_cast<Eigen::Index>(i) * Dim, static_cast<Eigen::Index>(j) * Dim);
+            return m.block<Dim, Dim>(first_row(i), first_row(j));
         };
         Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
         Eigen::MatrixXd free = Eigen::MatrixXd::Zero(n, n);
         for (std::size_t i = 0; i < boundary.size(); ++i) {
-            block(free, i, i) = Matrix<Dim>::Identity() - conditions_.prescribed[boundary[i]];
+            block(free, i, i) = free_part(boundary[i]);
             for (std::size_t j = 0; j < boundary.size(); ++j)
                 block(a, i, j) = stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j]));
         }

@@ -10,7 +10,7 @@
 
 namespace abut::solid {
 
-/// û = R u + B u_D + L t on the boundary faces, and w = û + delta + sum of K delta where contact moves faces by delta.
+/// û = R u + B u_D + L t on the boundary faces, and ũ = û + delta + sum of C delta where contact moves faces by delta.
 /// docs/method.md, Space and Contact.
 template <int Dim>
 struct BoundaryReconstruction {
@@ -24,13 +24,13 @@ struct BoundaryReconstruction {
     std::vector<Matrix<Dim>> from_traction;       ///< L [m/Pa]
     std::vector<std::int32_t> answer_offsets{0};  ///< (n_boundary + 1)
     std::vector<BoundaryFace> answer_faces;       ///< free faces of the same cell that a correction of a face moves
-    std::vector<Matrix<Dim>> answers;             ///< K: by how much
-    /// n . dy_f/ddelta_f n / |f|, the answers included (n_boundary) [Pa/m]
+    std::vector<Matrix<Dim>> answers;             ///< C: by how much
+    /// k_f = n . A_ff n / |f|, what the answers leave of it, stabilisation left out (n_boundary) [Pa/m]
     std::vector<double> normal_stiffness;
     StencilReport report;  ///< of the affine extrapolations that were needed
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(offsets.size()) - 1; }
-    /// visit(face, K) for each face that answers to a correction of b.
+    /// visit(face, C) for each face that answers to a correction of b.
     template <class Visit>
     void for_each_answer(BoundaryFace b, const Visit& visit) const {
         for (std::int32_t i = answer_offsets[number_of(b)]; i < answer_offsets[number_of(b) + 1]; ++i)

@@ -96,8 +96,8 @@ public:
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const BoundaryFace> faces) const;
     /// What `evaluate_cells` needs for these cells, increasing.
     [[nodiscard]] Region<Dim> region_of_cells(std::span<const std::int32_t> cells) const;
-    /// û [m], and the answer of V to a correction, y - |f| t where no other face answers [N], of the region's faces
-    /// (region.faces), without contact.
+    /// û [m] and dV/ddelta [N] of the region's faces (region.faces), without contact: y - |f| t, and C^T (y - |g| t) of each
+    /// face g that answers.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
     /// dV/du_c of the region's cells, as `gradient` gives it (region.cells) [N].

@@ -98,7 +98,7 @@ private:
     std::vector<double> s_;              // S_c, by cell
     std::vector<double> direct_;         // sum of k [u], by cell
     std::vector<double> y_;              // dV/dũ_f, by face
-    std::vector<double> correction_;     // delta_f, by boundary face; zero but during a call
+    std::vector<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
     std::vector<double> pair_gradient_;  // by boundary face; zero but during a call
     std::vector<Chunk> chunks_;          // one more at the end
     SweepSchedule<n_stages> schedule_;

@@ -19,7 +19,7 @@ const std::vector<Family>& families() {
         {"crossing", "beams with edges of 60 to 100 degrees that cross at right angles", sweep_crossing},
         {"edge", "a block that presses on another and slides off its edge or corner", sweep_edge},
         {"spin", "a bar that spins freely: how far it has turned, and how much it has grown", sweep_spin},
-        {"rollers", "blocks on rollers that run into each other along these, with and without the filter", sweep_rollers},
+        {"rollers", "blocks that run into each other along their rollers, with and without the filter", sweep_rollers},
         {"crowd", "many discs that run into one another at once", sweep_crowd},
         {"long", "bodies that bounce for --steps steps", sweep_long},
         {"rest", "a block that lies on a plane under gravity for --steps steps", sweep_rest},

@@ -186,7 +186,7 @@ run::Scene<2> spinning_bar(double rate, double angle, Growth& growth) {
     scene.mesh = mesh::structured_box<2>({-1.0, -0.25}, {1.0, 0.25}, {16, 4}, mesh::CellShape::quadrangle, "bar");
     scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
     scene.velocity = {Vector<2>::Zero()};
-    scene.more_velocity = [rate](const Vector<2>& x) { return Vector<2>(-rate * x.y(), rate * x.x()); };
+    scene.added_velocity = [rate](const Vector<2>& x) { return Vector<2>(-rate * x.y(), rate * x.x()); };
     scene.time = std::tan(angle) / rate;  // every point flies straight on
     scene.remedy_if_overlapping = "The bar is one body.";
     scene.after_step = [&growth](const solid::Solid<2>& solid, double dt) {

@@ -55,7 +55,7 @@ template <int Dim>
 /// angles, edge on edge.
 [[nodiscard]] run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle);
 
-/// Two unit blocks on rollers, which run into each other along these: the last axis.
+/// Two unit blocks that run into each other along their rollers, which is the last axis.
 template <int Dim>
 [[nodiscard]] run::Scene<Dim> blocks_on_rollers(const Meeting<Dim>& meeting);
 

@@ -23,7 +23,7 @@ inline constexpr double largest_drift = 1e-10;           ///< of H~ over the sca
 inline constexpr double largest_momentum_drift = 1e-10;  ///< over the sum of m |v| at the start
 inline constexpr double largest_excess = 1.0;        ///< H - H~ over the scale: the parasitic mode owns less than the run
 inline constexpr double largest_speed_aside = 0.05;  ///< over the speed: of a corner on a flat side, along it
-inline constexpr double largest_deviation = 1e-9;    ///< of dimensionless numbers that must not depend on the units
+inline constexpr double largest_deviation = 1e-9;    ///< of numbers that are known, or must not depend on the units
 
 /// A number without a unit.
 struct Number {
@@ -35,7 +35,7 @@ struct Number {
 struct Row {
     std::string family, value;
     Verdict verdict = Verdict::refused;
-    std::string message;                  ///< of a refusal; what is not so of a failure
+    std::string message;                  ///< of a refusal; what is not so of a failure; what is worth saying
     bool is_finite = false;               ///< all energies, momenta and speeds are
     double drift = run::not_given;        ///< max |H~ - H~0 - work| over the scale of the scene
     double excess = run::not_given;       ///< max (H - H~) over the scale

@@ -116,6 +116,7 @@ solid::SolidOptions<Dim> solid_options(const HertzOptions& options, const mesh::
     solid.acceleration.assign(solid.materials.size(), Vector<Dim>::Zero());
     solid.acceleration.front() = -options.load / (density * volume(mesh)) * up<Dim>();
     solid.boundary.free_face_rule = options.neumann;
+    solid.boundary.corner_rule = options.corners;
     solid.contact = options.contact;
     return solid;
 }

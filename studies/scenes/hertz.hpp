@@ -25,6 +25,7 @@ struct HertzOptions {
     double coarse = 0.15;  ///< cells far from the contact over the radius [-]
     contact::ContactOptions contact;
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
+    solid::CornerRule corners = solid::CornerRule::relaxed;
     solid::StaticOptions statics{.tolerance = 1e-7};
 };
 

@@ -30,6 +30,7 @@ const std::vector<Axis>& axes() {
                                           {"--quadrature", {"1", "2", "3"}},
                                           {"--area", {"exact"}, true},
                                           {"--neumann", {"extrapolate", "adjacent"}, true},
+                                          {"--corners", {"fixed"}, true},
                                           {"--cfl", {"0.3", "0.6"}},
                                           {"--filter", {"neutral"}},
                                           {"--integrator", {"memm_async", "leapfrog", "bilbao"}}};

@@ -137,8 +137,8 @@ Outcome solve_bar(const run::RunOptions& run, int cells, double, double limit) {
 }
 
 Outcome solve_cylinder_on_block(const run::RunOptions& run, int faces, double, double) {
-    const auto result =
-        solve_hertz<2>({.faces = static_cast<double>(faces), .contact = run.contact, .neumann = run.neumann});
+    const auto result = solve_hertz<2>(
+        {.faces = static_cast<double>(faces), .contact = run.contact, .neumann = run.neumann, .corners = run.corners});
     return {.errors = {.pressure = result.pressure_error},
             .cells = result.n_cells,
             .steps = static_cast<std::int64_t>(result.report.iterations.size()),

@@ -37,7 +37,7 @@ const apps::Choices<solid::FreeFaceRule> neumanns = {{"local_equilibrium", solid
                                                      {"adjacent", solid::FreeFaceRule::adjacent}};
 struct Sides {
     std::string name;
-    PatchSides held;
+    PatchSides sides;
     bool zero_poisson = false;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     bool is_exact = true;  // with the other choices that are exact
@@ -84,7 +84,7 @@ template <int Dim>
 void add_levels(Study& study, apps::Table& stress, PatchOptions options) {
     std::vector<double> row{static_cast<double>(stress.rows.size())};
     for (const Sides& sides : all_sides) {
-        options.sides = sides.held;
+        options.sides = sides.sides;
         options.corners = sides.corners;
         options.poisson = sides.zero_poisson ? std::array{0.0, 0.0} : PatchOptions{}.poisson;
         study.levels.push_back(level<Dim>(options, sides));

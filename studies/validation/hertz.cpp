@@ -149,6 +149,7 @@ Study solve(const Options& options) {
         hertz.faces = faces;
         hertz.contact = options.run.contact;
         hertz.neumann = options.run.neumann;
+        hertz.corners = options.run.corners;
         double seconds = 0.0;
         HertzResult<Dim> result;
         {

@@ -1,5 +1,4 @@
-// A race on purpose: tasks of one parallel loop add to the same number. Compiled for ThreadSanitizer it must be reported, by
-// this file's name: a report that nobody would see is none.
+// A race on purpose: tasks of one parallel loop add to the same number. ThreadSanitizer must report it and name this file.
 #include <chrono>
 #include <cstdio>
 #include <thread>

@@ -2,11 +2,13 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/sharp_edges.hpp"
+#include "contact/law.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;
@@ -46,9 +48,9 @@ TEST_CASE("steps to a sharp edge are counted from face to face, and no farther t
     const auto surface = rectangle(n);
     const auto steps = steps_to_sharp_edge<2>(surface.view());
     for (int face = 0; face < 4 * n; ++face) {
-        const int place = face % n;
+        const int index = face % n;
         CHECK(steps[static_cast<std::size_t>(face)] ==
-              std::min({place, n - 1 - place, static_cast<int>(contact::far_from_sharp_edge)}));
+              std::min({index, n - 1 - index, static_cast<int>(contact::far_from_sharp_edge)}));
     }
 }
 
@@ -71,11 +73,11 @@ TEST_CASE("the rim of an open surface is no edge, and two bodies have no edge in
     const auto roof = sheet(4, 0, true, [](double x, double) { return -3.0 * std::abs(x - 0.5); });
     auto halves = roof;
     for (std::int32_t face = 0; face < halves.size(); ++face) halves.body[face] = halves.centroid[face].x() < 0.5 ? 0 : 1;
+    const auto steps = steps_to_sharp_edge<3>(roof.view()), of_halves = steps_to_sharp_edge<3>(halves.view());
     for (std::int32_t face = 0; face < roof.size(); ++face) {
         const double from_ridge = 4.0 * std::abs(roof.centroid[face].x() - 0.5);  // in squares of two triangles each
-        CHECK(steps_to_sharp_edge<3>(roof.view())[face] ==
-              (from_ridge < 1.0 ? (from_ridge < 0.5 ? 0 : 1) : 2 + (from_ridge > 1.5)));
-        CHECK(steps_to_sharp_edge<3>(halves.view())[face] == contact::far_from_sharp_edge);
+        CHECK(steps[face] == (from_ridge < 1.0 ? (from_ridge < 0.5 ? 0 : 1) : 2 + (from_ridge > 1.5)));
+        CHECK(of_halves[face] == contact::far_from_sharp_edge);
     }
 }
 
@@ -99,8 +101,37 @@ TEMPLATE_TEST_CASE_SIG("two faces meet along the normal of the one that is farth
     CHECK((normal(1, 1) - (up<Dim>() - slanted.normalized()).normalized()).norm() < 1e-15);
 }
 
-TEST_CASE("steps to sharp edges come one a face, or the surface is refused", "[contact][edges][bad-input]") {
+TEMPLATE_TEST_CASE_SIG("pairs whose normal is more than 20 degrees away from those of both faces are counted",
+                       "[contact][edges]", ((int Dim), Dim), 2, 3) {
+    const auto tilted_pairs = [](double degrees, std::uint8_t steps_0, std::uint8_t steps_1) {
+        const double angle = degrees * std::numbers::pi / 180.0;
+        contact::Surface<Dim> surface;
+        surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.5, 1.0, 0);
+        surface.append(
+            tile<Dim>(Vector<Dim>(-0.1 * up<Dim>()), -std::cos(angle) * up<Dim>() + std::sin(angle) * axis<Dim>(0), 0.5),
+            0.5, 1.0, 1);
+        surface.steps_to_sharp_edge = {steps_0, steps_1};
+        contact::PairList<Dim> list;
+        list.append(surface.view(), 0, 1, contact::InterfaceWeighting::half);
+        const std::vector<contact::SurfaceFace> faces{contact::SurfaceFace{0}, contact::SurfaceFace{1}};
+        list.number_faces(faces);
+        const std::vector<Vector<Dim>> zero(2, Vector<Dim>::Zero());
+        LawOnList<Dim> law({});
+        const auto& step =
+            law(surface.view(), list, {{.admitted = true}}, faces, uncoupled<Dim>(2), {zero, zero, zero, zero});
+        REQUIRE(step.pairs.size() == 1);
+        return step.report.tilted_pairs;
+    };
+    CHECK(tilted_pairs(38.0, 1, 1) == 0);
+    CHECK(tilted_pairs(45.0, 1, 1) == 1);
+    CHECK(tilted_pairs(45.0, 3, 0) == 0);
+}
+
+TEST_CASE("steps to sharp edges come one per face, or the surface is refused", "[contact][edges][bad-input]") {
     auto surface = rectangle(3);
     surface.steps_to_sharp_edge = {0, 1};
     CHECK_THROWS_WITH(contact::check(surface.view()), Catch::Contains("steps_to_sharp_edge") && Catch::Contains("12"));
+    surface.steps_to_sharp_edge.assign(12, 0);
+    surface.steps_to_sharp_edge[7] = contact::far_from_sharp_edge + 1;
+    CHECK_THROWS_WITH(contact::check(surface.view()), Catch::Contains("face 7") && Catch::Contains("4 steps"));
 }

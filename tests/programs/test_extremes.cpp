@@ -55,6 +55,20 @@ TEST_CASE("bodies of very different stiffness, density and cells keep energy and
     for (const auto& row : sweep("stiffness,density,refinement,edge,crowd")) check_held(row);
 }
 
+TEST_CASE("a corner is not pushed along a flat side, and momentum along rollers is kept, with the filter, too",
+          "[programs][extremes]") {
+    for (const auto& row : sweep("corner,rollers")) check_held(row);
+}
+
+TEST_CASE("the ledger sees how far a bar has turned that spins freely, and it grows by 1/cos of that",
+          "[programs][extremes]") {
+    for (const auto& row : sweep("spin")) {
+        INFO(row.dump());
+        CHECK(row["outcome"] == "held");
+        CHECK(contains(message(row), "it has grown by"));
+    }
+}
+
 TEST_CASE("time steps up to the stable one keep energy and momentum", "[programs][extremes]") {
     for (const auto& row : sweep("cfl")) check_held(row);
 }

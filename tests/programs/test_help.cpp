@@ -15,7 +15,7 @@ using namespace abut::test::programs;
 const std::vector<std::pair<std::string, std::string>> explained = {
     {"slipping_cylinders",
      "--dim --radius --length --young --poisson --density --speed --offset --gap --size --cfl --time --steps "
-     "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --eta --filter --integrator "
+     "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --corners --eta --filter --integrator "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
      "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine"},
     {"rebounding_cylinders", "--dim --offset --out"},
@@ -33,7 +33,7 @@ const std::vector<std::pair<std::string, std::string>> explained = {
     {"fpu", "--omega --dt --time --integrator --mean --gauge --parts --fast --start --out --interval"},
     {"hertz",
      "--dim --support --load --radius --young --poisson --ratio --coarse --faces --tolerance --weights --area "
-     "--neumann --out"},
+     "--neumann --corners --out"},
     {"contact_patch", "--dim --mesh --strain --out"},
     {"extremes", "--only --steps --quick --cfl --overlap --events --facing-cosine --out"},
     {"trade", "--only --settings --also --levels --repetitions --limit --out"},

@@ -41,7 +41,7 @@ TEST_CASE("the energy holds to round-off for every choice that is exact", "[prog
     const std::string choice =
         GENERATE("", "--weights half", "--area exact", "--neumann extrapolate", "--neumann adjacent", "--eta 0.5",
                  "--eta 0.5,2", "--poisson 0,0.45", "--cfl 0.4", "--skin 0.3", "--offset 0.3", "--quadrature 3",
-                 "--filter neutral", "--young 1,100 --density 1,10", "--dim 3 --length 0.6,1");
+                 "--filter neutral", "--young 1,100 --density 1,10", "--dim 3 --length 0.6,1", "--dim 3 --corners fixed");
     CAPTURE(choice);
     const auto outcome = run_coarse(choice, "choice");
     const auto summary = read_summary(outcome);
@@ -68,6 +68,12 @@ TEST_CASE("each choice of the method changes the motion", "[programs]") {
     const auto by_default = run_coarse(bodies, "default_choice");
     const auto other = run_coarse(bodies + choice, "other_choice");
     CHECK(read_summary(other)["bodies"][0]["velocity_final"] != read_summary(by_default)["bodies"][0]["velocity_final"]);
+}
+
+TEST_CASE("what free faces do beside one in contact changes the motion of bodies with edges", "[programs]") {
+    const auto relaxed = run_coarse("--dim 3", "relaxed"), fixed = run_coarse("--dim 3 --corners fixed", "fixed");
+    CHECK(read_summary(fixed)["options"]["corners"] == "fixed");
+    CHECK(read_summary(fixed)["bodies"][0]["velocity_final"] != read_summary(relaxed)["bodies"][0]["velocity_final"]);
 }
 
 TEST_CASE("the options --cfl, --dt, --time and --steps say how long steps and the run are, and the summary what was used",
@@ -215,6 +221,7 @@ TEST_CASE("summary.json holds all that a reader is promised", "[programs]") {
                              "stencil_worst_weight",
                              "compression_max",
                              "compressed_steps",
+                             "tilted_pairs_max",
                              "time",
                              "dt_over_stable_dt",
                              "contact_share",
@@ -234,10 +241,10 @@ TEST_CASE("summary.json holds all that a reader is promised", "[programs]") {
         if (name != std::string("total")) parts += summary["seconds"][name].get<double>();
     }
     CHECK(parts <= summary["seconds"]["total"].get<double>());
-    for (const char* name :
-         {"dim", "radius", "young",       "poisson", "density",  "speed", "offset",     "gap",        "size",
-          "cfl", "time",   "broad_phase", "overlap", "weights",  "area",  "events",     "quadrature", "neumann",
-          "eta", "filter", "threads",     "out",     "interval", "skin",  "integrator", "frames",     "compression_limit"})
+    for (const char* name : {"dim",     "radius", "young",      "poisson", "density",     "speed",   "offset",
+                             "gap",     "size",   "cfl",        "time",    "broad_phase", "overlap", "weights",
+                             "area",    "events", "quadrature", "neumann", "corners",     "eta",     "filter",
+                             "threads", "out",    "interval",   "skin",    "integrator",  "frames",  "compression_limit"})
         CHECK(summary["options"].contains(name));
 }
 

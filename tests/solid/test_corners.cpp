@@ -1,6 +1,10 @@
 // Free faces of a cell that answer where contact moves another of its faces.
 #include <catch2/catch.hpp>
 
+#include <Eigen/Geometry>
+#include <array>
+#include <utility>
+
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -132,6 +136,45 @@ TEMPLATE_TEST_CASE_SIG("faces answer across a corner only, and none loses its st
     for (const BoundaryFace b : round.boundary_faces()) CHECK(answering(round, b).empty());
 }
 
+TEST_CASE("the tip of a needle, whose cell would give way, has faces that do not answer", "[solid][corners]") {
+    // A long tetrahedron, cut at the middles of its edges: into one at each corner and four in the middle.
+    mesh::CellSoup<3> soup;
+    soup.name = "needle";
+    soup.body_names = {"needle"};
+    soup.vertices = {{0.2, 0.0, 0.0}, {-0.1, 0.17, 0.0}, {-0.1, -0.17, 0.0}, {0.0, 0.0, 2.0}};
+    const auto middle = [&](int a, int b) {
+        soup.vertices.push_back(0.5 *
+                                (soup.vertices[static_cast<std::size_t>(a)] + soup.vertices[static_cast<std::size_t>(b)]));
+        return static_cast<std::int32_t>(soup.vertices.size()) - 1;
+    };
+    const std::int32_t m01 = middle(0, 1), m02 = middle(0, 2), m03 = middle(0, 3), m12 = middle(1, 2), m13 = middle(1, 3),
+                       m23 = middle(2, 3);
+    std::array<std::array<std::int32_t, 4>, 8> cells{{{0, m01, m02, m03},
+                                                      {m01, 1, m12, m13},
+                                                      {m02, m12, 2, m23},
+                                                      {m03, m13, m23, 3},
+                                                      {m01, m02, m03, m13},
+                                                      {m01, m02, m12, m13},
+                                                      {m02, m03, m13, m23},
+                                                      {m02, m12, m13, m23}}};
+    for (auto& cell : cells) {
+        const auto x = [&](int i) { return Eigen::Vector3d(soup.vertices[static_cast<std::size_t>(cell[i])]); };
+        if ((x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) < 0.0) std::swap(cell[2], cell[3]);
+        soup.cell_vertices.append(cell);
+        soup.cell_shape.push_back(CellShape::tetrahedron);
+        soup.cell_body.push_back(0);
+    }
+    const auto mesh = mesh::build_mesh(std::move(soup));
+    const auto ccg = operators<3>(mesh, CornerRule::relaxed);
+    int at_the_tip = 0;
+    for (const BoundaryFace b : ccg.boundary_faces()) {
+        if (mesh.cell_centroid[mesh.face_cells[mesh_face(mesh, b)][0]].z() < 1.0) continue;
+        ++at_the_tip;
+        CHECK(answering(ccg, b).empty());
+    }
+    CHECK(at_the_tip == 3);
+}
+
 TEST_CASE("faces with a prescribed displacement do not answer in its direction", "[solid][corners]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {3, 3}, CellShape::quadrangle);
     solid::BoundaryConditions<2> conditions;
@@ -148,4 +191,24 @@ TEST_CASE("faces with a prescribed displacement do not answer in its direction",
             CHECK(answer.row(1).norm() > 0.1);
         });
     CHECK(rollers == 2);
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "a boundary half-cell has the stiffness (lambda + 2 mu) |f|/|c| with fixed corners, and the depth (x_f - x_c) . n",
+    "[solid][corners]", ((int Dim), Dim), 2, 3) {
+    const solid::Material material{.young = 2.0, .poisson = 0.25, .density = 1.0};  // lambda = mu = 0.8
+    const auto mesh = round_body<Dim>(0.5);
+    auto options = bodies<Dim>(1);
+    options.materials = {material};
+    options.boundary.corner_rule = solid::CornerRule::fixed;
+    solid::Solid<Dim> solid(mesh, options);
+    const auto& surface = solid.contact()->surface();
+    for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b) {
+        const std::int32_t f = mesh.boundary_faces[b], c = mesh.face_cells[f][0];
+        const double stiffness = 2.4 * mesh.face_measure[f] / mesh.cell_measure[c];
+        CHECK(solid.ccg().normal_stiffness(static_cast<BoundaryFace>(b)) == Approx(stiffness).epsilon(1e-13));
+        CHECK(surface.stiffness[b] == Approx(stiffness).epsilon(1e-13));
+        CHECK(surface.cell_depth[b] ==
+              Approx((mesh.face_centroid[f] - mesh.cell_centroid[c]).dot(mesh.face_normal[f])).epsilon(1e-13));
+    }
 }

@@ -114,7 +114,7 @@ TEST_CASE("the neutral filter keeps H~ of a body on a wall, and its momentum alo
 
 TEMPLATE_TEST_CASE_SIG("the neutral filter leaves momentum along rollers alone, through any number of impacts",
                        "[solid][filter]", ((int Dim), Dim), 2, 3) {
-    // Two blocks on rollers, which run into each other along these.
+    // Two blocks that run into each other along their rollers.
     Vector<Dim> size = Vector<Dim>::Constant(0.8);
     size[0] = 1.0;
     Vector<Dim> gap = Vector<Dim>::Zero();
