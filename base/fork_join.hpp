@@ -49,6 +49,24 @@ private:
     char forked_ = 0, joined_ = 0;  // only their addresses matter
 };
 
+/// The body of a loop with its place in the order. What a library copies from thread to thread to call it is left to that
+/// library: only what the body itself does is looked at.
+template <class Body>
+class OrderedBody {
+public:
+    OrderedBody(ForkJoin& loop, const Body& body) : loop_(loop), body_(body) {}
+
+    template <class... Arguments>
+    [[gnu::no_sanitize_thread]] decltype(auto) operator()(const Arguments&... arguments) const {
+        const ForkJoin::Task task(loop_);
+        return body_(arguments...);
+    }
+
+private:
+    ForkJoin& loop_;
+    const Body& body_;
+};
+
 }  // namespace abut
 
 #undef ABUT_THREAD_SANITIZER

@@ -34,14 +34,10 @@ void parallel_ranges(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = 
         body(std::ptrdiff_t{0}, n);
         return;
     }
+    const auto in_range = [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range) { body(range.begin(), range.end()); };
     ForkJoin loop;
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::ptrdiff_t>(0, n, grain),
-        [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range) {
-            const ForkJoin::Task task(loop);
-            body(range.begin(), range.end());
-        },
-        oneapi::tbb::static_partitioner{});
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::ptrdiff_t>(0, n, grain), OrderedBody(loop, in_range),
+                              oneapi::tbb::static_partitioner{});
 }
 
 template <class Body>
@@ -58,13 +54,7 @@ void parallel_each(std::ptrdiff_t n, const Body& body, std::ptrdiff_t grain = pa
 template <class Index, class Body, class Partitioner = oneapi::tbb::auto_partitioner>
 void parallel_tasks(Index n, const Body& body, const Partitioner& partitioner = {}) {
     ForkJoin loop;
-    oneapi::tbb::parallel_for(
-        Index{0}, n,
-        [&](Index i) {
-            const ForkJoin::Task task(loop);
-            body(i);
-        },
-        partitioner);
+    oneapi::tbb::parallel_for(Index{0}, n, OrderedBody(loop, body), partitioner);
 }
 
 /// Calls body(begin, end) on parts of [0, n) of that size, concurrently: as parallel_ranges, for work that may be uneven.
@@ -100,14 +90,14 @@ inline double larger(double a, double b) { return std::isnan(a) || b <= a ? a : 
 /// Largest value(i) >= 0 over [0, n), 0 for n = 0; NaN if one of them is. Concurrently for n above twice `grain`.
 template <class Value>
 double largest(std::ptrdiff_t n, const Value& value, std::ptrdiff_t grain = parallel_grain) {
-    ForkJoin loop;
     const auto in_range = [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& range, double so_far) {
-        const ForkJoin::Task task(loop);
         for (std::ptrdiff_t i = range.begin(); i < range.end(); ++i) so_far = larger(so_far, value(i));
         return so_far;
     };
     const oneapi::tbb::blocked_range<std::ptrdiff_t> all(0, n, grain);
-    return n <= 2 * grain ? in_range(all, 0.0) : oneapi::tbb::parallel_reduce(all, 0.0, in_range, larger);
+    if (n <= 2 * grain) return in_range(all, 0.0);
+    ForkJoin loop;
+    return oneapi::tbb::parallel_reduce(all, 0.0, OrderedBody(loop, in_range), larger);
 }
 
 }  // namespace abut
