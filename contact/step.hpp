@@ -7,11 +7,11 @@
 
 namespace abut::contact {
 
-/// How the energy gradients of a host's faces answer to corrections: y_f = y_free,f + sum_f' Q_ff' delta_f', Q_ff' =
-/// d²V/ddelta_f ddelta_f', among the listed faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary
-/// faces of its cell, those of cells that share a stabilised interior face with it. Rows of rigid faces may be empty.
-/// Q is a second derivative: finite, Q_f'f the transpose of Q_ff', no eigenvalue of Q_ff below 0 (both within 1e-10 of the
-/// largest entry of these blocks; all zero is allowed). A search refuses anything else with BadInput naming the face.
+/// How the energy gradients of a host's faces answer to corrections: y_f = y_free,f + sum_f' Q_ff' delta_f', among the listed
+/// faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary faces of
+/// its cell, those of cells that share a stabilised interior face with it. Rows of rigid faces may be empty. Q_ff' = d²V/ddelta_f
+/// ddelta_f': finite, Q_f'f the transpose of Q_ff', no eigenvalue of Q_ff below 0 (both within 1e-10 of the largest entry of
+/// these blocks; all zero is allowed). A search refuses anything else with BadInput naming the face.
 template <int Dim>
 struct FaceCoupling {
     std::vector<std::int32_t> offsets{0};  ///< (n + 1)

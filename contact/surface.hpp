@@ -84,8 +84,8 @@ void check_sizes(const SurfaceView<Dim>& surface);
 template <int Dim>
 void check(const SurfaceView<Dim>& surface);
 
-/// A 64-bit checksum of corners, cell depths, stiffnesses, bodies and sharp edges, to the last bit: tells whether a saved state fits. Two
-/// different surfaces share one by accident only.
+/// A 64-bit checksum of corners, cell depths, stiffnesses, bodies and steps to sharp edges, to the last bit: tells whether a
+/// saved state fits. Two different surfaces share one by accident only.
 template <int Dim>
 [[nodiscard]] std::uint64_t fingerprint(const SurfaceView<Dim>& surface);
 

@@ -30,8 +30,8 @@ struct Scene {
     mesh::Mesh<Dim> mesh{};
     solid::SolidOptions<Dim> solid{};     ///< all except the choices of RunOptions: contact and the rule of free faces
     std::vector<Vector<Dim>> velocity{};  ///< at the start, one per body [m/s]
-    std::function<Vector<Dim>(const Vector<Dim>& position)>
-        added_velocity{};  ///< added to it, as of a spin [m/s]; empty: none
+    /// Added to that of the body at the start, as of a spin [m/s]; empty: none
+    std::function<Vector<Dim>(const Vector<Dim>& position)> added_velocity{};
     std::function<Vector<Dim>(const Vector<Dim>& position)> displacement{};  ///< at the start [m]; empty: none
     bool contact = true;                  ///< false: bodies pass through each other, at no cost
     double time = 0.0;                    ///< end of the run where no option says it [s]
