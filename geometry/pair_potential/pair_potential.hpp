@@ -1,0 +1,87 @@
+#pragma once
+#include <array>
+
+#include "abut/base/vector.hpp"
+
+namespace abut::geometry {
+
+/// Corners of the two faces of a pair [m]: Dim of face 1, then Dim of face 2. Segments (2D) with the outside on the right of
+/// the line from the first to the second corner; triangles (3D), counter-clockwise seen from outside. No face may have
+/// measure 0.
+template <int Dim>
+using PairCorners = std::array<Vector<Dim>, 2 * Dim>;
+
+/// n_1 . n_2 up to which a pair acts with all its stiffness, and from which on not at all; a smooth weight in between.
+inline constexpr double fully_facing_cosine = -0.6;
+inline constexpr double not_facing_cosine = -0.2;
+
+/// The contact potential of a pair of faces whose corners move,
+///
+///     W = chi(n_1 . n_2) k/2 int_P min(g, 0)^2 dA,
+///
+/// over the overlap P of the faces, seen along n = (n_1 - n_2)/|n_1 - n_2|; g is the height of face 2 over face 1 along n.
+/// W does not change when the pair moves or turns as a whole. docs/method.md, The potential of a pair.
+template <int Dim>
+struct PairLaw {
+    double stiffness;                    ///< k [Pa/m]
+    std::array<double, 2> length{1, 1};  ///< of the two segments at rest [m]; they weigh the normals in n (2D alone)
+};
+
+/// What a pair is like in one place.
+template <int Dim>
+struct PairState {
+    double energy = 0.0;                       ///< W [J]
+    double facing = 1.0;                       ///< n_1 . n_2
+    double overlap = 0.0;                      ///< |P| [m^(Dim-1)]
+    double area = 0.0;                         ///< that of the part of P where g < 0
+    double gap = 0.0;                          ///< the least g over P [m]; see `pair_state` where P is empty
+    Vector<Dim> normal = Vector<Dim>::Zero();  ///< n, from face 1 to face 2
+};
+
+/// `gap` of faces that share nothing is g halfway between the nearest points of the faces seen along n. Faces that look the
+/// same way (n_1 . n_2 > 0.3) have no n: the gap is then infinite.
+template <int Dim>
+[[nodiscard]] PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
+
+template <int Dim>
+struct PairGradient {
+    double energy = 0.0;          ///< W [J]
+    PairCorners<Dim> gradient{};  ///< dW/dx of each corner [N]; zero where W is
+    double area = 0.0;            ///< of the part of the overlap where g < 0 [m^(Dim-1)]
+};
+
+/// W and dW/dx. The sum of the gradients and of their moments is zero.
+template <int Dim>
+[[nodiscard]] PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
+
+/// How the mean along a step is taken.
+struct PairPathOptions {
+    /// Cut the step where faces begin or end to overlap and corners pass through the other face (2D; 3D halves large steps
+    /// instead). Without, the correction takes up more, and the force is less accurate; energy is as exact.
+    bool events = true;
+};
+
+template <int Dim>
+struct PairMeanGradient {
+    double energy_0 = 0.0;        ///< W at the start [J]
+    double energy_1 = 0.0;        ///< W at the end [J]
+    PairCorners<Dim> gradient{};  ///< the discrete gradient: what stands for the mean of dW/dx [N]
+    double area = 0.0;            ///< mean of the area where g < 0 [m^(Dim-1)]
+    double active_share = 0.0;    ///< of the step, in which W > 0
+    /// The part of the gradient that closes the balance of energy, as a force [N]. Large ones say that the step is too long to
+    /// follow the pair.
+    double correction = 0.0;
+    int events = 0;  ///< cuts of the step
+};
+
+/// A discrete gradient along the straight paths of the corners from x_0 to x_1:
+///
+///     sum gradient . (x_1 - x_0) = W(x_1) - W(x_0),   sum gradient = 0,   sum (x_0 + x_1)/2 x gradient = 0,
+///
+/// all to round-off, for steps of any size in which the pair turns by less than half a turn; it tends to dW/dx. W is
+/// integrated in a frame that turns with the pair; the rest goes along the motion in this frame. docs/method.md.
+template <int Dim>
+[[nodiscard]] PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const PairCorners<Dim>& x_1,
+                                                       const PairLaw<Dim>& law, const PairPathOptions& options = {});
+
+}  // namespace abut::geometry

@@ -1,0 +1,295 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "geometry/random_pairs.hpp"
+#include "support/worst.hpp"
+
+using namespace abut;
+using namespace abut::geometry;
+using namespace abut::test;
+
+namespace {
+
+/// |f| of a pair of this energy may be so small that only what W itself rounds to counts.
+template <int Dim>
+double scale(const PairMeanGradient<Dim>& found, const PairCorners<Dim>& motion) {
+    return found.energy_0 + found.energy_1 + norm_of<Dim>(found.gradient) * norm_of<Dim>(motion);
+}
+
+/// Whether the line from a point meets a triangle, and how far along it.
+bool ray_hits(const Vector<3>& from, const Vector<3>& along, const Vector<3>* triangle, double& height) {
+    Eigen::Matrix3d system;
+    system << triangle[1] - triangle[0], triangle[2] - triangle[0], -along;
+    const Vector<3> solution = system.inverse() * (from - triangle[0]);
+    height = solution[2];
+    return solution[0] >= 0.0 && solution[1] >= 0.0 && solution[0] + solution[1] <= 1.0;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("work of the mean gradient is the change of W, for steps of any size", "[pair_potential]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(1);
+    double balance = 0.0, momentum = 0.0, moments = 0.0;
+    int active = 0;
+    for (const double size : {1e-4, 0.03, 1.0})
+        for (int i = 0; i < 20000; ++i) {
+            const PairCorners<Dim> x_0 = random_pair<Dim>(random), x_1 = moved_on<Dim>(x_0, random, size, 0.1 * size);
+            const auto found = pair_mean_gradient<Dim>(x_0, x_1, law_of<Dim>(x_0));
+            if (found.active_share == 0.0) continue;
+            ++active;
+            const PairCorners<Dim> motion = difference<Dim>(x_1, x_0);
+            const double force = norm_of<Dim>(found.gradient);
+            const double work = product<Dim>(found.gradient, motion) - (found.energy_1 - found.energy_0);
+            raise(balance, std::abs(work) / (scale<Dim>(found, motion) + 0.02 * force));
+            raise(momentum, sum_of<Dim>(found.gradient).norm() / force);
+            raise(moments, moment<Dim>(x_0, x_1, found.gradient) / force);
+        }
+    CHECK(active > 10000);
+    CHECK(balance < 1e-13);
+    CHECK(momentum < 5e-15);
+    CHECK(moments < 5e-15);
+}
+
+TEMPLATE_TEST_CASE_SIG("the gradient is that of W, by central differences", "[pair_potential]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(2);
+    double worst = 0.0;
+    int active = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const PairCorners<Dim> x = random_pair<Dim>(random);
+        const PairLaw<Dim> law = law_of<Dim>(x);
+        const auto exact = pair_gradient<Dim>(x, law);
+        if (exact.energy < 1e-4) continue;
+        ++active;
+        const double h = 1e-6;
+        for (std::size_t v = 0; v < x.size(); ++v)
+            for (int d = 0; d < Dim; ++d) {
+                PairCorners<Dim> more = x, less = x;
+                more[v][d] += h;
+                less[v][d] -= h;
+                const double slope = (pair_gradient<Dim>(more, law).energy - pair_gradient<Dim>(less, law).energy) / (2 * h);
+                raise(worst, std::abs(slope - exact.gradient[v][d]) / (norm_of<Dim>(exact.gradient) + 0.1));
+            }
+    }
+    CHECK(active > 500);
+    CHECK(worst < 2e-8);
+}
+
+TEMPLATE_TEST_CASE_SIG("W is the same for both orders of the faces and wherever the pair is turned to", "[pair_potential]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(3);
+    double exchange = 0.0, turn = 0.0, ends = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+        const PairCorners<Dim> x_0 = random_pair<Dim>(random), x_1 = moved_on<Dim>(x_0, random, 0.03, 0.01);
+        PairLaw<Dim> law = law_of<Dim>(x_0), law_of_exchanged = law;
+        std::swap(law_of_exchanged.length[0], law_of_exchanged.length[1]);
+        const auto found = pair_mean_gradient<Dim>(x_0, x_1, law);
+        const double force = norm_of<Dim>(found.gradient);
+        if (force < 1e-3) continue;
+
+        const auto other = pair_mean_gradient<Dim>(exchanged<Dim>(x_0), exchanged<Dim>(x_1), law_of_exchanged);
+        raise(exchange, std::abs(other.energy_0 - found.energy_0) / force);
+        const auto gradient = pair_gradient<Dim>(x_0, law),
+                   of_exchanged = pair_gradient<Dim>(exchanged<Dim>(x_0), law_of_exchanged);
+        raise(exchange, norm_of<Dim>(difference<Dim>(exchanged<Dim>(of_exchanged.gradient), gradient.gradient)) / force);
+
+        const auto back = pair_mean_gradient<Dim>(x_1, x_0, law);
+        raise(ends, norm_of<Dim>(difference<Dim>(back.gradient, found.gradient)) / force);
+
+        const Matrix<Dim> by = random_turn<Dim>(random, 3.0);
+        const Vector<Dim> along = random_vector<Dim>(random, 1.0);
+        PairCorners<Dim> y_0, y_1, turned_back;
+        for (std::size_t v = 0; v < x_0.size(); ++v) {
+            y_0[v] = by * x_0[v] + along;
+            y_1[v] = by * x_1[v] + along;
+        }
+        const auto turned = pair_mean_gradient<Dim>(y_0, y_1, law);
+        for (std::size_t v = 0; v < x_0.size(); ++v) turned_back[v] = by.transpose() * turned.gradient[v];
+        raise(turn, std::abs(turned.energy_0 - found.energy_0) / force);
+        raise(turn, norm_of<Dim>(difference<Dim>(turned_back, found.gradient)) / force);
+    }
+    CHECK(exchange < 1e-12);
+    CHECK(ends < 1e-12);
+    CHECK(turn < 1e-12);
+}
+
+TEMPLATE_TEST_CASE_SIG("in steps that are nothing but rounding the mean gradient is the gradient", "[pair_potential]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(4);
+    double worst = 0.0;
+    for (const double size : {0.0, 1e-18, 1e-17, 1e-16, 1e-15, 1e-14})
+        for (int i = 0; i < 2000; ++i) {
+            PairCorners<Dim> x_0 = random_pair<Dim>(random), x_1 = x_0;
+            for (Vector<Dim>& corner : x_1) corner += random_vector<Dim>(random, size);
+            const PairLaw<Dim> law = law_of<Dim>(x_0);
+            const auto mean = pair_mean_gradient<Dim>(x_0, x_1, law);
+            const auto plain = pair_gradient<Dim>(x_0, law);
+            if (plain.energy == 0.0) continue;
+            raise(worst,
+                  norm_of<Dim>(difference<Dim>(mean.gradient, plain.gradient)) / (norm_of<Dim>(plain.gradient) + 1e-3));
+        }
+    CHECK(worst < 1e-11);
+}
+
+TEST_CASE("W of two triangles is k/2 times the integral of min(g, 0)^2 by a sum over rays", "[pair_potential]") {
+    std::mt19937 random(5);
+    int active = 0;
+    for (int i = 0; i < 200; ++i) {
+        const PairCorners<3> x = random_pair<3>(random);
+        const Vector<3> n_1 = (x[1] - x[0]).cross(x[2] - x[0]).normalized(),
+                        n_2 = (x[4] - x[3]).cross(x[5] - x[3]).normalized();
+        if (n_1.dot(n_2) > fully_facing_cosine) continue;
+        const auto found = pair_gradient<3>(x, {.stiffness = 2.0});
+        const Vector<3> n = (n_1 - n_2).normalized(), t = n.unitOrthogonal(), s = n.cross(t);
+        constexpr int m = 200;
+        const double step = 5.0 / m;
+        double sum = 0.0, area = 0.0;
+        for (int a = 0; a < m; ++a)
+            for (int b = 0; b < m; ++b) {
+                const Vector<3> from = x[0] + (-2.5 + (a + 0.5) * step) * t + (-2.5 + (b + 0.5) * step) * s;
+                double h_1 = 0.0, h_2 = 0.0;
+                if (!ray_hits(from, n, &x[0], h_1) || !ray_hits(from, n, &x[3], h_2) || h_2 >= h_1) continue;
+                sum += (h_2 - h_1) * (h_2 - h_1) * step * step;  // k/2 = 1
+                area += step * step;
+            }
+        if (found.area > 0.1) ++active;
+        CHECK(found.energy == Approx(sum).margin(3e-3));
+        CHECK(found.area == Approx(area).margin(3e-2));
+    }
+    CHECK(active > 30);
+}
+
+TEST_CASE("parallel faces at one depth: W = k/2 g^2 times the overlap, in closed form", "[pair_potential]") {
+    const double k = 3.0, g = -0.01;
+    // Face 2 covers the part 0 < x < 0.25 of a segment of length 1, then slides out past its end.
+    for (const double shift : {0.0, 0.5, 0.9}) {
+        const PairCorners<2> x{Vector<2>(1, 0), Vector<2>(0, 0), Vector<2>(shift, g), Vector<2>(shift + 0.25, g)};
+        const double overlap = std::min(1.0, shift + 0.25) - shift;
+        const auto state = pair_state<2>(x, {.stiffness = k, .length = {1.0, 0.25}});
+        CHECK(state.energy == Approx(0.5 * k * g * g * overlap).epsilon(1e-12));
+        CHECK(state.overlap == Approx(overlap).epsilon(1e-12));
+        CHECK(state.gap == Approx(g).epsilon(1e-12));
+        CHECK((state.normal - Vector<2>(0, 1)).norm() < 1e-15);
+    }
+    // A right triangle of legs 1 over the same from the other side, moved along x: what is left has legs 1 - s.
+    for (const double s : {0.0, 0.3, 0.7}) {
+        const PairCorners<3> x{Vector<3>(0, 0, 0), Vector<3>(1, 0, 0), Vector<3>(0, 1, 0),
+                               Vector<3>(s, 0, g), Vector<3>(s, 1, g), Vector<3>(s + 1, 0, g)};
+        const auto state = pair_state<3>(x, {.stiffness = k});
+        const double overlap = 0.5 * (1 - s) * (1 - s);
+        CHECK(state.energy == Approx(0.5 * k * g * g * overlap).epsilon(1e-12));
+        CHECK(state.overlap == Approx(overlap).epsilon(1e-12));
+        CHECK((state.normal - Vector<3>(0, 0, 1)).norm() < 1e-15);
+    }
+}
+
+TEST_CASE("of faces that lie beside each other the gap is halfway between them", "[pair_potential]") {
+    const double g = 0.2;
+    const PairCorners<2> segments{Vector<2>(1, 0), Vector<2>(0, 0), Vector<2>(1.5, g), Vector<2>(2.5, g)};
+    CHECK(pair_state<2>(segments, {.stiffness = 1.0}).gap == Approx(g).epsilon(1e-12));
+    CHECK(pair_state<2>(segments, {.stiffness = 1.0}).overlap == 0.0);
+    const PairCorners<3> triangles{Vector<3>(0, 0, 0), Vector<3>(1, 0, 0), Vector<3>(0, 1, 0),
+                                   Vector<3>(2, 2, g), Vector<3>(2, 3, g), Vector<3>(3, 2, g)};
+    CHECK(pair_state<3>(triangles, {.stiffness = 1.0}).gap == Approx(g).epsilon(1e-12));
+    // Both tilted: at x = 1.25, halfway, each face has come 0.25 farther than at its end, at slopes of -0.1 and 0.1.
+    const PairCorners<2> roof{Vector<2>(1, 0), Vector<2>(0, 0.1), Vector<2>(1.5, g), Vector<2>(2.5, g + 0.1)};
+    CHECK(pair_state<2>(roof, {.stiffness = 1.0, .length = {std::sqrt(1.01), std::sqrt(1.01)}}).gap ==
+          Approx(g - 0.025 + 0.025).epsilon(1e-12));
+    // Faces that look the same way have no gap.
+    CHECK(pair_state<2>({Vector<2>(1, 0), Vector<2>(0, 0), Vector<2>(1, 1), Vector<2>(0, 1)}, {.stiffness = 1.0}).gap ==
+          std::numeric_limits<double>::infinity());
+}
+
+TEST_CASE("a weight without steps leads from full stiffness to none as faces turn away", "[pair_potential]") {
+    // Face 2 of a wedge is turned about the middle of face 1 by an angle, so that n_1 . n_2 = -cos(angle).
+    double before = std::numeric_limits<double>::infinity(), largest_step = 0.0, first = 0.0;
+    for (double angle = 0.0; angle < 2.0; angle += 1e-3) {
+        const Vector<2> half = 0.5 * Vector<2>(std::cos(angle), std::sin(angle)), down(0.0, -0.1);
+        const auto state =
+            pair_state<2>({Vector<2>(0.5, 0), Vector<2>(-0.5, 0), down - half, down + half}, {.stiffness = 1.0});
+        CHECK(state.facing == Approx(-std::cos(angle)).margin(1e-12));
+        if (-std::cos(angle) >= not_facing_cosine) CHECK(state.energy == 0.0);
+        if (angle == 0.0) first = state.energy;
+        if (std::isfinite(before)) raise(largest_step, std::abs(state.energy - before));
+        before = state.energy;
+    }
+    CHECK(first == Approx(0.5 * 0.1 * 0.1).epsilon(1e-12));
+    CHECK(largest_step < 0.02 * first);
+}
+
+TEMPLATE_TEST_CASE_SIG("needles and faces nearly on edge give finite forces", "[pair_potential]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(6);
+    int active = 0;
+    for (const double thin : {1e-2, 1e-4, 1e-6})
+        for (int i = 0; i < 3000; ++i) {
+            PairCorners<Dim> x_0 = random_pair<Dim>(random);
+            x_0[Dim - 1] = x_0[0] + (1.0 - thin) * (x_0[1] - x_0[0]) + thin * (x_0[Dim - 1] - x_0[0]);  // 3D: a needle
+            if constexpr (Dim == 2) x_0[1] = x_0[0] + thin * (x_0[1] - x_0[0]);                         // 2D: a short face
+            const auto found = pair_mean_gradient<Dim>(x_0, moved_on<Dim>(x_0, random, 0.01, 1e-3), law_of<Dim>(x_0));
+            if (found.active_share > 0.0) ++active;
+            REQUIRE(std::isfinite(norm_of<Dim>(found.gradient)));
+            REQUIRE(norm_of<Dim>(found.gradient) < 1e3);
+        }
+    CHECK(active > 1000);
+}
+
+TEMPLATE_TEST_CASE_SIG("a pair of faces that only translate keeps energy and momenta by its cheaper path",
+                       "[pair_potential]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(7);
+    double balance = 0.0, against = 0.0, forces = 0.0, moments = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const PairCorners<Dim> x_0 = random_pair<Dim>(random);
+        const Vector<Dim> by = random_vector<Dim>(random, 0.02);
+        PairCorners<Dim> x_1 = x_0, slightly_turned = x_0;
+        for (int v = 0; v < Dim; ++v) x_1[v] += by;
+        slightly_turned = x_1;
+        slightly_turned[0] += 1e-11 * Vector<Dim>::Ones();  // enough for the general path
+        const auto found = pair_mean_gradient<Dim>(x_0, x_1, law_of<Dim>(x_0));
+        const double force = norm_of<Dim>(found.gradient);
+        if (force < 1e-3) continue;
+        const PairCorners<Dim> motion = difference<Dim>(x_1, x_0);
+        const double work = product<Dim>(found.gradient, motion) - (found.energy_1 - found.energy_0);
+        raise(balance, std::abs(work) / (scale<Dim>(found, motion) + 0.02 * force));
+        raise(moments, moment<Dim>(x_0, x_1, found.gradient) / force);
+        const auto general = pair_mean_gradient<Dim>(x_0, slightly_turned, law_of<Dim>(x_0));
+        against += norm_of<Dim>(difference<Dim>(general.gradient, found.gradient));
+        forces += force;
+    }
+    CHECK(balance < 1e-13);
+    CHECK(moments < 5e-15);
+    CHECK(against < 1e-3 * forces);
+}
+
+TEST_CASE("without its correction a step loses energy, and events make the loss small", "[pair_potential]") {
+    std::mt19937 random(8);
+    double with_events = 0.0, without = 0.0, force = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const PairCorners<2> x_0 = random_pair<2>(random), x_1 = moved_on<2>(x_0, random, 0.03, 0.003);
+        const auto found = pair_mean_gradient<2>(x_0, x_1, law_of<2>(x_0));
+        with_events += found.correction;
+        without += pair_mean_gradient<2>(x_0, x_1, law_of<2>(x_0), {.events = false}).correction;
+        force += norm_of<2>(found.gradient);
+    }
+    CHECK(with_events > 1e-12 * force);
+    CHECK(with_events < 1e-4 * force);
+    CHECK(without > 3.0 * with_events);
+}
+
+TEST_CASE("sizes of 1e-9 and 1e9 change nothing but the unit", "[pair_potential]") {
+    std::mt19937 random(9);
+    double worst = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+        const PairCorners<3> x_0 = random_pair<3>(random), x_1 = moved_on<3>(x_0, random, 0.03, 0.003);
+        const auto found = pair_mean_gradient<3>(x_0, x_1, {.stiffness = 1.0});
+        if (norm_of<3>(found.gradient) < 1e-3) continue;
+        for (const double size : {1e-9, 1e9}) {
+            PairCorners<3> y_0 = x_0, y_1 = x_1;
+            for (auto* corners : {&y_0, &y_1})
+                for (Vector<3>& corner : *corners) corner *= size;
+            const auto scaled = pair_mean_gradient<3>(y_0, y_1, {.stiffness = 1.0});
+            raise(worst, std::abs(scaled.energy_0 / std::pow(size, 4) - found.energy_0) / found.energy_0);
+        }
+    }
+    CHECK(worst < 1e-9);
+}
