@@ -31,6 +31,7 @@ template <int Dim>
 struct PairEnergy {
     double energy = 0.0;
     double area = 0.0;            ///< where g < 0
+    double gap = 0.0;             ///< the least of g, 0 without such a part
     PairCorners<Dim> gradient{};  ///< dW/dz
 };
 

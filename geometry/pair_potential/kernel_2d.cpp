@@ -97,6 +97,7 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
     const FacingWeight weight = facing_weight(normals.facing);
     result.energy = weight.chi * energy;
     result.area = q - p;
+    result.gap = std::min(g_p, g_q);
     if (!with_gradient) return result;
 
     for (int corner = 0; corner < 4; ++corner) {

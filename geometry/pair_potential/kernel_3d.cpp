@@ -177,6 +177,7 @@ PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z
     const FacingWeight weight = facing_weight(normals.facing);
     result.energy = weight.chi * energy;
     result.area = moments.area;
+    for (int i = 0; i < polygon.size; ++i) result.gap = std::min(result.gap, polygon.corner[i].gap);
     if (!with_gradient) return result;
     PlaneGradient plane;
     add_inside(normals, seen, moments, stiffness, plane);

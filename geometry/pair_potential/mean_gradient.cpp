@@ -159,8 +159,10 @@ PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const Pair
     if (facing_cosine<Dim>(x_0) >= not_facing_cosine && facing_cosine<Dim>(x_1) >= not_facing_cosine) return result;
     const PairFrame<Dim> start(x_0, law), end(x_1, law);
     const PairNormals<Dim> normals_0(start.z), normals_1(end.z);
-    result.energy_0 = pair_energy<Dim>(normals_0, start.z, law.stiffness, false).energy;
-    result.energy_1 = pair_energy<Dim>(normals_1, end.z, law.stiffness, false).energy;
+    const PairEnergy<Dim> at_start = pair_energy<Dim>(normals_0, start.z, law.stiffness, false);
+    const PairEnergy<Dim> at_end = pair_energy<Dim>(normals_1, end.z, law.stiffness, false);
+    result.energy_0 = at_start.energy, result.energy_1 = at_end.energy;
+    result.gap_0 = at_start.gap, result.gap_1 = at_end.gap;
 
     const PairPath<Dim> path(start, end);
     const Cuts cuts = cuts_of(path, end.z, options);

@@ -43,9 +43,26 @@ struct PairState {
 template <int Dim>
 [[nodiscard]] PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
 
+/// What can be told of a pair at little cost.
+enum class PairPlace {
+    apart,        ///< g >= 0 all over: W = 0
+    beside,       ///< no overlap: W = 0
+    turned_away,  ///< n_1 . n_2 >= not_facing_cosine: W = 0
+    unclear,      ///< none of these is sure
+};
+template <int Dim>
+struct PairPlacement {
+    PairPlace place;
+    double facing;       ///< n_1 . n_2
+    Vector<Dim> normal;  ///< n where the faces look at each other
+};
+template <int Dim>
+[[nodiscard]] PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
+
 template <int Dim>
 struct PairGradient {
     double energy = 0.0;          ///< W [J]
+    double gap = 0.0;             ///< least g of the overlap, 0 where W = 0 [m]
     PairCorners<Dim> gradient{};  ///< dW/dx of each corner [N]; zero where W is
     double area = 0.0;            ///< of the part of the overlap where g < 0 [m^(Dim-1)]
 };
@@ -65,6 +82,8 @@ template <int Dim>
 struct PairMeanGradient {
     double energy_0 = 0.0;        ///< W at the start [J]
     double energy_1 = 0.0;        ///< W at the end [J]
+    double gap_0 = 0.0;           ///< least g of the overlap at the start, 0 where W = 0 [m]
+    double gap_1 = 0.0;           ///< the same at the end
     PairCorners<Dim> gradient{};  ///< the discrete gradient: what stands for the mean of dW/dx [N]
     double area = 0.0;            ///< mean of the area where g < 0 [m^(Dim-1)]
     double active_share = 0.0;    ///< of the step, in which W > 0

@@ -1,3 +1,4 @@
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -292,4 +293,28 @@ TEST_CASE("sizes of 1e-9 and 1e9 change nothing but the unit", "[pair_potential]
         }
     }
     CHECK(worst < 1e-9);
+}
+
+TEMPLATE_TEST_CASE_SIG("a pair that is apart, beside or turned away at a glance has no energy", "[pair_potential]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(10);
+    std::array<int, 4> seen{};
+    int unclear_without_energy = 0;
+    for (int i = 0; i < 20000; ++i) {
+        PairCorners<Dim> x = random_pair<Dim>(random);
+        const Vector<Dim> by = random_vector<Dim>(random, 1.0);
+        const Matrix<Dim> turn = random_turn<Dim>(random, 2.5);
+        for (int v = 0; v < Dim; ++v) x[v] = turn * (x[v] - x[Dim]) + x[Dim] + by;
+        const auto glance = pair_placement<Dim>(x, law_of<Dim>(x));
+        const auto state = pair_state<Dim>(x, law_of<Dim>(x));
+        ++seen[static_cast<std::size_t>(glance.place)];
+        REQUIRE(glance.facing == Approx(state.facing).margin(1e-14));
+        if (glance.place != PairPlace::unclear) REQUIRE(state.energy == 0.0);
+        if (glance.place == PairPlace::apart && state.overlap > 0.0) REQUIRE(state.gap >= -1e-14);
+        if (glance.place == PairPlace::beside) REQUIRE(state.overlap == 0.0);
+        if (glance.place == PairPlace::unclear && state.energy == 0.0) ++unclear_without_energy;
+        if (glance.place == PairPlace::unclear) REQUIRE((glance.normal - state.normal).norm() < 1e-13);
+    }
+    for (const int count : seen) CHECK(count > 100);
+    CHECK(unclear_without_energy < seen[static_cast<std::size_t>(PairPlace::unclear)]);
 }
