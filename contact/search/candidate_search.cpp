@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,13 +12,12 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/messages.hpp"
-#include "abut/contact/pair.hpp"
 #include "abut/contact/search/face_boxes.hpp"
+#include "abut/contact/search/face_order.hpp"
 #include "abut/contact/search/neighbours.hpp"
-#include "abut/contact/search/pair_filter.hpp"
 #include "abut/contact/search/skin_choice.hpp"
+#include "abut/contact/search/translated_faces.hpp"
 #include "abut/geometry/broad_phase/sort_pairs.hpp"
-#include "abut/geometry/broad_phase/spatial_order.hpp"
 
 namespace abut::contact {
 namespace {
@@ -63,20 +61,16 @@ struct Counts {
     std::int64_t too_far_apart = 0;
 };
 
-/// Faces of one body.
-struct BodyFaces {
-    std::size_t begin;  ///< in the list of all faces
-    std::size_t end;
-    bool is_rigid;  ///< all of them are
-};
-
 }  // namespace
 
 template <int Dim>
 class CandidateSearch<Dim>::Implementation {
 public:
     Implementation(SurfaceView<Dim> surface, const CandidateOptions& options)
-        : surface_(surface), options_(checked(options)), skin_(Dim, options.skin, checked_face_size(surface)) {
+        : surface_(surface),
+          options_(checked(options)),
+          skin_(Dim, options.skin, checked_face_size(surface)),
+          translated_(surface_, options_) {
         if (options_.self_contact && options_.self_contact_rings > 0)
             neighbours_.emplace(surface_, options_.self_contact_rings);
         measure_extent();
@@ -86,26 +80,15 @@ public:
         list_holds_ = false;
         check(surface_);
         measure_extent();
-        const RestFaceMaker<Dim> at_rest(surface_, options_);
-        parallel_each(n_faces(), [&](std::ptrdiff_t i) { faces_[i] = at_rest(faces_[i].face); });
+        translated_.forget();
     }
 
     [[nodiscard]] bool is_valid_for(double motion) const { return list_holds_ && motion <= 0.5 * list_skin_; }
 
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
-        list_holds_ = false;
-        candidates_.clear();
-        check_motion(u_0, u_1);
-        if (report_.searches % searches_per_order == 0) order_faces(u_0);
-        ++report_.searches;
-        list_skin_ = skin_.skin();
-        make_boxes(u_0, u_1);
-        find(u_0, u_1);
-        report_.candidates = static_cast<std::int64_t>(candidates_.size());
-        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
-        if (options_.skin == 0.0)
-            skin_.learn(report_.candidates, count_at_half_skin(u_0, u_1), surface_.size(), report_.motion);
-        list_holds_ = true;
+        drop_list();
+        translated_.set_path(u_0, u_1);
+        search_along(translated_);
     }
 
     [[nodiscard]] std::span<const IndexPair> candidates() const { return candidates_; }
@@ -130,53 +113,50 @@ private:
         extent_ = box.empty() ? 0.0 : (box.upper - box.lower).norm();
     }
 
-    /// Body by body, those of a body in spatial order.
-    void order_faces(std::span<const Vector<Dim>> u) {
-        std::vector<Vector<Dim>> centroids(surface_.centroid.begin(), surface_.centroid.end());
-        for (std::size_t face = 0; face < centroids.size(); ++face) centroids[face] += u[face];
-        std::vector<std::int32_t> order = geometry::spatial_order<Dim>(centroids);
-        std::ranges::stable_sort(order, {}, [&](std::int32_t face) { return surface_.body[face]; });
-        faces_.resize(order.size());
-        const RestFaceMaker<Dim> at_rest(surface_, options_);
-        parallel_each(n_faces(), [&](std::ptrdiff_t i) { faces_[i] = at_rest(order[static_cast<std::size_t>(i)]); });
-        list_bodies();
+    void drop_list() {
+        list_holds_ = false;
+        candidates_.clear();
+    }
+
+    /// `Faces`: how they move, TranslatedFaces.
+    template <class Faces>
+    void search_along(Faces& faces) {
+        check_motion(faces);
+        if (report_.searches % searches_per_order == 0) order_by_position(faces);
+        ++report_.searches;
+        list_skin_ = skin_.skin();
+        make_boxes(faces);
+        find(faces);
+        report_.candidates = static_cast<std::int64_t>(candidates_.size());
+        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
+        if (options_.skin == 0.0)
+            skin_.learn(report_.candidates, count_at_half_skin(faces), surface_.size(), report_.motion);
+        list_holds_ = true;
+    }
+
+    template <class Faces>
+    void order_by_position(const Faces& faces) {
+        std::vector<Vector<Dim>> middles(static_cast<std::size_t>(surface_.size()));
+        for (std::size_t face = 0; face < middles.size(); ++face)
+            middles[face] = faces.middle(static_cast<std::int32_t>(face));
+        order_ = order_faces<Dim>(surface_, middles);
+        translated_.forget();
         ++report_.orderings;
     }
 
-    void list_bodies() {
-        bodies_.clear();
-        for (std::size_t i = 0; i < faces_.size(); ++i) {
-            const std::int32_t face = faces_[i].face;
-            const bool rigid = surface_.is_rigid(face);
-            if (i == 0 || surface_.body[face] != surface_.body[faces_[i - 1].face]) bodies_.push_back({i, i, rigid});
-            bodies_.back().end = i + 1;
-            bodies_.back().is_rigid = bodies_.back().is_rigid && rigid;
-        }
-    }
-
-    [[nodiscard]] std::ptrdiff_t n_faces() const { return static_cast<std::ptrdiff_t>(faces_.size()); }
-
-    void check_motion(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
-        const auto n = static_cast<std::size_t>(surface_.size());
-        for (const std::size_t size : {u_0.size(), u_1.size()})
-            if (size != n)
-                throw BadInput("contact: " + std::to_string(size) + " displacements are given for " + std::to_string(n) +
-                                   " faces of the surface; give one each.",
-                               {.value = static_cast<double>(size), .allowed = static_cast<double>(n)});
-        // NaN where one of the two displacements is not finite
-        const auto motion = [&](std::ptrdiff_t face) {
-            return u_0[face].allFinite() ? (u_1[face] - u_0[face]).norm() : std::numeric_limits<double>::quiet_NaN();
-        };
+    template <class Faces>
+    void check_motion(const Faces& faces) {
+        const auto motion = [&](std::ptrdiff_t face) { return faces.motion(static_cast<std::int32_t>(face)); };
         report_.motion = largest(surface_.size(), motion);
         const double allowed = options_.largest_motion * extent_;
         if (std::isfinite(report_.motion) && report_.motion <= allowed) return;
         for (std::int32_t face = 0; face < surface_.size(); ++face) {
             if (!std::isfinite(motion(face)))
-                throw Diverged("contact: the displacement of " + face_name(surface_, face) +
+                throw Diverged("contact: " + faces.name_of_position(face) +
                                    " is not finite: the run has diverged. Take a smaller time step.",
                                {.face_1 = face});
             if (std::isfinite(report_.motion) && motion(face) == report_.motion)
-                throw Diverged("contact: " + face_name(surface_, face) + " moves by " + number(report_.motion) +
+                throw Diverged("contact: " + faces.name_of_mover(face) + " moves by " + number(report_.motion) +
                                    " m within a step, " + number(allowed) + " m is allowed, " +
                                    number(options_.largest_motion) +
                                    " times the extent of all surfaces: the run has diverged. Take a smaller time "
@@ -185,14 +165,12 @@ private:
         }
     }
 
-    void make_boxes(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
+    template <class Faces>
+    void make_boxes(Faces& faces) {
         const Stopwatch watch(report_.seconds_boxes);
-        const double margin = 0.5 * (options_.distance + list_skin_);
-        boxes_.resize(faces_.size());
-        parallel_each(n_faces(), [&](std::ptrdiff_t i) {
-            const RestFace<Dim>& rest = faces_[i];
-            boxes_[i] = swept_box(rest, u_0[rest.face], u_1[rest.face], margin);
-        });
+        faces.prepare(order_);
+        boxes_.resize(order_.faces.size());
+        parallel_each(order_.size(), [&](std::ptrdiff_t i) { boxes_[i] = faces.box(i, list_skin_); });
     }
 
     [[nodiscard]] std::span<const Box<Dim>> boxes_of(const BodyFaces& body) const {
@@ -202,32 +180,35 @@ private:
     /// Of bodies, the pairs that may touch; a body with itself where that is asked for.
     [[nodiscard]] std::vector<IndexPair> body_pairs() const {
         std::vector<Box<Dim>> boxes;
-        for (const BodyFaces& body : bodies_) boxes.push_back(geometry::bounding_box<Dim>(boxes_of(body)));
+        for (const BodyFaces& body : order_.bodies) boxes.push_back(geometry::bounding_box<Dim>(boxes_of(body)));
         auto pairs = geometry::overlapping_pairs<Dim>({}, boxes, [&](std::int32_t a, std::int32_t b) {
-            return !bodies_[static_cast<std::size_t>(a)].is_rigid || !bodies_[static_cast<std::size_t>(b)].is_rigid;
+            return !order_.bodies[static_cast<std::size_t>(a)].is_rigid ||
+                   !order_.bodies[static_cast<std::size_t>(b)].is_rigid;
         });
         if (options_.self_contact)
-            for (std::int32_t body = 0; body < static_cast<std::int32_t>(bodies_.size()); ++body)
+            for (std::int32_t body = 0; body < static_cast<std::int32_t>(order_.bodies.size()); ++body)
                 pairs.push_back({body, body});
         return pairs;
     }
 
-    void find(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
+    template <class Faces>
+    void find(const Faces& faces) {
         const Stopwatch watch(report_.seconds_broad_phase);
         counts_.clear();
         std::vector<IndexPair> list = std::exchange(candidates_, {});  // in its memory; a search that fails leaves none
         for (const auto& [a, b] : body_pairs()) {
-            const BodyFaces &body_1 = bodies_[static_cast<std::size_t>(a)], &body_2 = bodies_[static_cast<std::size_t>(b)];
-            const RestFace<Dim>*faces_1 = faces_.data() + body_1.begin, *faces_2 = faces_.data() + body_2.begin;
+            const BodyFaces &body_1 = order_.bodies[static_cast<std::size_t>(a)],
+                            &body_2 = order_.bodies[static_cast<std::size_t>(b)];
+            const auto begin_1 = static_cast<std::int32_t>(body_1.begin), begin_2 = static_cast<std::int32_t>(body_2.begin);
             const auto wanted = [&](std::int32_t i, std::int32_t j) {
-                return is_candidate(faces_1[i], faces_2[j], u_0, u_1);
+                return is_candidate(faces, begin_1 + i, begin_2 + j);
             };
             for (const auto& [i, j] : pairs_of_boxes(body_1, body_2, wanted, list.size())) {
-                const auto [face_1, face_2] = std::minmax(faces_1[i].face, faces_2[j].face);
+                const auto [face_1, face_2] = std::minmax({face_at(begin_1 + i), face_at(begin_2 + j)});
                 list.push_back({face_1, face_2});
             }
         }
-        geometry::sort_pairs(list, faces_.size());
+        geometry::sort_pairs(list, order_.faces.size());
         candidates_ = std::move(list);
         add_up_counts();
     }
@@ -248,24 +229,20 @@ private:
         }
     }
 
-    bool is_candidate(const RestFace<Dim>& rest_1, const RestFace<Dim>& rest_2, std::span<const Vector<Dim>> u_0,
-                      std::span<const Vector<Dim>> u_1) {
-        const std::int32_t face_1 = rest_1.face, face_2 = rest_2.face;
+    [[nodiscard]] std::int32_t face_at(std::int32_t i) const { return order_.faces[static_cast<std::size_t>(i)]; }
+
+    template <class Faces>
+    bool is_candidate(const Faces& faces, std::int32_t i, std::int32_t j) {
+        const std::int32_t face_1 = face_at(i), face_2 = face_at(j);
         Counts& counts = counts_.local();
         ++counts.box_pairs;
         if (surface_.is_rigid(face_1) && surface_.is_rigid(face_2)) {
             ++counts.both_rigid;
             return false;
         }
-        if (!by_distance_alone(options_)) {
-            if (!are_facing(surface_, face_1, face_2, options_.facing_cosine)) {
-                ++counts.not_facing;
-                return false;
-            }
-            if (!can_touch(surface_, options_, rest_1, rest_2, u_0, u_1, list_skin_)) {
-                ++counts.too_far_apart;
-                return false;
-            }
+        if (const PairVerdict verdict = faces.verdict(i, j, list_skin_); verdict != PairVerdict::may_touch) {
+            ++(verdict == PairVerdict::not_facing ? counts.not_facing : counts.too_far_apart);
+            return false;
         }
         if (neighbours_ && surface_.body[face_1] == surface_.body[face_2] && (*neighbours_)(face_1, face_2)) {
             ++counts.neighbours;
@@ -291,16 +268,17 @@ private:
     }
 
     /// How many of the candidates half the skin would have found.
-    [[nodiscard]] std::int64_t count_at_half_skin(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
-        index_of_face_.resize(faces_.size());
-        for (std::size_t i = 0; i < faces_.size(); ++i)
-            index_of_face_[static_cast<std::size_t>(faces_[i].face)] = static_cast<std::int32_t>(i);
+    template <class Faces>
+    [[nodiscard]] std::int64_t count_at_half_skin(const Faces& faces) {
+        index_of_face_.resize(order_.faces.size());
+        for (std::size_t i = 0; i < order_.faces.size(); ++i)
+            index_of_face_[static_cast<std::size_t>(order_.faces[i])] = static_cast<std::int32_t>(i);
+        const double shrinkage = 0.5 * list_skin_ * faces.growth_per_skin();
         const auto remains = [&](const IndexPair& pair) {
             const std::int32_t i = index_of_face_[static_cast<std::size_t>(pair.first)];
             const std::int32_t j = index_of_face_[static_cast<std::size_t>(pair.second)];
-            return boxes_[i].grown(-0.5 * list_skin_).overlaps(boxes_[j]) &&
-                   (by_distance_alone(options_) ||
-                    can_touch(surface_, options_, faces_[i], faces_[j], u_0, u_1, 0.5 * list_skin_));
+            return boxes_[i].grown(-shrinkage).overlaps(boxes_[j]) &&
+                   faces.verdict(i, j, 0.5 * list_skin_) == PairVerdict::may_touch;
         };
         return std::ranges::count_if(candidates_, remains);
     }
@@ -311,11 +289,11 @@ private:
     double list_skin_ = 0.0;
     bool list_holds_ = false;
     std::optional<Neighbours> neighbours_;
-    double extent_ = 0.0;               // of all surfaces at rest [m]
-    std::vector<RestFace<Dim>> faces_;  // body by body, in spatial order
-    std::vector<BodyFaces> bodies_;
-    std::vector<Box<Dim>> boxes_;              // of faces_
-    std::vector<std::int32_t> index_of_face_;  // in faces_
+    double extent_ = 0.0;  // of all surfaces at rest [m]
+    TranslatedFaces<Dim> translated_;
+    FaceOrder order_;
+    std::vector<Box<Dim>> boxes_;              // in that order
+    std::vector<std::int32_t> index_of_face_;  // in that order
     std::vector<IndexPair> candidates_;
     oneapi::tbb::enumerable_thread_specific<Counts> counts_;
     CandidateReport report_;

@@ -25,20 +25,20 @@ bool any_rigid(const SurfaceView<Dim>& surface) {
 }  // namespace
 
 template <int Dim>
+FaceTilt<Dim>::FaceTilt(const SurfaceView<Dim>& surface, const CandidateOptions& options)
+    : elsewhere_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))),
+      near_sharp_edge_(largest_tilt_sine(options.facing_cosine, true)) {}
+
+template <int Dim>
 RestFaceMaker<Dim>::RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)
-    : surface_(surface),
-      by_distance_alone_(by_distance_alone(options)),
-      tilt_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))),
-      tilt_near_sharp_edge_(largest_tilt_sine(options.facing_cosine, true)) {}
+    : surface_(surface), by_distance_alone_(by_distance_alone(options)), tilt_(surface, options) {}
 
 template <int Dim>
 RestFace<Dim> RestFaceMaker<Dim>::operator()(std::int32_t face) const {
     RestFace<Dim> rest{.corners = {}, .interaction_radius = 0.0, .radius = circumradius(surface_, face), .face = face};
     for (const std::int32_t v : surface_.vertices_of(face)) rest.corners.extend(surface_.vertices[v]);
     if (!by_distance_alone_ && !surface_.is_rigid(face))
-        rest.interaction_radius =
-            2.0 * surface_.cell_depth[face] +
-            rest.radius * (surface_.steps_to_edge(face) < far_from_sharp_edge ? tilt_near_sharp_edge_ : tilt_);
+        rest.interaction_radius = 2.0 * surface_.cell_depth[face] + rest.radius * tilt_.sine(surface_, face);
     return rest;
 }
 
@@ -54,6 +54,8 @@ double mean_face_size(const SurfaceView<Dim>& surface) {
     return n > 0 ? size / n : 0.0;
 }
 
+template class FaceTilt<2>;
+template class FaceTilt<3>;
 template class RestFaceMaker<2>;
 template class RestFaceMaker<3>;
 template double mean_face_size<2>(const SurfaceView<2>&);

@@ -11,6 +11,24 @@ namespace abut::contact {
 /// Whether faces pair whatever their normals.
 [[nodiscard]] inline bool by_distance_alone(const CandidateOptions& options) { return options.facing_cosine == 1.0; }
 
+/// How steeply faces lie against the planes of their pairs: where the gap of a pair is taken between the centroids, its faces
+/// can be farther apart than the gap where they overlap.
+template <int Dim>
+class FaceTilt {
+public:
+    FaceTilt(const SurfaceView<Dim>& surface, const CandidateOptions& options);
+    /// Largest sine of the angle between a face and the plane of a pair it takes part in.
+    [[nodiscard]] double sine(const SurfaceView<Dim>& surface, std::int32_t face) const {
+        if (surface.is_rigid(face)) return 0.0;  // it gives the normal
+        return surface.steps_to_edge(face) < far_from_sharp_edge ? near_sharp_edge_ : elsewhere_;
+    }
+    [[nodiscard]] double largest_sine() const { return near_sharp_edge_; }
+
+private:
+    double elsewhere_;
+    double near_sharp_edge_;
+};
+
 /// The data of a face at rest that a search reads again and again.
 template <int Dim>
 struct RestFace {
@@ -30,8 +48,7 @@ public:
 private:
     const SurfaceView<Dim>& surface_;
     bool by_distance_alone_;
-    double tilt_;  // largest sine of the angle between a face and the plane of a pair it takes part in
-    double tilt_near_sharp_edge_;
+    FaceTilt<Dim> tilt_;
 };
 
 /// The box of a face on its path from u_0 to u_1, grown by all that an active pair can reach past its faces (2 d_f, the tilt

@@ -9,6 +9,9 @@
 
 namespace abut::contact {
 
+/// What a search says of two faces whose boxes overlap.
+enum class PairVerdict { may_touch, not_facing, too_far_apart };
+
 /// Whether g can come below `distance` where the faces share area: on the path from u_0 to u_1, or within a skin of u_0.
 /// Faces that do not look at each other at all have no gap: their boxes decide.
 template <int Dim>

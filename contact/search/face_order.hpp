@@ -1,0 +1,31 @@
+#pragma once
+// Private to the layer.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/surface.hpp"
+
+namespace abut::contact {
+
+/// Faces of one body.
+struct BodyFaces {
+    std::size_t begin;  ///< in FaceOrder::faces
+    std::size_t end;
+    bool is_rigid;  ///< all of them are
+};
+
+/// All faces in the order of a search: body by body, those of a body in spatial order.
+struct FaceOrder {
+    std::vector<std::int32_t> faces;
+    std::vector<BodyFaces> bodies;
+
+    [[nodiscard]] std::ptrdiff_t size() const { return static_cast<std::ptrdiff_t>(faces.size()); }
+};
+
+/// `middles` (n): where each face is.
+template <int Dim>
+[[nodiscard]] FaceOrder order_faces(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> middles);
+
+}  // namespace abut::contact
