@@ -14,6 +14,7 @@
 #include "abut/contact/messages.hpp"
 #include "abut/contact/search/face_boxes.hpp"
 #include "abut/contact/search/face_order.hpp"
+#include "abut/contact/search/moved_faces.hpp"
 #include "abut/contact/search/neighbours.hpp"
 #include "abut/contact/search/skin_choice.hpp"
 #include "abut/contact/search/translated_faces.hpp"
@@ -91,6 +92,12 @@ public:
         search_along(translated_);
     }
 
+    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap) {
+        drop_list();
+        MovedFaces<Dim> moved(surface_, options_, x_0, x_1, gap);
+        search_along(moved);
+    }
+
     [[nodiscard]] std::span<const IndexPair> candidates() const { return candidates_; }
     [[nodiscard]] double skin() const { return report_.searches > 0 ? list_skin_ : skin_.skin(); }
     [[nodiscard]] double next_skin() const { return skin_.skin(); }
@@ -118,7 +125,7 @@ private:
         candidates_.clear();
     }
 
-    /// `Faces`: how they move, TranslatedFaces.
+    /// `Faces`: how they move, TranslatedFaces or MovedFaces.
     template <class Faces>
     void search_along(Faces& faces) {
         check_motion(faces);
@@ -316,6 +323,10 @@ bool CandidateSearch<Dim>::is_valid_for(double motion) const {
 template <int Dim>
 void CandidateSearch<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
     implementation_->search(u_0, u_1);
+}
+template <int Dim>
+void CandidateSearch<Dim>::search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap) {
+    implementation_->search_moved(x_0, x_1, gap);
 }
 template <int Dim>
 void CandidateSearch<Dim>::surface_changed() {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 
+#include "abut/base/strided_points.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/contact/surface.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
@@ -20,9 +21,15 @@ struct CandidateReport {
     std::int64_t too_far_apart = 0;    ///< left out because gap or tangential offset rule contact out
     std::int64_t candidates = 0;       ///< pairs in the list
     std::int64_t candidates_max = 0;   ///< over all searches
-    double motion = 0.0;               ///< [m] the farthest that a face moved within the step of the last search
+    double motion = 0.0;               ///< [m] the farthest that a face or vertex moved within the step of the last search
     double seconds_boxes = 0.0;        ///< all searches: making boxes
     double seconds_broad_phase = 0.0;  ///< all searches: finding the pairs, tests of faces included
+};
+
+/// Where a host takes the gap of a pair of faces from, along the normal of the pair.
+enum class GapOf {
+    overlap,    ///< over points that both faces cover: it is the distance of two points of the faces
+    centroids,  ///< between the two centroids, as `Overlap::gap`: faces that are tilted can be farther apart than it
 };
 
 /// The pairs of faces that can touch: a list over any number of surfaces, that lives for many steps. docs/detection.md.
@@ -41,8 +48,9 @@ public:
     CandidateSearch& operator=(CandidateSearch&&) noexcept;
 
     /// Whether the list is still a superset of all pairs in question, when no corner has moved by more than `motion` [m]
-    /// since the search, and no face has turned: normals decide which faces look at each other and where a gap lies, and no
-    /// skin allows for a change of them. False before the first search, and after one that failed.
+    /// from where the path of the search began. After `search` no face may have turned either: normals have decided which
+    /// faces look at each other and where a gap lies, and no skin allows for a change of them; after `search_moved` faces turn
+    /// and deform as they like. False before the first search, and after one that failed.
     [[nodiscard]] bool is_valid_for(double motion) const;
 
     /// For a host whose faces turn or deform: it has changed coordinates and all that follows from them, but no face and no
@@ -57,6 +65,18 @@ public:
     /// than `largest_motion` allows: the run has diverged. geometry::SearchLimitError if there are too many pairs, or too
     /// little memory is allowed; BadInput for arrays of the wrong size. The list is empty then.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1);
+
+    /// Rebuilds the list for faces that turn and deform: for a step in which the vertices (n_vertices) move along straight
+    /// lines from x_0 to x_1 [m], all of them from wherever they were at rest. It holds every pair that at any time on that
+    /// path, or while no vertex is farther than half the skin from x_0, is seen to overlap along any direction with a gap
+    /// |g| <= distance + 2 (d_1 + d_2), 2 (d_1 + d_2) being what contact allows; g is that over points that both faces cover.
+    /// With GapOf::centroids it is every pair that faces each other (facing_cosine) and whose centroids are so far apart along
+    /// its normal. With facing_cosine = 1 it is every pair that comes as near as `distance` in space.
+    /// Boxes around the vertices at x_0 and x_1 decide, normals play no part: of pairs whose boxes overlap all are listed,
+    /// whichever way they look, and `is_valid_for` allows for turns. Surfaces are as flat as the host keeps them: a polygon
+    /// is all points between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the vertex too, and
+    /// the extent that limits its motion is that at rest. Vertices that no face names may hold anything.
+    void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap);
 
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads.
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const;

@@ -14,8 +14,8 @@
 
 namespace abut::contact {
 
-/// The faces of a search, each translating from u_0 to u_1. Its public functions are all that a search knows of
-/// how faces move. i and j are indices into the order of the search.
+/// The faces of a search, each translating from u_0 to u_1. Its public functions, and those of MovedFaces, are all
+/// that a search knows of how faces move. i and j are indices into the order of the search.
 template <int Dim>
 class TranslatedFaces {
 public:
