@@ -11,6 +11,10 @@ namespace abut {
 template <int Dim>
 using Vector = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
 
+/// Moments and rotations: one component in 2D, three in 3D.
+template <int Dim>
+using AxialVector = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1, Eigen::DontAlign>;
+
 /// Second-order tensor, (Dim, Dim).
 template <int Dim>
 using Matrix = Eigen::Matrix<double, Dim, Dim, Eigen::DontAlign>;

@@ -21,10 +21,10 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 2;
+constexpr std::uint32_t state_version = 3;
 
 /// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
-static_assert(sizeof(ContactReport) == 14 * sizeof(double));
+static_assert(sizeof(ContactReport) == 15 * sizeof(double));
 
 template <int Dim>
 std::string state_kind() {
@@ -270,13 +270,8 @@ private:
 
     [[noreturn]] void refuse_depth() const {
         const PairStep<Dim>& pair = step_.pairs[static_cast<std::size_t>(step_.report.most_compressed)];
-        const std::int32_t face_1 = number_of(pair.face_1), face_2 = number_of(pair.face_2);
-        throw TooDeep(
-            "contact: " + face_name(surface_, face_1) + " and " + face_name(surface_, face_2) + " are pressed " +
-                number(pair.compression) + " times the depth of their cells into each other, " +
-                number(options_.compression_limit) +
-                " is allowed (compression_limit). Refine the mesh at the contact, or lower the speed or the load.",
-            {.face_1 = face_1, .face_2 = face_2, .value = pair.compression, .allowed = options_.compression_limit});
+        throw too_deep(face_name(surface_, number_of(pair.face_1)), face_name(surface_, number_of(pair.face_2)), pair,
+                       options_.compression_limit);
     }
 
     SurfaceView<Dim> surface_;

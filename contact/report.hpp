@@ -19,6 +19,7 @@ struct ContactReport {
     std::int64_t slipped_pairs = 0;          ///< slid off each other while pressed in, all steps (StepReport)
     double slipped_compression_max = 0.0;    ///< their largest |g|/D
     std::int64_t tilted_pairs_max = 0;       ///< the most in a step (StepReport)
+    double correction_max = 0.0;             ///< of the pair potential, the largest of a step (StepReport)
 };
 
 }  // namespace abut::contact

@@ -15,12 +15,12 @@ void for_each_counter(Report& report, const Visit& visit) {
     visit(report.events), visit(report.rebuilds), visit(report.missed_contacts), visit(report.inadmissible_overlaps);
     visit(report.compressed_steps), visit(report.compression_max), visit(report.sliding_ratio_max);
     visit(report.slipped_pairs), visit(report.slipped_compression_max);
-    visit(report.tilted_pairs_max);
+    visit(report.tilted_pairs_max), visit(report.correction_max);
 }
 
 /// Adds what a step did.
-template <int Dim>
-void count_step(ContactReport& report, const ContactStep<Dim>& step, double compression_warning) {
+template <class Step>
+void count_step(ContactReport& report, const Step& step, double compression_warning) {
     const StepReport& of_step = step.report;
     report.active_pairs = static_cast<std::int64_t>(step.pairs.size());
     report.active_pairs_max = std::max(report.active_pairs_max, report.active_pairs);
@@ -30,6 +30,7 @@ void count_step(ContactReport& report, const ContactStep<Dim>& step, double comp
     report.slipped_pairs += of_step.slipped_pairs;
     report.slipped_compression_max = std::max(report.slipped_compression_max, of_step.slipped_compression);
     report.tilted_pairs_max = std::max(report.tilted_pairs_max, of_step.tilted_pairs);
+    report.correction_max = std::max(report.correction_max, of_step.correction);
     if (of_step.compression > compression_warning) ++report.compressed_steps;
 }
 

@@ -61,6 +61,9 @@ struct StepReport {
     /// Active pairs whose normal is more than 20 degrees away from those of both faces: edges on edges, and coarse round bodies.
     /// Their force has a part along the faces.
     std::int64_t tilted_pairs = 0;
+    /// Of the pair potential: what closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too long
+    /// to follow the pairs.
+    double correction = 0.0;
 };
 
 /// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is

@@ -1,0 +1,198 @@
+#include "abut/contact/law/pair_potential.hpp"
+
+#include <Eigen/Geometry>  // cross()
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "abut/base/parallel.hpp"
+
+namespace abut::contact {
+namespace {
+
+using geometry::PairPlace;
+
+constexpr std::ptrdiff_t grain = 64;                 // pairs that are worth a task
+constexpr double far_tilted = -0.76604444311897803;  // n_1 . n_2 of faces that are 20 degrees away from n: -cos(40 degrees)
+
+template <int Dim>
+Vector<Dim> force_on_second(const geometry::PairCorners<Dim>& gradient) {
+    Vector<Dim> force = Vector<Dim>::Zero();
+    for (int v = Dim; v < 2 * Dim; ++v) force -= gradient[v];
+    return force;
+}
+
+AxialVector<2> moment_of(const Vector<2>& arm, const Vector<2>& force) {
+    return AxialVector<2>(arm[0] * force[1] - arm[1] * force[0]);
+}
+AxialVector<3> moment_of(const Vector<3>& arm, const Vector<3>& force) { return arm.cross(force); }
+
+/// Adds what the corners of one facet of a pair, from `first` on, do to its body.
+template <int Dim>
+void add_to_body(const NodalPair<Dim>& pair, int first, const geometry::PairCorners<Dim>& gradient, PointsView<Dim> x_0,
+                 PointsView<Dim> x_1, BodyStep<Dim>& body) {
+    for (int v = first; v < first + Dim; ++v) {
+        const Vector<Dim> start = x_0[pair.node[v]], end = x_1[pair.node[v]], middle = 0.5 * (start + end);
+        body.force -= gradient[v];
+        body.moment -= moment_of(middle, gradient[v]);
+        body.work += gradient[v].dot(end - start);
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
+    step.pairs.clear();
+    step.gradient.assign(step.nodes.size(), Vector<Dim>::Zero());
+    step.bodies.clear();
+    for (const std::int32_t body : listed.bodies())
+        step.bodies.push_back({body, Vector<Dim>::Zero(), AxialVector<Dim>::Zero(), 0.0});
+    step.body_pairs.clear();
+    for (const auto& [body_1, body_2] : listed.body_pairs())
+        step.body_pairs.push_back({body_1, body_2, 0, Vector<Dim>::Zero(), 0.0});
+    step.energy_0 = step.energy = step.work = 0.0;
+    step.report = {};
+}
+
+template <int Dim>
+auto PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                TakenForce take) const -> Outcome {
+    const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
+    const auto at_start = geometry::pair_placement<Dim>(start, pair.law);
+    const auto at_end = geometry::pair_placement<Dim>(end, pair.law);
+    Outcome outcome;
+    outcome.admitted = admitted;
+    outcome.facing = std::max(at_start.facing, at_end.facing);
+    outcome.normal = at_start.normal + at_end.normal;
+    if (at_start.place == PairPlace::apart) outcome.admitted = true;
+    // Where nothing can act before the next step it is enough to decide then.
+    if (at_start.place != PairPlace::unclear && at_end.place != PairPlace::unclear) return outcome;
+
+    const bool may_rest_on_flag = admitted && at_start.place == PairPlace::unclear;
+    if (at_start.place != PairPlace::apart && !may_rest_on_flag) {
+        const auto state = geometry::pair_state<Dim>(start, pair.law);
+        outcome.admitted = state.energy == 0.0 && NodalAdmission<Dim>::is_shallow(pair, state);
+        outcome.inadmissible = state.energy > 0.0;
+    }
+    if (!outcome.admitted) return outcome;
+    take_force(pair, start, end, take, outcome);
+    if (may_rest_on_flag && outcome.found.energy_0 == 0.0 &&
+        !NodalAdmission<Dim>::is_shallow(pair, geometry::pair_state<Dim>(start, pair.law)))
+        outcome.admitted = outcome.active = false;
+    return outcome;
+}
+
+template <int Dim>
+void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
+                                    const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const {
+    auto& found = outcome.found;
+    if (take == TakenForce::mean) {
+        found = geometry::pair_mean_gradient<Dim>(start, end, pair.law, {.events = events_});
+    } else {
+        const auto at_end = geometry::pair_gradient<Dim>(end, pair.law);
+        found.energy_0 = geometry::pair_state<Dim>(start, pair.law).energy;
+        found.energy_1 = at_end.energy;
+        found.gap_1 = at_end.gap;
+        found.gradient = at_end.gradient;
+        found.area = at_end.area;
+        found.active_share = at_end.energy > 0.0 ? 1.0 : 0.0;
+    }
+    outcome.active = found.active_share > 0.0 || found.energy_0 > 0.0 || found.energy_1 > 0.0;
+}
+
+template <int Dim>
+std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
+                                       std::span<PairMemory> memory, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                       TakenForce take, NodalStep<Dim>& step) {
+    const auto pairs = listed.pairs();
+    outcomes_.resize(pairs.size());
+    parallel_each(
+        static_cast<std::ptrdiff_t>(pairs.size()),
+        [&](std::ptrdiff_t p) {
+            outcomes_[p] = follow(pairs[p], memory[p].admitted, x_0, x_1, take);
+            memory[p].admitted = outcomes_[p].admitted;
+        },
+        grain);
+    add_up(surface, listed, x_0, x_1, step);
+    return std::ranges::count_if(outcomes_, [](const Outcome& outcome) { return outcome.inadmissible; });
+}
+
+template <int Dim>
+void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
+                                  std::span<const PairMemory> memory, PointsView<Dim> x, NodalStep<Dim>& step) {
+    const auto pairs = listed.pairs();
+    outcomes_.assign(pairs.size(), Outcome{});
+    parallel_each(
+        static_cast<std::ptrdiff_t>(pairs.size()),
+        [&](std::ptrdiff_t p) {
+            const geometry::PairCorners<Dim> corners = pairs[p].at(x);
+            const auto place = geometry::pair_placement<Dim>(corners, pairs[p].law);
+            if (!memory[p].admitted || place.place != PairPlace::unclear) return;
+            outcomes_[p].facing = place.facing;
+            outcomes_[p].normal = place.normal;
+            take_force(pairs[p], corners, corners, TakenForce::end, outcomes_[p]);
+        },
+        grain);
+    add_up(surface, listed, x, x, step);
+}
+
+template <int Dim>
+void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, PointsView<Dim> x_0,
+                                PointsView<Dim> x_1, NodalStep<Dim>& step) const {
+    clear_step(listed, step);
+    double forces = 0.0;
+    for (std::size_t p = 0; p < outcomes_.size(); ++p) {
+        if (!outcomes_[p].active) continue;
+        const NodalPair<Dim>& pair = listed.pairs()[p];
+        const auto& found = outcomes_[p].found;
+        for (std::size_t v = 0; v < pair.listed.size(); ++v) step.gradient[pair.listed[v]] += found.gradient[v];
+        step.energy_0 += found.energy_0;
+        step.energy += found.energy_1;
+        add_to_body(pair, 0, found.gradient, x_0, x_1, step.bodies[pair.body_1]);
+        add_to_body(pair, Dim, found.gradient, x_0, x_1, step.bodies[pair.body_2]);
+        add_pair(surface, pair, outcomes_[p], step);
+        forces += step.pairs.back().force.norm();
+    }
+    if (forces > 0.0) step.report.correction /= forces;
+    for (const BodyStep<Dim>& body : step.bodies)
+        if (surface.is_rigid(body.body)) step.work += body.work;
+}
+
+template <int Dim>
+void PairPotential<Dim>::add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
+                                  NodalStep<Dim>& step) {
+    const auto& found = outcome.found;
+    const Vector<Dim> force = force_on_second<Dim>(found.gradient), normal = outcome.normal.normalized();
+    const double compression = -std::min(found.gap_0, found.gap_1) / pair.admission_depth;
+    step.pairs.push_back({.face_1 = surface.face_of(pair.facet_1),
+                          .face_2 = surface.face_of(pair.facet_2),
+                          .normal = normal,
+                          .gap_0 = found.gap_0,
+                          .gap_1 = found.gap_1,
+                          .area = found.area,
+                          .normal_force = force.dot(normal),
+                          .force = force,
+                          .events = found.events,
+                          .active_share = found.active_share,
+                          .compression = compression});
+    StepReport& report = step.report;
+    report.events += found.events;
+    report.correction += found.correction;
+    if (outcome.facing > far_tilted) ++report.tilted_pairs;
+    if (compression > report.compression) {
+        report.compression = compression;
+        report.most_compressed = static_cast<std::int32_t>(step.pairs.size()) - 1;
+    }
+    BodyPairStep<Dim>& bodies = step.body_pairs[pair.body_pair];
+    ++bodies.active_pairs;
+    bodies.force += pair.body_1 < pair.body_2 ? force : Vector<Dim>(-force);
+    bodies.normal_force += force.dot(normal);
+}
+
+template void clear_step(const NodalPairs<2>&, NodalStep<2>&);
+template void clear_step(const NodalPairs<3>&, NodalStep<3>&);
+template class PairPotential<2>;
+template class PairPotential<3>;
+
+}  // namespace abut::contact

@@ -1,0 +1,57 @@
+#pragma once
+// Private to the layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/contact.hpp"
+#include "abut/contact/nodal_pairs.hpp"
+#include "abut/contact/nodal_step.hpp"
+
+namespace abut::contact {
+
+/// A step in which nothing happens; its nodes are set.
+template <int Dim>
+void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step);
+
+/// The law of contact on nodes: every pair by itself, docs/method.md, The potential of a pair.
+template <int Dim>
+class PairPotential {
+public:
+    explicit PairPotential(bool events) : events_(events) {}
+
+    /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns how
+    /// many pairs are pressed in at x_0 without being contacts.
+    std::int64_t apply(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<PairMemory> memory,
+                       PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
+
+    /// The forces of one state, with the admission as it stands.
+    void evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const PairMemory> memory,
+                  PointsView<Dim> x, NodalStep<Dim>& step);
+
+private:
+    struct Outcome {
+        geometry::PairMeanGradient<Dim> found;
+        Vector<Dim> normal;  ///< of both ends together, of any length
+        double facing = 1.0;
+        bool admitted = false;
+        bool inadmissible = false;
+        bool active = false;
+    };
+
+    [[nodiscard]] Outcome follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                 TakenForce take) const;
+    void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
+                    const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const;
+    /// Adds up what the pairs do, in their order.
+    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                NodalStep<Dim>& step) const;
+
+    static void add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
+                         NodalStep<Dim>& step);
+
+    bool events_;
+    std::vector<Outcome> outcomes_;  // of the listed pairs
+};
+
+}  // namespace abut::contact

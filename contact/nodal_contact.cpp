@@ -1,0 +1,262 @@
+#include "abut/contact/nodal_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/base/state_bytes.hpp"
+#include "abut/contact/law/pair_potential.hpp"
+#include "abut/contact/messages.hpp"
+#include "abut/contact/nodal_pairs.hpp"
+#include "abut/contact/nodal_stable_step.hpp"
+#include "abut/contact/nodal_store.hpp"
+#include "abut/contact/report_counters.hpp"
+
+namespace abut::contact {
+namespace {
+
+constexpr std::uint32_t state_version = 1;
+
+template <int Dim>
+std::string state_kind() {
+    return "nodal contact " + std::to_string(Dim) + "D";
+}
+
+}  // namespace
+
+template <int Dim>
+class NodalContact<Dim>::Implementation {
+public:
+    Implementation(NodalSurface<Dim>&& surface, NodalOptions&& options)
+        : surface_(std::move(surface)),
+          options_(checked(std::move(options))),
+          candidates_(surface_.facets().view(), options_.search),
+          law_(options_.events) {}
+    Implementation(const Implementation&) = delete;  // the search has a view of the surface
+
+    const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
+        check_size(x_0);
+        check_size(x_1);
+        if (!list_holds_at(x_0) || !list_holds_at(x_1)) search(x_0, x_1);
+        if (pairs_.pairs().empty()) return step_;
+        report_.inadmissible_overlaps = law_.apply(surface_, pairs_, store_.memory(), x_0, x_1, take, step_);
+        count_step(report_, step_, options_.compression_warning);
+        if (step_.report.compression > options_.compression_limit) refuse_depth();
+        return step_;
+    }
+
+    const NodalStep<Dim>& evaluate(PointsView<Dim> x) {
+        check_size(x);
+        if (!list_holds_at(x)) search(x, x);
+        if (!pairs_.pairs().empty()) law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
+        return step_;
+    }
+
+    [[nodiscard]] const NodalStep<Dim>& last() const { return step_; }
+
+    [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const {
+        return estimate_stable_step(surface_, mass, omega_free);
+    }
+
+    [[nodiscard]] std::vector<std::byte> state() const {
+        StateWriter state(state_kind<Dim>(), state_version);
+        state.put(fingerprint(surface_.facets().view()));
+        state.put(static_cast<std::uint8_t>(has_searched_));
+        state.put(candidates_.next_skin());
+        for_each_counter(report_, [&](const auto& counter) { state.put(counter); });
+        store_.save(state);
+        return std::move(state).finish();
+    }
+
+    void restore(std::span<const std::byte> bytes) {
+        StateReader state(bytes, state_kind<Dim>(), state_version);
+        if (state.get<std::uint64_t>() != fingerprint(surface_.facets().view()))
+            throw BadInput(
+                "state of " + state_kind<Dim>() +
+                ": it is of another surface. Restore it into a NodalContact of the same faces, depths and stiffnesses.");
+        const bool has_searched = state.get<std::uint8_t>() != 0;
+        const double next_skin = state.get<double>();
+        ContactReport report;
+        for_each_counter(report, [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
+        PairStore store = PairStore::restored(state, surface_.facets().size());
+        state.finish();
+        candidates_.restore_skin(next_skin);
+        store_ = std::move(store);
+        report_ = report;
+        has_searched_ = has_searched;
+        drop_list();
+    }
+
+    void surface_replaced(NodalSurface<Dim>&& surface, std::span<const std::int32_t> old_face_of) {
+        PairStore store = carried_over(store_, surface_, surface, old_face_of);
+        CandidateSearch<Dim> candidates(surface.facets().view(), options_.search);
+        candidates.restore_skin(candidates_.next_skin());
+        // The views of the new search are of arrays that stay where they are when the surface is moved.
+        surface_ = std::move(surface);
+        candidates_ = std::move(candidates);
+        store_ = std::move(store);
+        drop_list();
+    }
+
+    [[nodiscard]] const NodalSurface<Dim>& surface() const { return surface_; }
+    [[nodiscard]] const ContactReport& report() const { return report_; }
+    [[nodiscard]] const CandidateReport& search_report() const { return candidates_.report(); }
+
+private:
+    static NodalOptions checked(NodalOptions options) {
+        if (options.search.self_contact)
+            throw BadInput(
+                "nodal contact: faces of one body do not touch each other; leave `self_contact` off, or number the "
+                "parts of a body that may touch as bodies.");
+        if (!(options.compression_warning >= 0.0) || !(options.compression_limit > 0.0))
+            throw BadInput("nodal contact: `compression_warning` is " + number(options.compression_warning) +
+                           " and `compression_limit` " + number(options.compression_limit) +
+                           "; they must be >= 0 and > 0. 0.3 and 2 are the defaults.");
+        return options;
+    }
+
+    void check_size(PointsView<Dim> x) const {
+        if (x.size() != surface_.n_nodes())
+            throw BadInput("nodal contact: positions of " + std::to_string(x.size()) + " nodes are given, the surface has " +
+                               std::to_string(surface_.n_nodes()) + "; give all nodes of the host.",
+                           {.value = static_cast<double>(x.size()), .allowed = static_cast<double>(surface_.n_nodes())});
+    }
+
+    /// NaN where a node is not finite: no list holds for that, and the search says which node it is.
+    [[nodiscard]] bool list_holds_at(PointsView<Dim> x) const {
+        if (!list_holds_) return false;
+        const auto nodes = surface_.nodes();
+        return candidates_.is_valid_for(std::sqrt(largest(static_cast<std::ptrdiff_t>(nodes.size()), [&](std::ptrdiff_t i) {
+            return (x[nodes[i]] - searched_at_[static_cast<std::size_t>(i)]).squaredNorm();
+        })));
+    }
+
+    void search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
+        if (!std::exchange(list_holds_, false)) pairs_.assign(surface_, store_.pairs());
+        candidates_.search_moved(x_0, x_1);
+        found_.clear();
+        for (const auto& [facet_1, facet_2] : candidates_.candidates())
+            if (!options_.wanted || options_.wanted(surface_.face_of(facet_1), surface_.face_of(facet_2)))
+                found_.push_back({SurfaceFace{facet_1}, SurfaceFace{facet_2}});
+        keep_contacts(x_0);
+        sort_unique(found_);
+
+        pairs_.assign(surface_, found_);
+        store_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(pairs_.pairs()[i], x_0)}; });
+        searched_at_.clear();
+        for (const std::int32_t node : surface_.nodes()) searched_at_.push_back(x_0[node]);
+        step_.nodes = pairs_.nodes();
+        clear_step(pairs_, step_);
+        list_holds_ = has_searched_ = true;
+        ++report_.rebuilds;
+        report_.candidates = static_cast<std::int64_t>(found_.size());
+        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
+    }
+
+    /// A pair in contact stays in the list however deep it is.
+    void keep_contacts(PointsView<Dim> x_0) {
+        for (std::size_t p = 0; p < pairs_.pairs().size(); ++p) {
+            const NodalPair<Dim>& pair = pairs_.pairs()[p];
+            if (store_.memory()[p].admitted && geometry::pair_state<Dim>(pair.at(x_0), pair.law).energy > 0.0)
+                found_.push_back(store_.pairs()[p]);
+        }
+    }
+
+    [[nodiscard]] bool is_admitted_at_first(const NodalPair<Dim>& pair, PointsView<Dim> x_0) {
+        using First = typename NodalAdmission<Dim>::First;
+        const First first = NodalAdmission<Dim>::decide_first(pair, x_0, !has_searched_);
+        if (first == First::missed) ++report_.missed_contacts;
+        return first == First::admitted;
+    }
+
+    void drop_list() {
+        list_holds_ = false;
+        pairs_.assign(surface_, {});
+        step_.nodes.clear();
+        clear_step(pairs_, step_);
+    }
+
+    [[noreturn]] void refuse_depth() const {
+        const PairStep<Dim>& pair = step_.pairs[static_cast<std::size_t>(step_.report.most_compressed)];
+        throw too_deep(name_of(pair.face_1), name_of(pair.face_2), pair, options_.compression_limit);
+    }
+    [[nodiscard]] std::string name_of(SurfaceFace face) const {
+        const std::int32_t facet = surface_.facet_offsets()[static_cast<std::size_t>(face)];
+        return face_name(surface_.facets().view(), facet, number_of(face));
+    }
+
+    NodalSurface<Dim> surface_;
+    NodalOptions options_;
+    CandidateSearch<Dim> candidates_;
+    bool has_searched_ = false;  // once at least: the run has begun
+    bool list_holds_ = false;    // the last search came to its end
+    NodalPairs<Dim> pairs_;
+    PairStore store_;  // in the order of the pairs
+    PairPotential<Dim> law_;
+    NodalStep<Dim> step_;
+    ContactReport report_;
+    std::vector<FacePair> found_;           // work array of `search`
+    std::vector<Vector<Dim>> searched_at_;  // nodes of the surface where the last search began
+};
+
+template <int Dim>
+NodalContact<Dim>::NodalContact(NodalSurface<Dim> surface, NodalOptions options)
+    : implementation_(std::make_unique<Implementation>(std::move(surface), std::move(options))) {}
+template <int Dim>
+NodalContact<Dim>::~NodalContact() = default;
+template <int Dim>
+NodalContact<Dim>::NodalContact(NodalContact&&) noexcept = default;
+template <int Dim>
+NodalContact<Dim>& NodalContact<Dim>::operator=(NodalContact&&) noexcept = default;
+
+template <int Dim>
+const NodalStep<Dim>& NodalContact<Dim>::step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
+    return implementation_->step(x_0, x_1, take);
+}
+template <int Dim>
+const NodalStep<Dim>& NodalContact<Dim>::evaluate(PointsView<Dim> x) {
+    return implementation_->evaluate(x);
+}
+template <int Dim>
+const NodalStep<Dim>& NodalContact<Dim>::last() const {
+    return implementation_->last();
+}
+template <int Dim>
+NodalStableStep NodalContact<Dim>::stable_step(std::span<const double> mass, double omega_free) const {
+    return implementation_->stable_step(mass, omega_free);
+}
+template <int Dim>
+std::vector<std::byte> NodalContact<Dim>::state() const {
+    return implementation_->state();
+}
+template <int Dim>
+void NodalContact<Dim>::restore(std::span<const std::byte> state) {
+    implementation_->restore(state);
+}
+template <int Dim>
+void NodalContact<Dim>::surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of) {
+    implementation_->surface_replaced(std::move(surface), old_face_of);
+}
+template <int Dim>
+const NodalSurface<Dim>& NodalContact<Dim>::surface() const {
+    return implementation_->surface();
+}
+template <int Dim>
+const ContactReport& NodalContact<Dim>::report() const {
+    return implementation_->report();
+}
+template <int Dim>
+const CandidateReport& NodalContact<Dim>::search_report() const {
+    return implementation_->search_report();
+}
+
+template class NodalContact<2>;
+template class NodalContact<3>;
+
+}  // namespace abut::contact

@@ -1,0 +1,91 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "abut/contact/contact.hpp"
+#include "abut/contact/nodal_step.hpp"
+#include "abut/contact/nodal_surface.hpp"
+
+namespace abut::contact {
+
+struct NodalOptions {
+    CandidateOptions search;           ///< `facing_cosine` has no effect: the law itself fades out as faces turn away
+    bool events = true;                ///< follow what begins and ends inside a step (geometry::PairPathOptions)
+    double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
+    double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
+    /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
+    std::function<bool(SurfaceFace, SurfaceFace)> wanted;
+};
+
+/// How long a step may be. An estimate, no bound: a face at a corner may meet several partners at once.
+struct NodalStableStep {
+    double dt;           ///< 0.85 * 2 / omega [s]
+    double omega;        ///< with contact [rad/s]
+    double omega_free;   ///< without, as the host gave it
+    std::int32_t node;   ///< whose contact raises omega most; -1: nothing can touch
+    std::string reason;  ///< a sentence for people
+};
+
+/// The contact of bodies whose surfaces are made of nodes, and whose faces may turn: finite elements and nearly all other
+/// solvers. Every pair of facing facets has a potential W of its corners (geometry::pair_mean_gradient): the spring of the half
+/// elements behind both, over their overlap. H~, momentum and angular momentum are kept to round-off by MEMM, for steps of any
+/// size; other schemes take the force at the end of the step.
+///
+/// A host calls `step` once per step, with its nodes at both ends, and adds the forces to its own. Obstacles are bodies with
+/// infinite stiffness, whose nodes the host places where it wants (`RigidPath` helps). docs/embedding.md walks through it;
+/// docs/method.md, The potential of a pair, has the equations.
+///
+/// Not safe to use from two threads at once; several objects are independent of each other. After an exception the step did
+/// not happen (its counters may have seen it).
+template <int Dim>
+class NodalContact {
+public:
+    /// Throws BadInput for an option out of range.
+    explicit NodalContact(NodalSurface<Dim> surface, NodalOptions options = {});
+    ~NodalContact();
+    NodalContact(NodalContact&&) noexcept;
+    NodalContact& operator=(NodalContact&&) noexcept;
+
+    /// Contact along one step in which the nodes move from x_0 to x_1 (n_nodes) [m] on straight lines. Searches first where the
+    /// candidate list does not hold. Throws BadInput for a wrong number of nodes, Diverged for a node that is not finite or
+    /// moves too far, TooDeep naming the faces for a pair that is pressed in deeper than `compression_limit`, LimitExceeded for
+    /// a search that takes more than its limits allow.
+    const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
+
+    /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, where
+    /// the last step ended. Counts nothing. Throws Misuse where the candidate list does not hold there.
+    const NodalStep<Dim>& evaluate(PointsView<Dim> x);
+
+    /// The result of the last of these calls.
+    [[nodiscard]] const NodalStep<Dim>& last() const;
+
+    /// `mass`: of each node (n_nodes) [kg]; `omega_free`: the highest frequency of the host without contact [rad/s]. Throws
+    /// BadInput for a mass of a node of a deformable face that is not > 0, or a frequency that is not >= 0.
+    [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
+
+    /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After `restore`
+    /// of an object made for the same surface with the same options the next steps have the same bits. Throws BadInput, and
+    /// stays as it is, for bytes that are damaged, of another version, dimension or surface.
+    [[nodiscard]] std::vector<std::byte> state() const;
+    void restore(std::span<const std::byte> state);
+
+    /// Goes on with another surface of the same nodes or of others, between two steps: faces have eroded, and what was behind
+    /// them is a face now. `old_face_of`: of each new face that was there before, its old number, else -1 (n_faces). Pairs of
+    /// old faces keep what they remember. Throws BadInput, and stays as it is, for numbers out of range or given twice.
+    void surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of);
+
+    [[nodiscard]] const NodalSurface<Dim>& surface() const;
+    [[nodiscard]] const ContactReport& report() const;
+    [[nodiscard]] const CandidateReport& search_report() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace abut::contact

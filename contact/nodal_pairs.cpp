@@ -1,0 +1,87 @@
+#include "abut/contact/nodal_pairs.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "abut/base/sort_unique.hpp"
+
+namespace abut::contact {
+namespace {
+
+/// Springs in series; a rigid body has none of its own.
+double in_series(double k_1, double k_2) {
+    constexpr double rigid = std::numeric_limits<double>::infinity();
+    if (k_1 == rigid) return k_2;
+    if (k_2 == rigid) return k_1;
+    return k_1 * k_2 / (k_1 + k_2);
+}
+
+double admission_depth(double stiffness, double depth) {
+    return stiffness == std::numeric_limits<double>::infinity() ? 0.0 : depth;
+}
+
+template <int Dim>
+NodalPair<Dim> make_pair(const Surface<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
+    NodalPair<Dim> pair{.facet_1 = facet_1, .facet_2 = facet_2};
+    for (int v = 0; v < Dim; ++v) {
+        pair.node[v] = facets.face_vertices[Dim * facet_1 + v];
+        pair.node[Dim + v] = facets.face_vertices[Dim * facet_2 + v];
+    }
+    const double k_1 = facets.stiffness[facet_1], k_2 = facets.stiffness[facet_2];
+    pair.law.stiffness = in_series(k_1, k_2);
+    if constexpr (Dim == 2) pair.law.length = {facets.area[facet_1], facets.area[facet_2]};
+    pair.admission_depth =
+        admission_depth(k_1, facets.cell_depth[facet_1]) + admission_depth(k_2, facets.cell_depth[facet_2]);
+    return pair;
+}
+
+BodyPair in_order(std::int32_t body_1, std::int32_t body_2) { return {std::min(body_1, body_2), std::max(body_1, body_2)}; }
+
+/// Index of a value in a sorted list that has it.
+template <class T>
+std::int32_t index_in(const std::vector<T>& sorted, const T& value) {
+    return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
+}
+
+}  // namespace
+
+template <int Dim>
+void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets) {
+    pairs_.clear();
+    nodes_.clear();
+    bodies_.clear();
+    body_pairs_.clear();
+    const std::vector<std::int32_t>& body = surface.facets().body;
+    for (const auto& [facet_1, facet_2] : facets) {
+        pairs_.push_back(make_pair(surface.facets(), number_of(facet_1), number_of(facet_2)));
+        nodes_.insert(nodes_.end(), pairs_.back().node.begin(), pairs_.back().node.end());
+        const BodyPair of_bodies = in_order(body[number_of(facet_1)], body[number_of(facet_2)]);
+        body_pairs_.push_back(of_bodies);
+        bodies_.insert(bodies_.end(), {of_bodies.body_1, of_bodies.body_2});
+    }
+    sort_unique(nodes_);
+    sort_unique(bodies_);
+    sort_unique(body_pairs_);
+    for (NodalPair<Dim>& pair : pairs_) {
+        for (std::size_t v = 0; v < pair.node.size(); ++v) pair.listed[v] = index_in(nodes_, pair.node[v]);
+        const std::int32_t body_1 = body[pair.facet_1], body_2 = body[pair.facet_2];
+        pair.body_1 = index_in(bodies_, body_1);
+        pair.body_2 = index_in(bodies_, body_2);
+        pair.body_pair = index_in(body_pairs_, in_order(body_1, body_2));
+    }
+}
+
+template <int Dim>
+auto NodalAdmission<Dim>::decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, bool run_begins) -> First {
+    const auto state = geometry::pair_state<Dim>(pair.at(x), pair.law);
+    const bool shallow = is_shallow(pair, state);
+    if (run_begins || state.energy == 0.0) return shallow ? First::admitted : First::not_admitted;
+    return shallow ? First::missed : First::not_admitted;
+}
+
+template class NodalPairs<2>;
+template class NodalPairs<3>;
+template struct NodalAdmission<2>;
+template struct NodalAdmission<3>;
+
+}  // namespace abut::contact

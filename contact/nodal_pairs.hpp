@@ -1,0 +1,78 @@
+#pragma once
+// Private to the layer.
+#include <array>
+#include <cmath>
+#include <compare>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "abut/base/ids.hpp"
+#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/pair_store.hpp"
+#include "abut/geometry/pair_potential/pair_potential.hpp"
+
+namespace abut::contact {
+
+/// Two facets that may touch, and all that a step needs of them.
+template <int Dim>
+struct NodalPair {
+    std::int32_t facet_1;
+    std::int32_t facet_2;
+    std::array<std::int32_t, 2 * Dim> node;    ///< corners of facet 1, then of facet 2
+    std::array<std::int32_t, 2 * Dim> listed;  ///< index of each in the listed nodes
+    std::int32_t body_1;                       ///< index in the listed bodies
+    std::int32_t body_2;
+    std::int32_t body_pair;  ///< index in the listed pairs of bodies
+    geometry::PairLaw<Dim> law;
+    double admission_depth;  ///< D = d_1 + d_2 [m]
+
+    [[nodiscard]] geometry::PairCorners<Dim> at(PointsView<Dim> x) const {
+        geometry::PairCorners<Dim> corners;
+        for (std::size_t v = 0; v < node.size(); ++v) corners[v] = x[node[v]];
+        return corners;
+    }
+};
+
+struct BodyPair {
+    std::int32_t body_1;  ///< the lower one
+    std::int32_t body_2;
+    friend auto operator<=>(const BodyPair&, const BodyPair&) = default;
+};
+
+/// The pairs of a candidate list, in its order; their nodes and bodies.
+template <int Dim>
+class NodalPairs {
+public:
+    void assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets);
+    [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
+    [[nodiscard]] const std::vector<std::int32_t>& nodes() const { return nodes_; }        ///< increasing
+    [[nodiscard]] const std::vector<std::int32_t>& bodies() const { return bodies_; }      ///< increasing
+    [[nodiscard]] const std::vector<BodyPair>& body_pairs() const { return body_pairs_; }  ///< increasing
+
+private:
+    std::vector<NodalPair<Dim>> pairs_;
+    std::vector<std::int32_t> nodes_;
+    std::vector<std::int32_t> bodies_;
+    std::vector<BodyPair> body_pairs_;
+};
+
+/// Whether a pair counts as a contact where it is pressed in, or is the far side of a body. Decided only where W = 0: there,
+/// and only there, the flag may change without a change of energy. docs/method.md, Contact.
+template <int Dim>
+struct NodalAdmission {
+    enum class First {
+        admitted,
+        not_admitted,
+        missed,  ///< not admitted, though it is so shallow that it must have been a contact before anybody looked
+    };
+    /// Of a pair that was not in the list before. Where W > 0 it is no contact, unless the run only begins.
+    [[nodiscard]] static First decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, bool run_begins);
+    /// Whether it may be pressed in from here on, where W = 0.
+    [[nodiscard]] static bool is_shallow(const NodalPair<Dim>& pair, const geometry::PairState<Dim>& state) {
+        return std::isfinite(state.gap) && state.gap > -pair.admission_depth;
+    }
+};
+
+}  // namespace abut::contact

@@ -1,0 +1,174 @@
+#include "abut/contact/nodal_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/geometry/polygon.hpp"
+
+namespace abut::contact {
+namespace {
+
+constexpr double rigid = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const std::string& what, const ErrorFacts& facts = {}) {
+    throw BadInput("nodal surface: " + what, facts);
+}
+
+[[noreturn]] void refuse_face(std::int32_t face, const std::string& what, const ErrorFacts& facts = {}) {
+    ErrorFacts of_face = facts;
+    of_face.face_1 = face;
+    refuse("face " + std::to_string(face) + " " + what, of_face);
+}
+
+/// Corners of the faces of a host, checked as they are read.
+template <int Dim>
+class HostFaces {
+public:
+    HostFaces(PointsView<Dim> rest, const NodalFaces<Dim>& faces) : rest_(rest), faces_(faces) {
+        const std::size_t n = faces.body.size();
+        if (faces.depth.size() != n)
+            refuse("`depth` has " + std::to_string(faces.depth.size()) + " entries for " + std::to_string(n) +
+                   " faces in `body`; give one each.");
+        if (faces.offsets.empty() ? faces.nodes.size() != Dim * n : faces.offsets.size() != n + 1)
+            refuse(faces.offsets.empty()
+                       ? "`nodes` has " + std::to_string(faces.nodes.size()) + " entries, " + std::to_string(Dim * n) +
+                             " are needed for " + std::to_string(n) + " faces. Give `offsets` where faces differ."
+                       : "`offsets` has " + std::to_string(faces.offsets.size()) + " entries, " + std::to_string(n + 1) +
+                             " are needed: one per face, and one more.");
+    }
+
+    [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(faces_.body.size()); }
+
+    [[nodiscard]] std::span<const std::int32_t> corners(std::int32_t face) const {
+        const std::int32_t begin = faces_.offsets.empty() ? Dim * face : faces_.offsets[face];
+        const std::int32_t end = faces_.offsets.empty() ? Dim * (face + 1) : faces_.offsets[face + 1];
+        if (begin < 0 || end < begin || static_cast<std::size_t>(end) > faces_.nodes.size())
+            refuse_face(face, "goes from " + std::to_string(begin) + " to " + std::to_string(end) +
+                                  " in `nodes`, which has " + std::to_string(faces_.nodes.size()) +
+                                  " entries. `offsets` must rise from 0 to its size.");
+        if (end - begin != Dim && !(Dim == 3 && end - begin == 4))
+            refuse_face(face, "has " + std::to_string(end - begin) + " corners; " +
+                                  (Dim == 2 ? "2 are needed." : "3 or 4 are allowed. Cut it into triangles."));
+        const auto corners = faces_.nodes.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+        for (const std::int32_t node : corners) check_node(face, node);
+        return corners;
+    }
+
+    [[nodiscard]] std::int32_t body(std::int32_t face) const {
+        const std::int32_t body = faces_.body[face];
+        if (body < 0 || static_cast<std::size_t>(body) >= faces_.stiffness.size())
+            refuse_face(face, "belongs to body " + std::to_string(body) + ", but `stiffness` is given for " +
+                                  std::to_string(faces_.stiffness.size()) + " bodies, counted from 0.");
+        return body;
+    }
+
+    [[nodiscard]] double depth(std::int32_t face) const {
+        const double depth = faces_.depth[face];
+        const bool is_rigid = faces_.stiffness[body(face)] == rigid;
+        if (!(depth >= 0.0) || !std::isfinite(depth) || (depth == 0.0 && !is_rigid))
+            refuse_face(face,
+                        "has the depth " + number(depth) +
+                            " m; it must be finite and > 0 (>= 0 if rigid). Give half the height of the element behind it.",
+                        {.value = depth});
+        return depth;
+    }
+
+private:
+    void check_node(std::int32_t face, std::int32_t node) const {
+        if (node < 0 || node >= rest_.size())
+            refuse_face(face, "names node " + std::to_string(node) + ", but there are " + std::to_string(rest_.size()) +
+                                  " nodes. Correct `nodes`.");
+        if (!rest_[node].allFinite())
+            refuse_face(face, "has a corner (node " + std::to_string(node) + ") that is not finite. Correct it.");
+    }
+
+    PointsView<Dim> rest_;
+    const NodalFaces<Dim>& faces_;
+};
+
+/// The corners of a facet, as indices into those of its face.
+using Facet = std::array<std::size_t, 3>;
+
+/// Two triangles of a face with four corners, along the shorter diagonal; the first one of equals.
+template <int Dim>
+std::array<Facet, 2> halves(PointsView<Dim> rest, std::span<const std::int32_t> corners) {
+    const double first = (rest[corners[2]] - rest[corners[0]]).norm(), second = (rest[corners[3]] - rest[corners[1]]).norm();
+    if (first <= second * (1.0 + 1e-12)) return {Facet{0, 1, 2}, Facet{0, 2, 3}};
+    return {Facet{0, 1, 3}, Facet{1, 2, 3}};
+}
+
+}  // namespace
+
+double skin_stiffness(double p_wave_modulus, std::span<const double> depth) {
+    if (!(p_wave_modulus > 0.0) || !std::isfinite(p_wave_modulus))
+        refuse("the modulus of P waves is " + number(p_wave_modulus) + " Pa; it must be finite and > 0. Give lambda + 2 mu.",
+               {.value = p_wave_modulus});
+    double sum = 0.0;
+    for (const double d : depth) sum += d;
+    if (!(sum > 0.0) || !std::isfinite(sum))
+        refuse("the depths of the faces of a body add up to " + number(sum) + " m; give one > 0 for each face.",
+               {.value = sum});
+    return p_wave_modulus * static_cast<double>(depth.size()) / sum;
+}
+
+template <int Dim>
+NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& faces)
+    : stiffness_(faces.stiffness.begin(), faces.stiffness.end()), facet_offsets_{0} {
+    for (std::size_t body = 0; body < stiffness_.size(); ++body)
+        if (!(stiffness_[body] > 0.0))
+            refuse("body " + std::to_string(body) + " has the stiffness " + number(stiffness_[body]) +
+                       " Pa/m; it must be > 0. Take contact::skin_stiffness, or infinity for a rigid body.",
+                   {.value = stiffness_[body]});
+    for (std::int32_t node = 0; node < rest.size(); ++node) facets_.vertices.push_back(rest[node]);
+
+    const HostFaces<Dim> host(rest, faces);
+    n_faces_ = host.size();
+    for (std::int32_t face = 0; face < n_faces_; ++face) {
+        const auto corners = host.corners(face);
+        nodes_.insert(nodes_.end(), corners.begin(), corners.end());
+        const auto append = [&](const Facet& facet) {
+            append_facet(face, corners, facet);
+            facets_.cell_depth.push_back(host.depth(face));
+            facets_.body.push_back(host.body(face));
+            facets_.stiffness.push_back(stiffness(host.body(face)));
+        };
+        if (corners.size() == Dim) append({0, 1, 2});
+        if (corners.size() != Dim)
+            for (const Facet& half : halves(rest, corners)) append(half);
+        facet_offsets_.push_back(static_cast<std::int32_t>(face_of_.size()));
+    }
+    sort_unique(nodes_);
+}
+
+template <int Dim>
+void NodalSurface<Dim>::append_facet(std::int32_t face, std::span<const std::int32_t> corners,
+                                     const std::array<std::size_t, 3>& facet) {
+    std::array<Vector<Dim>, Dim> points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        facets_.face_vertices.push_back(corners[facet[i]]);
+        points[i] = facets_.vertices[static_cast<std::size_t>(corners[facet[i]])];
+    }
+    const double area = geometry::face_measure<Dim>(points);
+    if (!(area > 0.0)) refuse_face(face, "has no area: its corners lie on a line or in a point. Leave it out.");
+    facets_.face_offsets.push_back(static_cast<std::int32_t>(facets_.face_vertices.size()));
+    facets_.centroid.push_back(geometry::face_centroid<Dim>(points));
+    facets_.normal.push_back(geometry::face_normal<Dim>(points));
+    facets_.area.push_back(area);
+    face_of_.push_back(SurfaceFace{face});
+}
+
+template <int Dim>
+bool NodalSurface<Dim>::is_rigid(std::int32_t body) const {
+    return stiffness(body) == rigid;
+}
+
+template class NodalSurface<2>;
+template class NodalSurface<3>;
+
+}  // namespace abut::contact

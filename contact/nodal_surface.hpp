@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/base/strided_points.hpp"
+#include "abut/contact/surface.hpp"
+
+namespace abut::contact {
+
+/// The faces of a host whose surfaces are made of nodes, as it has them; read once.
+template <int Dim>
+struct NodalFaces {
+    /// Corners of all faces, one face after the other: two, with the outside on the right of the line from the first to the
+    /// second (2D); three or four, counter-clockwise seen from outside (3D)
+    std::span<const std::int32_t> nodes;
+    std::span<const std::int32_t> offsets;  ///< (n_faces + 1), into `nodes`; empty: every face has Dim corners
+    std::span<const std::int32_t> body;     ///< (n_faces), from 0 on; faces of one body do not touch each other
+    /// (n_faces) [m]: half the height of the element behind the face, and 0 for a rigid face. A contact is admitted as deep as
+    /// both faces together
+    std::span<const double> depth;
+    /// (n_bodies) k [Pa/m]: `skin_stiffness` of a deformable body, infinity of a rigid one. Contact is the spring of the half
+    /// elements behind both faces in series, no penalty: a larger k costs time steps and gains nothing
+    std::span<const double> stiffness;
+};
+
+/// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the depths of its faces. A k for each face fails the patch
+/// test where depths vary. docs/method.md, The potential of a pair.
+[[nodiscard]] double skin_stiffness(double p_wave_modulus, std::span<const double> depth);
+
+/// The boundary of a host's bodies, for laws of contact on nodes: flat facets between nodes. A face with four corners is cut in
+/// two along its shorter diagonal.
+template <int Dim>
+class NodalSurface {
+public:
+    /// `rest`: all nodes of the host at rest (n_nodes) [m], whether they belong to a face or not. Obstacles on a given path have
+    /// nodes, too. Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an index out
+    /// of range, a number of corners that is not allowed, a corner that is not finite, a facet without area, a depth or
+    /// stiffness that is not > 0 (a rigid body has depth >= 0).
+    NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& faces);
+
+    [[nodiscard]] std::int32_t n_nodes() const { return static_cast<std::int32_t>(facets_.vertices.size()); }
+    [[nodiscard]] std::int32_t n_faces() const { return n_faces_; }
+    [[nodiscard]] std::int32_t n_bodies() const { return static_cast<std::int32_t>(stiffness_.size()); }
+    [[nodiscard]] bool is_rigid(std::int32_t body) const;
+    [[nodiscard]] double stiffness(std::int32_t body) const { return stiffness_[static_cast<std::size_t>(body)]; }
+    /// The facets at rest; their vertices are the nodes.
+    [[nodiscard]] const Surface<Dim>& facets() const { return facets_; }
+    /// Face of the host that a facet belongs to.
+    [[nodiscard]] SurfaceFace face_of(std::int32_t facet) const { return face_of_[static_cast<std::size_t>(facet)]; }
+    /// Facets of a face of the host: one, or two that follow each other.
+    [[nodiscard]] std::span<const std::int32_t> facet_offsets() const { return facet_offsets_; }  ///< (n_faces + 1)
+    /// Nodes that belong to a face, increasing.
+    [[nodiscard]] std::span<const std::int32_t> nodes() const { return nodes_; }
+
+private:
+    /// `facet`: which of the corners of its face, Dim of them.
+    void append_facet(std::int32_t face, std::span<const std::int32_t> corners, const std::array<std::size_t, 3>& facet);
+
+    Surface<Dim> facets_;
+    std::vector<double> stiffness_;
+    std::vector<SurfaceFace> face_of_;
+    std::vector<std::int32_t> facet_offsets_;
+    std::vector<std::int32_t> nodes_;
+    std::int32_t n_faces_ = 0;
+};
+
+}  // namespace abut::contact

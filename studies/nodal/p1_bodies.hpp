@@ -1,0 +1,125 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "abut/contact/nodal_contact.hpp"
+#include "abut/contact/rigid_path.hpp"
+#include "abut/dynamics/ledger.hpp"
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::studies {
+
+enum class Strain {
+    small,   ///< linear elasticity: bodies that turn grow
+    finite,  ///< St. Venant-Kirchhoff with F_mid S_mean: bodies may turn, energy is exact
+};
+
+struct P1Material {
+    double young = 1.0;  ///< [Pa]
+    double poisson = 0.3;
+    double density = 1.0;  ///< [kg/m^3]
+};
+
+/// A rigid body on a path in time.
+template <int Dim>
+struct MovingObstacle {
+    contact::RigidObstacle<Dim> shape;
+    std::function<contact::Placement<Dim>(double time)> path = [](double) { return contact::Placement<Dim>{}; };
+};
+
+/// Holds the mean place of some nodes by a spring: an axle about which a body turns as it likes, or a soft suspension.
+template <int Dim>
+struct Pin {
+    std::vector<std::int32_t> nodes;
+    double stiffness;  ///< [N/m]
+};
+
+template <int Dim>
+struct P1Scene {
+    mesh::Mesh<Dim> mesh;               ///< triangles or tetrahedra
+    std::vector<P1Material> materials;  ///< of each body
+    Strain strain = Strain::small;
+    Vector<Dim> gravity = Vector<Dim>::Zero();  ///< [m/s^2]
+    std::vector<MovingObstacle<Dim>> obstacles = {};
+    std::vector<Pin<Dim>> pins = {};
+    contact::NodalOptions contact = {};
+};
+
+/// Bodies of linear finite elements with contact on their nodes: a host as most solvers are one. q holds the displacements of
+/// all nodes. Its mean force is exact for energy, the bulk's and that of contact.
+template <int Dim>
+class P1Bodies {
+public:
+    static constexpr int dimension = Dim;
+
+    explicit P1Bodies(P1Scene<Dim> scene);
+
+    // System, FollowedSystem
+    [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
+    [[nodiscard]] std::span<const double> inverse_mass() const { return inverse_mass_; }
+    void force(std::span<const double> q, std::span<double> f);
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, std::span<double> f);
+    void end_force(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, std::span<double> f);
+    [[nodiscard]] double potential(std::span<const double> q);
+    [[nodiscard]] double work() const { return work_; }
+    [[nodiscard]] bool is_autonomous() const { return scene_.obstacles.empty(); }
+    // PointSystem
+    [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return scene_.mesh.vertices; }
+    [[nodiscard]] std::span<const double> masses() const { return mass_; }
+    [[nodiscard]] dynamics::ContactCounts contact_counts() const {
+        return {contact_.report().active_pairs, contact_.report().events};
+    }
+    // StiffnessProductSystem: of the bulk at rest
+    void stiffness_product(std::span<const double> q, std::span<double> product);
+
+    /// 0.85 * 2/omega with contact, by estimate.
+    [[nodiscard]] contact::NodalStableStep stable_step();
+    [[nodiscard]] const contact::NodalContact<Dim>& contact() const { return contact_; }
+    [[nodiscard]] contact::NodalContact<Dim>& contact() { return contact_; }
+    [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return scene_.mesh; }
+    [[nodiscard]] const std::vector<std::int32_t>& node_body() const { return node_body_; }
+    /// Stress of each element, Cauchy's where strains are small, (n_elements) [Pa].
+    [[nodiscard]] std::vector<Matrix<Dim>> stresses(std::span<const double> q) const;
+    /// Largest sum of corrections over sum of forces of a step, and over the run.
+    [[nodiscard]] double correction_share() const { return forces_ > 0.0 ? corrections_ / forces_ : 0.0; }
+    [[nodiscard]] std::int64_t pair_steps() const { return pair_steps_; }
+
+private:
+    struct Element {
+        std::array<std::int32_t, Dim + 1> node;
+        std::array<Vector<Dim>, Dim + 1> slope;  ///< of the shape functions
+        double measure;
+        double lambda;
+        double mu;
+    };
+
+    static contact::NodalSurface<Dim> surface_of(const P1Scene<Dim>& scene, std::vector<Vector<Dim>>& all_nodes);
+    void make_elements();
+    [[nodiscard]] Matrix<Dim> gradient(const Element& element, std::span<const double> q) const;
+    [[nodiscard]] Matrix<Dim> stress_between(const Element& element, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
+    void add_bulk(std::span<const double> q_0, std::span<const double> q_1, std::span<double> f) const;
+    void add_outside(std::span<const double> q_0, std::span<const double> q_1, std::span<double> f) const;
+    void place(std::span<const double> q, double t, std::vector<Vector<Dim>>& x) const;
+    void add_contact(const contact::NodalStep<Dim>& step, std::span<double> f) const;
+    void follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, contact::TakenForce take,
+                std::span<double> f);
+
+    P1Scene<Dim> scene_;
+    std::vector<Vector<Dim>> rest_;  // nodes of the mesh, then of the obstacles
+    contact::NodalContact<Dim> contact_;
+    std::vector<Element> elements_;
+    std::vector<std::int32_t> node_body_;
+    std::vector<double> mass_;
+    std::vector<double> inverse_mass_;
+    std::vector<Vector<Dim>> x_0_, x_1_;
+    double time_ = 0.0;  // where the last step ended
+    double work_ = 0.0;
+    double corrections_ = 0.0;
+    double forces_ = 0.0;
+    std::int64_t pair_steps_ = 0;
+};
+
+}  // namespace abut::studies
