@@ -11,8 +11,8 @@ constexpr double no_area = 1e-15;  // of the product of the lengths of two edges
 
 double cross(const Vector<2>& a, const Vector<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Cuts a polygon by the line on which `value` is 0 and keeps what has less; a new corner gets `line`.
-/// `value` and `is_on_line` are those of the corners.
+/// Cuts a polygon by the line on which `value` is 0, and keeps what has less. A new corner is on `line`, and on all that the
+/// corner is on whose place it takes, up to rounding.
 void cut(PlanePolygon& polygon, const std::array<double, 8>& value, LineSet line) {
     PlanePolygon kept;
     for (int i = 0; i < polygon.size; ++i) {
@@ -21,8 +21,9 @@ void cut(PlanePolygon& polygon, const std::array<double, 8>& value, LineSet line
         if (value[i] < 0.0) kept.append(from);
         if ((value[i] < 0.0) == (value[next] < 0.0)) continue;
         const double at = value[i] / (value[i] - value[next]);
-        kept.append({from.at + at * (to.at - from.at), static_cast<LineSet>((from.lines & to.lines) | line),
-                     from.gap + at * (to.gap - from.gap)});
+        const PlaneCorner& outer = value[i] < 0.0 ? to : from;
+        const LineSet lines = (outer.lines & line) != 0 ? outer.lines : (from.lines & to.lines) | line;
+        kept.append({from.at + at * (to.at - from.at), lines, from.gap + at * (to.gap - from.gap)});
     }
     polygon = kept;
 }
