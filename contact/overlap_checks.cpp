@@ -51,12 +51,17 @@ void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> 
 }
 
 template <int Dim>
-void check_pairs(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
-                 std::span<const IndexPair> pairs) {
+void check_indices(const SurfaceView<Dim>& surface, std::span<const IndexPair> pairs) {
     const std::int32_t n = surface.size();
     for (std::size_t i = 0; i < pairs.size(); ++i)
         if (pairs[i].first < 0 || pairs[i].first >= n || pairs[i].second < 0 || pairs[i].second >= n)
             check_faces(surface, pairs[i], name_of(i));
+}
+
+template <int Dim>
+void check_pairs(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
+                 std::span<const IndexPair> pairs) {
+    check_indices(surface, pairs);
     // The faces of pairs are all over the memory: looking up one pair takes as long as going through ten faces in order.
     if (displacement.size() < 10 * pairs.size() && all_finite(displacement)) return;
     for (const IndexPair pair : pairs) check_displacement(surface, displacement, pair);
@@ -70,6 +75,7 @@ void check_pair(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> di
 
 #define ABUT_INSTANTIATE(Dim)                                                                                          \
     template void check_arrays<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>);                            \
+    template void check_indices<Dim>(const SurfaceView<Dim>&, std::span<const IndexPair>);                             \
     template void check_pairs<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>, std::span<const IndexPair>); \
     template void check_pair<Dim>(const SurfaceView<Dim>&, std::span<const Vector<Dim>>, IndexPair);
 ABUT_INSTANTIATE(2)

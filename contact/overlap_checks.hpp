@@ -11,8 +11,12 @@ namespace abut::contact {
 template <int Dim>
 void check_arrays(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement);
 
-/// Throws BadInput for a pair that names a face that does not exist, Diverged naming the face if one that a pair names has a
-/// displacement that is not finite. What no pair names may hold anything. The arrays must have passed `check_arrays`.
+/// Throws BadInput for a pair that names a face that does not exist.
+template <int Dim>
+void check_indices(const SurfaceView<Dim>& surface, std::span<const geometry::IndexPair> pairs);
+
+/// The same, and Diverged naming the face if one that a pair names has a displacement that is not finite. What no pair names
+/// may hold anything. The arrays must have passed `check_arrays`.
 template <int Dim>
 void check_pairs(const SurfaceView<Dim>& surface, std::span<const Vector<Dim>> displacement,
                  std::span<const geometry::IndexPair> pairs);

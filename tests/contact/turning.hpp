@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/geometry/polygon.hpp"
 #include "contact/surfaces.hpp"
 
 namespace abut::test {
@@ -54,25 +55,23 @@ Points<Dim> between(const Points<Dim>& x_0, const Points<Dim>& x_1, double t) {
     return x;
 }
 
-/// The surface with its vertices elsewhere and all measures anew. Corners of segments run so that the outside is on their
-/// right.
+/// The surface with its vertices elsewhere and all measures made anew.
 template <int Dim>
 contact::Surface<Dim> rebuilt(const contact::Surface<Dim>& surface, const Points<Dim>& x) {
-    contact::Surface<Dim> moved;
+    contact::Surface<Dim> moved = surface;
+    moved.vertices = x;
     for (std::int32_t face = 0; face < surface.size(); ++face) {
         Points<Dim> corners, at_rest;
         for (const std::int32_t v : surface.view().vertices_of(face)) {
             corners.push_back(x[v]);
             at_rest.push_back(surface.vertices[v]);
         }
-        if constexpr (Dim == 2) {
-            const Vector<2> along = at_rest[1] - at_rest[0];
-            if (along[1] * surface.normal[face][0] - along[0] * surface.normal[face][1] < 0.0)
-                std::swap(corners[0], corners[1]);
-        }
-        moved.append(corners, surface.cell_depth[face], surface.stiffness[face], surface.body[face]);
+        moved.centroid[face] = geometry::face_centroid<Dim>(corners);
+        moved.area[face] = geometry::face_measure<Dim>(corners);
+        // The two ends of a segment may come in any order, but they keep it.
+        const bool turned = geometry::face_normal<Dim>(at_rest).dot(surface.normal[face]) < 0.0;
+        moved.normal[face] = (turned ? -1.0 : 1.0) * geometry::face_normal<Dim>(corners);
     }
-    moved.steps_to_sharp_edge = surface.steps_to_sharp_edge;
     return moved;
 }
 
