@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "abut/base/vector.hpp"
-#include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/point_system.hpp"
 
 namespace abut::dynamics {
 
 /// What an obstacle or a prescribed boundary takes from a patch: it does not let this place move along this direction.
 template <int Dim>
 struct Hold {
-    Vector<Dim> position;   ///< at rest [m]
+    Vector<Dim> position;   ///< of the kind of the system's `moment_arms`: at rest, or in the middle of the last step [m]
     Vector<Dim> direction;  ///< unit
 };
 
@@ -25,8 +25,8 @@ struct ContactPatch {
 
 /// A system that says which of its points were in contact, and what acts on them now.
 template <class S>
-concept PatchSystem = PointSystem<S> && requires(S& system, std::span<const std::int32_t> points, std::span<const double> q,
-                                                 std::span<Vector<S::dimension>> force) {
+concept PatchSystem = MomentSystem<S> && requires(S& system, std::span<const std::int32_t> points, std::span<const double> q,
+                                                  std::span<Vector<S::dimension>> force) {
     { system.contact_patches() } -> std::convertible_to<std::vector<ContactPatch<S::dimension>>>;  ///< of the last step
     system.end_force_on(points, q, force);  ///< F(q) on some points (n_points, dimension) [N], q where the last step ended
 };
@@ -46,23 +46,25 @@ struct PatchState {
     std::span<Vector<Dim>> p_after;              ///< (n)
     std::span<const std::int32_t> points;        ///< of all patches, increasing
     std::span<const Vector<Dim>> force;          ///< on these
+    MomentArms arms;
     double dt;
 };
 
-/// Takes e' - alpha M v' out of the patch, kappa of it.
+/// Takes kappa e' out of the patch.
 template <int Dim>
 void filter_patch(const ContactPatch<Dim>& patch, const PatchState<Dim>& state, double kappa);
 
 }  // namespace detail
 
 /// Takes the alternating mode of MEMM out of the points that were in contact, without touching H~, momentum or angular
-/// momentum. docs/method.md, Time:
+/// momentum: those of `moment_arms`, J~ or that about the positions at rest. docs/filter.md:
 ///
-///     p^{n+3/2} <- p^{n+3/2} - kappa (e' - alpha M v'),   alpha = v . e' / (v . M v')
+///     p^{n+3/2} <- p^{n+3/2} - kappa e'
 ///
-/// e is the parasitic momentum, v = M^-1 p^{n+1/2}; e' and v' are without their rigid-body parts over the patch, as far as no
-/// obstacle and no prescribed boundary holds these: along rollers and along a wall momentum stays, too. Costs one force
-/// evaluation near the contact.
+/// e' is the parasitic momentum e less its projection, in the norm of M^-1 over the patch, on {M e_k; M e_k × arm; M v}: the
+/// momenta of rigid motions about `moment_arms`, as far as no obstacle and no prescribed boundary holds these, and those of
+/// v = M^-1 p^{n+1/2}. H~ changes by v . e'/2, momentum and angular momentum by the products of e' with the rigid motions:
+/// all are zero. Along rollers and along a wall momentum stays, too. Costs one force evaluation near the contact.
 template <PatchSystem S>
 class NeutralFilter {
 public:
@@ -89,6 +91,7 @@ public:
                                             .p_after = as_vectors<Dim>(p_after),
                                             .points = points_,
                                             .force = force_,
+                                            .arms = system_.moment_arms(),
                                             .dt = dt};
         for (const ContactPatch<Dim>& patch : patches) detail::filter_patch<Dim>(patch, state, kappa_);
     }

@@ -1,6 +1,5 @@
 #include "abut/dynamics/ledger.hpp"
 
-#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 
@@ -8,14 +7,6 @@
 
 namespace abut::dynamics {
 namespace {
-
-template <int Dim>
-AngularMomentum<Dim> moment(const Vector<Dim>& lever_arm, const Vector<Dim>& momentum) {
-    if constexpr (Dim == 2)
-        return AngularMomentum<2>(lever_arm[0] * momentum[1] - lever_arm[1] * momentum[0]);
-    else
-        return lever_arm.cross(momentum);
-}
 
 template <int Dim, class Entry>
 void append_names(std::vector<std::string>& names, const std::string& name, Entry n) {
@@ -53,6 +44,17 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
                                  entry.restart_jumps, entry.rotation});
     values.insert(values.end(), entry.rest_angular_momentum.begin(), entry.rest_angular_momentum.end());
     return values;
+}
+
+template <int Dim>
+AngularMomentum<Dim> pseudo_angular_momentum(const RunView<Dim>& run, double dt, std::span<const Vector<Dim>> rest_position,
+                                             std::span<const double> mass) {
+    const auto u = as_vectors<Dim>(run.q), before = as_vectors<Dim>(run.p_before), after = as_vectors<Dim>(run.p_after);
+    return ordered_sum(static_cast<std::ptrdiff_t>(u.size()), AngularMomentum<Dim>(AngularMomentum<Dim>::Zero()),
+                       [&](std::ptrdiff_t i) -> AngularMomentum<Dim> {
+                           const Vector<Dim> arm = rest_position[i] + u[i];
+                           return moment<Dim>(arm, run.momentum(i)) - 0.25 * dt / mass[i] * moment<Dim>(before[i], after[i]);
+                       });
 }
 
 template <int Dim>
@@ -96,12 +98,15 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     for (const double energy : {entry.energy, entry.kinetic, entry.potential}) raise(largest_energy_, std::abs(energy));
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                              \
-    template std::vector<std::string> ledger_columns<Dim>();                                               \
-    template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                              \
-    template void detail::add_motion<Dim>(LedgerEntry<Dim>&, const RunView<Dim>&, std::span<const double>, \
-                                          std::span<const Vector<Dim>>, std::span<const double>);          \
+#define ABUT_INSTANTIATE(Dim)                                                                                             \
+    template std::vector<std::string> ledger_columns<Dim>();                                                              \
+    template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                                             \
+    template AngularMomentum<Dim> pseudo_angular_momentum<Dim>(const RunView<Dim>&, double, std::span<const Vector<Dim>>, \
+                                                               std::span<const double>);                                  \
+    template void detail::add_motion<Dim>(LedgerEntry<Dim>&, const RunView<Dim>&, std::span<const double>,                \
+                                          std::span<const Vector<Dim>>, std::span<const double>);                         \
     template class Ledger<Dim>;
+ABUT_INSTANTIATE(1)
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,5 +1,4 @@
 #pragma once
-#include <concepts>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -7,31 +6,15 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/integrator.hpp"
+#include "abut/dynamics/point_system.hpp"
 
 namespace abut::dynamics {
-
-/// A system of points with a mass that move in space, `dimension` 2 or 3: q holds their displacements (n, dimension). Its
-/// ledger also takes `work()` [J], `contact_counts()` and `rotations(q)`, how far each body has turned [rad], where it has
-/// them.
-template <class S>
-concept PointSystem = System<S> && requires(const S& system) {
-    { S::dimension } -> std::convertible_to<int>;
-    { system.rest_positions() } -> std::convertible_to<std::span<const Vector<S::dimension>>>;  ///< (n, dimension) [m]
-    { system.masses() } -> std::convertible_to<std::span<const double>>;                        ///< (n) [kg]
-};
 
 /// What a system with contact says to its ledger.
 struct ContactCounts {
     std::int64_t active_pairs = 0;  ///< in the last step
     std::int64_t events = 0;        ///< so far
 };
-
-/// Components of angular momentum: one in 2D, three in 3D.
-template <int Dim>
-inline constexpr int n_rotations = Dim == 2 ? 1 : 3;
-
-template <int Dim>
-using AngularMomentum = Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign>;
 
 /// The state of a run at one step. Energies come together, since H~ alone does not prove a good solution (docs/method.md,
 /// Time): H~ with H, the parasitic mode and the number of events.
@@ -84,6 +67,13 @@ public:
         return 0.5 * (as_vectors<Dim>(p_before)[i] + as_vectors<Dim>(p_after)[i]);
     }
 };
+
+/// J~ = sum x^n × p^n - dt/4 sum v^{n-1/2} × p^{n+1/2} [kg m^2/s], v = M^-1 p: the angular momentum that MEMM conserves with
+/// steps of dt, exactly, where mean forces have no moment about the positions at the middle of a step (MomentArms::mid_step).
+template <int Dim>
+[[nodiscard]] AngularMomentum<Dim> pseudo_angular_momentum(const RunView<Dim>& run, double dt,
+                                                           std::span<const Vector<Dim>> rest_position,
+                                                           std::span<const double> mass);
 
 namespace detail {
 /// Fills what the motion of the points alone decides; e is the parasitic momentum.

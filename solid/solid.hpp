@@ -8,6 +8,7 @@
 #include "abut/contact/contact.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/system.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/contact_results.hpp"
@@ -46,6 +47,8 @@ public:
     [[nodiscard]] std::span<const double> inverse_mass() const { return masses_.inverse; }
     [[nodiscard]] std::span<const double> masses() const { return masses_.of_cells; }  ///< of the cells (n_cells) [kg]
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return mesh_.cell_centroid; }  ///< of the cells [m]
+    /// Strains are linear: what turns freely keeps its angular momentum about the positions at rest.
+    [[nodiscard]] dynamics::MomentArms moment_arms() const { return dynamics::MomentArms::rest; }
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells. docs/method.md, Space.
     [[nodiscard]] double step_margin() const { return contact_ ? 0.85 : 1.0; }
 
