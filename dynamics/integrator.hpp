@@ -31,7 +31,8 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     void start(span p)                  sets p_before_ and p_after_ (and what else it keeps) from p^n at q_, for dt_
 ///     void advance()                      from q_ at time_ to the next node
 ///     double conserved_energy(double V)   the energy that it conserves, V being V(q_) [J]
-///     has_half_steps, takes_after_step    whether its momenta are at half steps; whether `set_after_step` is offered
+///     has_half_steps                      whether its momenta are at half steps
+///     takes_after_step, takes_node_restart    whether `set_after_step` and `set_node_restart` are offered
 /// Static polymorphism: no virtual calls. After an exception from `step`, except for a bad dt, the run is over unless the
 /// scheme says more.
 template <class Scheme, System S>
@@ -43,12 +44,19 @@ public:
     /// Offered by schemes that keep nothing else which depends on p^{n+3/2}.
     void set_after_step(AfterStep after_step) requires(Scheme::takes_after_step) { after_step_ = std::move(after_step); }
 
+    /// Called after that; may change both (a restart).
+    using NodeRestart =
+        std::function<void(std::span<const double> q, double dt, std::span<double> p_before, std::span<double> p_after)>;
+    /// Offered by schemes whose next step depends on both.
+    void set_node_restart(NodeRestart restart) requires(Scheme::takes_node_restart) { node_restart_ = std::move(restart); }
+
     /// One step of the present dt.
     void step() {
         scheme().advance();
         time_ += dt_;
         ++steps_;
         if (after_step_) after_step_(q_, dt_, p_before_, p_after_);
+        if (node_restart_) node_restart_(q_, dt_, p_before_, p_after_);
     }
 
     /// One step of a given dt (an outer solver dictates it). Throws BadInput, and stays as it is, if dt is not
@@ -156,6 +164,7 @@ private:
 
     mutable std::vector<double> scratch_;
     AfterStep after_step_;
+    NodeRestart node_restart_;
     double restart_jumps_ = 0.0;
     std::int64_t steps_ = 0;
 };

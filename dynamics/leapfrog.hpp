@@ -19,6 +19,7 @@ class Leapfrog : public Integrator<Leapfrog<S>, S> {
 public:
     static constexpr bool has_half_steps = true;
     static constexpr bool takes_after_step = true;
+    static constexpr bool takes_node_restart = false;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
     /// Throws BadInput if dt is not > 0 and finite, the sizes disagree or a value is not finite.

@@ -20,6 +20,7 @@ class Memm : public Integrator<Memm<S>, S> {
 public:
     static constexpr bool has_half_steps = true;
     static constexpr bool takes_after_step = true;
+    static constexpr bool takes_node_restart = true;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
     /// Throws BadInput if dt is not > 0 and finite, the sizes disagree, a value is not finite, or the system

@@ -47,6 +47,7 @@ public:
     [[nodiscard]] std::span<const double> inverse_mass() const { return masses_.inverse; }
     [[nodiscard]] std::span<const double> masses() const { return masses_.of_cells; }  ///< of the cells (n_cells) [kg]
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return mesh_.cell_centroid; }  ///< of the cells [m]
+    [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return mesh_.cell_body; }     ///< (n_cells)
     /// Strains are linear: what turns freely keeps its angular momentum about the positions at rest.
     [[nodiscard]] dynamics::MomentArms moment_arms() const { return dynamics::MomentArms::rest; }
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells. docs/method.md, Space.

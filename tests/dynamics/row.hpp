@@ -45,6 +45,8 @@ public:
     }
     dynamics::MomentArms arms = dynamics::MomentArms::rest;
     [[nodiscard]] dynamics::MomentArms moment_arms() const { return arms; }
+    std::vector<std::int32_t> bodies;
+    [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return bodies; }
     // What only a system with contact has.
     std::vector<dynamics::ContactPatch<Dim>> patches;
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const { return patches; }

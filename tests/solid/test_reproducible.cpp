@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "abut/dynamics/filter.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;
@@ -44,6 +45,8 @@ State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& 
     Scene<Dim> scene(mesh, bodies<Dim>(2, options), velocity);
     dynamics::NeutralFilter filter(scene.solid);
     scene.memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) { filter(q, dt, p_before, p_after); });
+    dynamics::NeutralRestart restart(scene.solid, {.period = 25});
+    scene.memm.set_node_restart([&](auto q, double dt, auto p_before, auto p_after) { restart(q, dt, p_before, p_after); });
     scene.run(steps, steps);
     const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
     return {copy(scene.memm.q()), copy(scene.memm.p_before()), copy(scene.memm.p_after()),

@@ -1,0 +1,188 @@
+#include "abut/dynamics/neutral_restart.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+
+namespace abut::dynamics {
+namespace {
+
+constexpr double rounding = 1e-14;  // |e| over the momenta that it is a difference of: there is nothing to take
+constexpr int most_halvings = 20;
+constexpr double least_scale = 0.25, largest_scale = 1.21;  // of sigma^2
+constexpr double no_inertia = 1e-12;                        // over the largest: points on a line have none about it
+constexpr double lost_moment = 1e-13;  // of angular momentum, that a body without inertia about an axis cannot carry
+
+template <int Dim>
+using Inertia = Eigen::Matrix<double, n_rotations<Dim>, n_rotations<Dim>, Eigen::DontAlign>;
+
+template <int Dim>
+Inertia<Dim> inertia_of(double mass, const Vector<Dim>& arm) {
+    if constexpr (Dim == 3)
+        return mass * (arm.squaredNorm() * Inertia<3>::Identity() - arm * arm.transpose());
+    else
+        return Inertia<Dim>::Constant(mass * arm.squaredNorm());
+}
+
+/// The angular velocity that carries a moment; none about axes without inertia.
+template <int Dim>
+AngularMomentum<Dim> angular_velocity(const Inertia<Dim>& inertia, const AngularMomentum<Dim>& carried) {
+    if constexpr (Dim == 1) {
+        return carried;
+    } else if constexpr (Dim == 2) {
+        if (inertia(0, 0) == 0.0) return AngularMomentum<2>::Zero();
+        return carried / inertia(0, 0);
+    } else {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
+        const double cut = no_inertia * eigen.eigenvalues().maxCoeff();
+        const Eigen::Vector3d inverse =
+            eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
+        return eigen.eigenvectors() * inverse.cwiseProduct(eigen.eigenvectors().transpose() * carried);
+    }
+}
+
+/// Momenta of one body at the node. Products are those of M^-1.
+template <int Dim>
+class BodyAtNode {
+public:
+    BodyAtNode(std::span<const std::int32_t> points, const detail::NodeView<Dim>& node) : points_(points), node_(node) {
+        mass_ = sum(0.0, [&](std::int32_t i) { return node_.mass[i]; });
+        momentum_ = sum(zero_vector, [&](std::int32_t i) { return p(i); });
+        f_e_ = product([&](std::int32_t i) { return f(i); }, [&](std::int32_t i) { return e(i); });
+        e_e_ = square([&](std::int32_t i) { return e(i); });
+        p_p_ = square([&](std::int32_t i) { return p(i); });
+        if (node_.arms == MomentArms::mid_step)
+            e_moment_ = sum(zero_moment, [&](std::int32_t i) -> AngularMomentum<Dim> {
+                return 0.25 * node_.dt / node_.mass[i] * moment<Dim>(e(i), p(i));
+            });
+    }
+
+    [[nodiscard]] bool has_e() const {
+        const double size = p_p_ + square([&](std::int32_t i) { return f(i); }) + e_e_;
+        return e_e_ > rounding * rounding * size;
+    }
+
+    /// Splits p for a part theta of e to be taken out; whether that can be paid.
+    bool split(double theta) {
+        theta_ = theta;
+        centre_ = sum(zero_vector, [&](std::int32_t i) -> Vector<Dim> { return node_.mass[i] * arm(i); }) / mass_;
+        const Inertia<Dim> inertia = sum(Inertia<Dim>(Inertia<Dim>::Zero()), [&](std::int32_t i) -> Inertia<Dim> {
+            return inertia_of<Dim>(node_.mass[i], arm(i) - centre_);
+        });
+        const AngularMomentum<Dim> own =
+            sum(zero_moment, [&](std::int32_t i) { return moment<Dim>(arm(i) - centre_, p(i)); });
+        // J~ was about the arms with all of e in them.
+        const AngularMomentum<Dim> carried = own + theta * e_moment_;
+        own_ = angular_velocity<Dim>(inertia, own);
+        carried_ = angular_velocity<Dim>(inertia, carried);
+        if ((inertia * carried_ - carried).norm() > lost_moment * std::sqrt(inertia.trace() * p_p_)) return false;
+        vibration_ = 0.5 * square([&](std::int32_t i) { return k(i); });
+        const double gained =
+            0.5 * (own_.dot(own) - carried_.dot(carried)) - theta * (f_e_ + e_e_) / 4.0 + theta * theta * e_e_ / 8.0;
+        scale_ = 1.0 + gained / vibration_;
+        return scale_ >= least_scale && scale_ <= largest_scale;  // no vibration: not a number, or infinite
+    }
+
+    void write() const {
+        const double sigma = std::sqrt(scale_);
+        parallel_each(std::ssize(points_), [&](std::ptrdiff_t at) {
+            const std::int32_t i = points_[at];
+            const Vector<Dim> mean = rigid(i, carried_) + sigma * k(i), half = 0.5 * (f(i) + (1.0 - theta_) * e(i));
+            node_.p_before[i] = mean - half;
+            node_.p_after[i] = mean + half;
+        });
+    }
+    [[nodiscard]] double paid() const { return (1.0 - scale_) * vibration_; }
+
+private:
+    static inline const Vector<Dim> zero_vector = Vector<Dim>::Zero();
+    static inline const AngularMomentum<Dim> zero_moment = AngularMomentum<Dim>::Zero();
+
+    template <class Value, class Term>
+    Value sum(const Value& zero, const Term& term) const {
+        return ordered_sum(std::ssize(points_), zero, [&](std::ptrdiff_t at) -> Value { return term(points_[at]); });
+    }
+    template <class A, class B>
+    double product(const A& a, const B& b) const {
+        return sum(0.0, [&](std::int32_t i) { return a(i).dot(b(i)) / node_.mass[i]; });
+    }
+    template <class A>
+    double square(const A& a) const {
+        return sum(0.0, [&](std::int32_t i) { return a(i).squaredNorm() / node_.mass[i]; });
+    }
+
+    Vector<Dim> p(std::int32_t i) const { return 0.5 * (node_.p_before[i] + node_.p_after[i]); }
+    Vector<Dim> f(std::int32_t i) const { return node_.dt * node_.force[i]; }
+    Vector<Dim> e(std::int32_t i) const { return node_.p_after[i] - node_.p_before[i] - f(i); }
+    Vector<Dim> arm(std::int32_t i) const {
+        if (node_.arms == MomentArms::rest) return node_.rest_position[i];
+        const Vector<Dim> difference = f(i) + (1.0 - theta_) * e(i);
+        return node_.rest_position[i] + node_.q[i] + (0.25 * node_.dt / node_.mass[i]) * difference;
+    }
+    Vector<Dim> rigid(std::int32_t i, const AngularMomentum<Dim>& omega) const {
+        return node_.mass[i] * (momentum_ / mass_ + turning_velocity<Dim>(omega, arm(i) - centre_));
+    }
+    Vector<Dim> k(std::int32_t i) const { return p(i) - rigid(i, own_); }
+
+    std::span<const std::int32_t> points_;
+    const detail::NodeView<Dim>& node_;
+    double mass_, f_e_, e_e_, p_p_;
+    Vector<Dim> momentum_;
+    AngularMomentum<Dim> e_moment_ = AngularMomentum<Dim>::Zero();  // that e adds to J~ through the arms
+    double theta_ = 1.0;
+    Vector<Dim> centre_;                    // mass mean of the arms
+    AngularMomentum<Dim> own_, carried_;    // angular velocities of the rigid part of p, and of that after the restart
+    double vibration_ = 0.0, scale_ = 1.0;  // E_k, sigma^2
+};
+
+}  // namespace
+
+detail::BodyPoints detail::points_of_bodies(std::span<const std::int32_t> body_of_points, std::size_t n) {
+    const auto lowest = std::ranges::min_element(body_of_points);
+    if (body_of_points.size() != n || (n > 0 && *lowest < 0))
+        throw BadInput("restart: " + std::to_string(body_of_points.size()) + " points have a body, the lowest of which is " +
+                       std::to_string(n > 0 && !body_of_points.empty() ? *lowest : 0) + ", the system has " +
+                       std::to_string(n) + " points. Give the body of each, counted from 0.");
+    BodyPoints bodies{.points = std::vector<std::int32_t>(n), .offset = {0}};
+    std::iota(bodies.points.begin(), bodies.points.end(), 0);
+    std::ranges::stable_sort(bodies.points, {}, [&](std::int32_t i) { return body_of_points[static_cast<std::size_t>(i)]; });
+    for (std::size_t at = 1; at <= n; ++at)
+        if (at == n || body_of_points[static_cast<std::size_t>(bodies.points[at])] !=
+                           body_of_points[static_cast<std::size_t>(bodies.points[at - 1])])
+            bodies.offset.push_back(static_cast<std::ptrdiff_t>(at));
+    return bodies;
+}
+
+void detail::check_restart(const RestartOptions& options) {
+    if (options.period < 1 || options.steps_before < 0)
+        throw BadInput("restart: every " + std::to_string(options.period) + " steps, after " +
+                           std::to_string(options.steps_before) + " of them; periods from 1 and steps from 0 are allowed.",
+                       {.value = static_cast<double>(options.period), .allowed = 1.0});
+}
+
+template <int Dim>
+void detail::restart_body(std::span<const std::int32_t> points, const NodeView<Dim>& node, RestartReport& report) {
+    BodyAtNode<Dim> body(points, node);
+    if (!body.has_e()) return;
+    double theta = 1.0;
+    int halvings = 0;
+    for (; !body.split(theta); theta *= 0.5)
+        if (++halvings == most_halvings) {
+            ++report.skipped;
+            return;
+        }
+    if (halvings > 0) ++report.shortened;
+    body.write();
+    report.paid += body.paid();
+}
+
+template void detail::restart_body<1>(std::span<const std::int32_t>, const NodeView<1>&, RestartReport&);
+template void detail::restart_body<2>(std::span<const std::int32_t>, const NodeView<2>&, RestartReport&);
+template void detail::restart_body<3>(std::span<const std::int32_t>, const NodeView<3>&, RestartReport&);
+
+}  // namespace abut::dynamics
