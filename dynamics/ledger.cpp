@@ -26,6 +26,7 @@ std::vector<std::string> ledger_columns() {
     append_names<Dim>(names, "angular_momentum", n_rotations<Dim>);
     names.insert(names.end(), {"parasitic", "active_pairs", "events", "restart_jumps", "rotation"});
     append_names<Dim>(names, "rest_angular_momentum", n_rotations<Dim>);
+    names.insert(names.end(), {"restarts", "restarts_shortened", "restarts_skipped", "restart_paid"});
     return names;
 }
 
@@ -43,6 +44,9 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
     values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events),
                                  entry.restart_jumps, entry.rotation});
     values.insert(values.end(), entry.rest_angular_momentum.begin(), entry.rest_angular_momentum.end());
+    const RestartReport& restarts = entry.restarts;
+    values.insert(values.end(), {static_cast<double>(restarts.restarts), static_cast<double>(restarts.shortened),
+                                 static_cast<double>(restarts.skipped), restarts.paid});
     return values;
 }
 

@@ -16,6 +16,14 @@ struct ContactCounts {
     std::int64_t events = 0;        ///< so far
 };
 
+/// What neutral restarts have done so far; all zero without any. dynamics/neutral_restart.hpp
+struct RestartReport {
+    std::int64_t restarts = 0;   ///< steps after which bodies were restarted
+    std::int64_t shortened = 0;  ///< bodies of which only a part of e could be taken, since too little vibrates
+    std::int64_t skipped = 0;    ///< bodies of which nothing could be taken
+    double paid = 0.0;           ///< energy that the vibration of the bodies has paid for that, less what it has got [J]
+};
+
 /// The state of a run at one step. Energies come together, since H~ alone does not prove a good solution (docs/method.md,
 /// Time): H~ with H, the parasitic mode and the number of events.
 template <int Dim>
@@ -35,6 +43,7 @@ struct LedgerEntry {
     std::int64_t events;                         ///< so far
     double restart_jumps;                        ///< what restarts with another step have added to H~ so far [J]
     double rotation;                             ///< of the body that has turned farthest [rad]
+    RestartReport restarts;                      ///< so far
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
@@ -84,9 +93,11 @@ void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<cons
 [[nodiscard]] double largest_angle(std::span<const double> angles);
 }  // namespace detail
 
-/// Measures the present state; costs about two force evaluations. `system` is that of the integrator.
+/// Measures the present state; costs about two force evaluations. `system` is that of the integrator; `restarts` are those of
+/// the run, if it has any.
 template <class Scheme, PointSystem S>
-[[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system) {
+[[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system,
+                                                const RestartReport& restarts = {}) {
     constexpr int Dim = S::dimension;
     LedgerEntry<Dim> entry{};
     entry.potential = system.potential(integrator.q());
@@ -94,6 +105,7 @@ template <class Scheme, PointSystem S>
     entry.energy = entry.kinetic + entry.potential;
     entry.pseudo_energy = integrator.pseudo_energy(entry.potential);
     entry.restart_jumps = integrator.restart_jumps();
+    entry.restarts = restarts;
     std::vector<double> e(integrator.q().size());
     integrator.parasitic_momentum(e);
     if constexpr (requires { system.work(); }) entry.work = system.work();

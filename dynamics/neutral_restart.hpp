@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "abut/base/vector.hpp"
-#include "abut/dynamics/point_system.hpp"
+#include "abut/dynamics/ledger.hpp"
 
 namespace abut::dynamics {
 
@@ -17,14 +17,6 @@ concept BodySystem = MomentSystem<S> && requires(const S& system) {
 struct RestartOptions {
     int period = 50;                ///< steps from one restart to the next
     std::int64_t steps_before = 0;  ///< that the run had taken when it was saved, for it to go on with the same bits
-};
-
-/// What restarts have done so far.
-struct RestartReport {
-    std::int64_t restarts = 0;   ///< steps after which bodies were restarted
-    std::int64_t shortened = 0;  ///< bodies of which only a part of e could be taken, since too little vibrates
-    std::int64_t skipped = 0;    ///< bodies of which nothing could be taken
-    double paid = 0.0;           ///< energy that the vibration of the bodies has paid for that, less what it has got [J]
 };
 
 namespace detail {

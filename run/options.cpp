@@ -50,6 +50,12 @@ void check(const RunOptions& options) {
     if (options.filter && options.integrator != SolidIntegrator::memm)
         throw BadInput(fmt::format("--filter neutral: the filter is made for memm, and {} was chosen. Take --filter none.",
                                    name_of(options.integrator)));
+    if (options.restart < 0)
+        throw BadInput(fmt::format("--restart: {} steps, 1 or more are allowed, and 0 for no restarts.", options.restart),
+                       {.value = static_cast<double>(options.restart), .allowed = 0.0});
+    if (options.restart > 0 && options.integrator != SolidIntegrator::memm)
+        throw BadInput(fmt::format("--restart {}: restarts are made for memm, and {} was chosen. Leave --restart out.",
+                                   options.restart, name_of(options.integrator)));
     const RunOptions by_default;
     if (options.integrator != SolidIntegrator::memm_async &&
         (options.levels != by_default.levels || options.contact_margin != by_default.contact_margin ||
@@ -85,6 +91,7 @@ NamedValues named_values(const RunOptions& options) {
     if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge))
         values.push_back({"gauge", options.gauge});
     append(values, {{"filter", word_of(filter_words, options.filter)},
+                    {"restart", options.restart},
                     {"broad_phase", std::string(geometry::name(contact.search.broad_phase))},
                     {"overlap", word_of(overlap_words, contact.overlap)},
                     {"weights", word_of(weighting_words, contact.weighting)},

@@ -32,7 +32,8 @@ struct RunOptions {
     int contact_margin = 1;     ///< of memm_async: levels that cells in contact are finer than they need to be alone
     int contact_levels = 0;     ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;   ///< c of the Bilbao scheme [J]; not given: the energy at the start
-    bool filter = false;        ///< energy-neutral filter of the parasitic mode
+    bool filter = false;        ///< energy-neutral filter of the parasitic mode, near the contact
+    int restart = 0;            ///< steps between neutral restarts, which clear that mode everywhere; 0: none
     int threads = 0;            ///< at most; 0: all. The results do not depend on it
     std::filesystem::path out;  ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;           ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
@@ -75,7 +76,7 @@ template <int Dim>
 /// BadInput if there are none, or too many to count.
 [[nodiscard]] std::int64_t steps_until(double time, double dt);
 
-/// Throws BadInput if options do not go together: a filter, levels or a gauge for a scheme that has none.
+/// Throws BadInput if options do not go together: a filter, restarts, levels or a gauge for a scheme that has none.
 void check(const RunOptions& options);
 
 /// The options by name, as given; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are

@@ -18,6 +18,7 @@
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/memm_async.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/solid/local_steps.hpp"
 
@@ -143,6 +144,12 @@ public:
             if (options.filter)
                 integrator_.set_after_step(
                     [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+        if constexpr (Integrator::takes_node_restart)
+            if (options.restart > 0) {
+                restart_.emplace(solid_, dynamics::RestartOptions{.period = options.restart});
+                integrator_.set_node_restart(
+                    [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
+            }
     }
 
     void run() {
@@ -190,7 +197,8 @@ private:
     void record() {
         {
             const Stopwatch watch(result_.seconds.ledger);
-            result_.ledger.record(dynamics::measure(integrator_, solid_));
+            result_.ledger.record(
+                dynamics::measure(integrator_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
             result_.contact = solid_.contact_report();
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
@@ -216,6 +224,7 @@ private:
     solid::Solid<Dim>& solid_;
     RunResult<Dim>& result_;
     dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
+    std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     Integrator integrator_;
     solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
 };

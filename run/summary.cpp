@@ -97,6 +97,15 @@ Json mesh_json(const mesh::BuildReport& report) {
 }
 
 template <int Dim>
+Json restarts_json(const RunResult<Dim>& result) {
+    const dynamics::RestartReport& restarts = result.ledger.entries().back().restarts;
+    return {{"restarts", restarts.restarts},
+            {"restarts_shortened", restarts.shortened},
+            {"restarts_skipped", restarts.skipped},
+            {"restart_paid", restarts.paid}};
+}
+
+template <int Dim>
 Json counts_json(const RunResult<Dim>& result) {
     const auto& contact = result.contact;
     return {{"events", contact.events},
@@ -154,6 +163,16 @@ std::string energy_lines(const RunResult<Dim>& result) {
            table_line("rotation of a body, at most", fmt::format("{:.2g} rad", ledger.rotation()));
 }
 
+/// Nothing without any.
+template <int Dim>
+std::string restart_line(const RunResult<Dim>& result) {
+    const auto& [restarts, shortened, skipped, paid] = result.ledger.entries().back().restarts;
+    if (restarts == 0) return "";
+    return table_line("neutral restarts",
+                      fmt::format("{}; bodies shortened {}, skipped {}; vibration paid {:.3g} {}", restarts, shortened,
+                                  skipped, paid / result.scale.value, result.scale.name));
+}
+
 template <int Dim>
 std::string contact_lines(const RunResult<Dim>& result) {
     const auto& contact = result.contact;
@@ -195,6 +214,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
                  {"boundary_faces", scene.mesh.boundary_faces.size()}};
     json.update(run_json(result));
     json.update(energies_json(result));
+    json.update(restarts_json(result));
     json.update(counts_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     json.update({{"mesh", mesh_json(scene.mesh.report)},
@@ -214,7 +234,7 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
         text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
     if (!result.complete)
         text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
-    text += energy_lines(result) + contact_lines(result);
+    text += energy_lines(result) + restart_line(result) + contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + body_lines(scene, result) + time_line(result);
 }

@@ -62,6 +62,9 @@ void add_time_options(CLI::App& app, run::RunOptions& options, const std::string
     add_choice(app, "--filter", options.filter, "energy-neutral filter of the parasitic mode, after each step in contact",
                filters)
         ->group("Time");
+    add_count(app, "--restart", options.restart,
+              "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none", 0)
+        ->group("Time");
 }
 
 void add_model_options(CLI::App& app, run::RunOptions& options) {

@@ -57,6 +57,8 @@ const std::vector<BadInput> bad_options = {
     {"--allow-unstable", {"--allow-unstable", "--dt"}},
     {"--integrator rk4", {"--integrator", "rk4", "memm, memm_async, leapfrog, bilbao"}},
     {"--integrator leapfrog --filter neutral", {"--filter", "leapfrog", "--filter none"}},
+    {"--integrator bilbao --restart 50", {"--restart", "bilbao", "memm"}},
+    {"--restart -1", {"--restart", "'-1'", "at least 0"}},
     {"--gauge 1", {"--gauge", "memm has no gauge", "--integrator bilbao"}},
     {"--gauge 0 --integrator bilbao", {"--gauge", "0 J", "above 0 J"}},
     {"--levels 3", {"--levels", "memm takes one step", "--integrator memm_async"}},

@@ -15,11 +15,12 @@ using namespace abut::test::programs;
 const std::vector<std::pair<std::string, std::string>> explained = {
     {"slipping_cylinders",
      "--dim --radius --length --young --poisson --density --speed --offset --gap --size --cfl --time --steps "
-     "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --corners --eta --filter --integrator "
+     "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --corners --eta --filter --restart "
+     "--integrator "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
      "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine"},
     {"rebounding_cylinders", "--dim --offset --out"},
-    {"bouncing_strip", "--cells --eta --steps --cfl --dt --filter --compression-limit --out --interval --frames"},
+    {"bouncing_strip", "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames"},
     {"bouncing_bar",
      "--cells --gravity --cfl --steps --integrator --gauge --parts --fast --filter --patch --out --interval"},
     {"bar_impact", "--body --cells --cfl --filter --out --overlap --weights --neumann --skin"},

@@ -1,11 +1,13 @@
 #include "abut/run/simulation.hpp"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/run/summary.hpp"
 #include "run/scenes.hpp"
 
 namespace {
@@ -159,9 +161,31 @@ TEST_CASE("a run beyond the stable step diverges, and its error says so by its t
 
 TEST_CASE("options that do not go together are refused before anything is run", "[run]") {
     const run::Scene<2> scene = test::block_on_plane(0.01);
-    for (const run::RunOptions& options : {run::RunOptions{.integrator = run::SolidIntegrator::leapfrog, .filter = true},
-                                           run::RunOptions{.levels = 3}, run::RunOptions{.gauge = 1.0}})
+    for (const run::RunOptions& options :
+         {run::RunOptions{.integrator = run::SolidIntegrator::leapfrog, .filter = true},
+          run::RunOptions{.integrator = run::SolidIntegrator::bilbao, .restart = 50}, run::RunOptions{.restart = -1},
+          run::RunOptions{.levels = 3}, run::RunOptions{.gauge = 1.0}})
         CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, options)), BadInput);
+}
+
+TEST_CASE("restarts clear the parasitic mode of a block that bounces, at no change of H~, and the result counts them",
+          "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.05);
+    scene.time = 12.0;
+    const auto plain = run::simulate<2>(scene), restarted = run::simulate<2>(scene, {.restart = 10});
+    const auto& last = restarted.ledger.entries().back();
+    CHECK(last.restarts.restarts == restarted.steps / 10);
+    CHECK(last.restarts.paid != 0.0);
+    CHECK(plain.ledger.entries().back().restarts.restarts == 0);
+    REQUIRE(last.active_pairs == 0);  // it has left the plane: e stays as it is
+    CHECK(last.parasitic < 1e-10 * plain.ledger.entries().back().parasitic);
+    CHECK(restarted.ledger.pseudo_energy_drift() < 1e-11 * restarted.scale.value);
+    const auto json = nlohmann::json::parse(run::summary_json<2>("test", scene, restarted));
+    CHECK(json["restarts"] == last.restarts.restarts);
+    CHECK(json["restart_paid"] == last.restarts.paid);
+    CHECK(json["options"]["restart"] == 10);
+    CHECK(run::closing_table<2>("test", scene, restarted).find("neutral restarts") != std::string::npos);
+    CHECK(run::closing_table<2>("test", scene, plain).find("neutral restarts") == std::string::npos);
 }
 
 TEST_CASE("a scene without contact has none, whatever the options of its solid say", "[run]") {
