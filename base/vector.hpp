@@ -11,9 +11,21 @@ namespace abut {
 template <int Dim>
 using Vector = Eigen::Matrix<double, Dim, 1, Eigen::DontAlign>;
 
-/// Moments and rotations: one component in 2D, three in 3D.
+/// Moments, angular momenta, rotations: none on a line, one component in the plane, three in space.
 template <int Dim>
-using AxialVector = Eigen::Matrix<double, Dim == 2 ? 1 : 3, 1, Eigen::DontAlign>;
+using AxialVector = Eigen::Matrix<double, Dim*(Dim - 1) / 2, 1, Eigen::DontAlign>;
+
+/// arm × force, or any two vectors.
+template <int Dim>
+[[nodiscard]] AxialVector<Dim> moment(const Vector<Dim>& arm, const Vector<Dim>& force) {
+    if constexpr (Dim == 1)
+        return {};
+    else if constexpr (Dim == 2)
+        return AxialVector<2>(arm[0] * force[1] - arm[1] * force[0]);
+    else
+        return {arm[1] * force[2] - arm[2] * force[1], arm[2] * force[0] - arm[0] * force[2],
+                arm[0] * force[1] - arm[1] * force[0]};
+}
 
 /// Second-order tensor, (Dim, Dim).
 template <int Dim>

@@ -142,12 +142,11 @@ private:
         candidates_.search_moved(x_0, x_1);
         found_.clear();
         for (const auto& [facet_1, facet_2] : candidates_.candidates())
-            if (!options_.wanted || options_.wanted(surface_.face_of(facet_1), surface_.face_of(facet_2)))
-                found_.push_back({SurfaceFace{facet_1}, SurfaceFace{facet_2}});
+            if (const FacePair pair{SurfaceFace{facet_1}, SurfaceFace{facet_2}}; is_wanted(pair)) found_.push_back(pair);
         keep_contacts(x_0);
         sort_unique(found_);
 
-        pairs_.assign(surface_, found_);
+        pairs_.assign(surface_, found_, x_0, x_1, 0.5 * candidates_.skin(), options_.compression_limit);
         store_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(pairs_.pairs()[i], x_0)}; });
         searched_at_.clear();
         for (const std::int32_t node : surface_.nodes()) searched_at_.push_back(x_0[node]);
@@ -157,6 +156,11 @@ private:
         ++report_.rebuilds;
         report_.candidates = static_cast<std::int64_t>(found_.size());
         report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
+    }
+
+    [[nodiscard]] bool is_wanted(const FacePair& pair) const {
+        return !options_.wanted ||
+               options_.wanted(surface_.face_of(number_of(pair.face_1)), surface_.face_of(number_of(pair.face_2)));
     }
 
     /// A pair in contact stays in the list however deep it is.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "abut/base/sort_unique.hpp"
 
@@ -46,16 +47,38 @@ std::int32_t index_in(const std::vector<T>& sorted, const T& value) {
 }  // namespace
 
 template <int Dim>
+void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets, PointsView<Dim> x_0,
+                             PointsView<Dim> x_1, double reach, double compression) {
+    pairs_.clear();
+    std::erase_if(facets, [&](const FacePair& of_facets) {
+        NodalPair<Dim> pair = make_pair(surface.facets(), number_of(of_facets.face_1), number_of(of_facets.face_2));
+        const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
+        double farthest = reach;
+        for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
+        pair.outlook = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression * pair.admission_depth);
+        if (pair.outlook.may_act) pairs_.push_back(pair);
+        return !pair.outlook.may_act;
+    });
+    index(surface);
+}
+
+template <int Dim>
 void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets) {
     pairs_.clear();
+    for (const auto& [facet_1, facet_2] : facets)
+        pairs_.push_back(make_pair(surface.facets(), number_of(facet_1), number_of(facet_2)));
+    index(surface);
+}
+
+template <int Dim>
+void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface) {
     nodes_.clear();
     bodies_.clear();
     body_pairs_.clear();
     const std::vector<std::int32_t>& body = surface.facets().body;
-    for (const auto& [facet_1, facet_2] : facets) {
-        pairs_.push_back(make_pair(surface.facets(), number_of(facet_1), number_of(facet_2)));
-        nodes_.insert(nodes_.end(), pairs_.back().node.begin(), pairs_.back().node.end());
-        const BodyPair of_bodies = in_order(body[number_of(facet_1)], body[number_of(facet_2)]);
+    for (const NodalPair<Dim>& pair : pairs_) {
+        nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
+        const BodyPair of_bodies = in_order(body[pair.facet_1], body[pair.facet_2]);
         body_pairs_.push_back(of_bodies);
         bodies_.insert(bodies_.end(), {of_bodies.body_1, of_bodies.body_2});
     }

@@ -26,7 +26,8 @@ struct NodalPair {
     std::int32_t body_2;
     std::int32_t body_pair;  ///< index in the listed pairs of bodies
     geometry::PairLaw<Dim> law;
-    double admission_depth;  ///< D = d_1 + d_2 [m]
+    double admission_depth;                ///< D = d_1 + d_2 [m]
+    geometry::PairOutlook<Dim> outlook{};  ///< while the list holds
 
     [[nodiscard]] geometry::PairCorners<Dim> at(PointsView<Dim> x) const {
         geometry::PairCorners<Dim> corners;
@@ -45,6 +46,11 @@ struct BodyPair {
 template <int Dim>
 class NodalPairs {
 public:
+    /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out of
+    /// `facets` what cannot act there, whatever is admitted with |g| up to `compression` D: boxes know nothing of how faces lie to each other.
+    void assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                double reach, double compression);
+    /// Pairs without an outlook: of a list that does not hold.
     void assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
     [[nodiscard]] const std::vector<std::int32_t>& nodes() const { return nodes_; }        ///< increasing
@@ -52,6 +58,9 @@ public:
     [[nodiscard]] const std::vector<BodyPair>& body_pairs() const { return body_pairs_; }  ///< increasing
 
 private:
+    /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
+    void index(const NodalSurface<Dim>& surface);
+
     std::vector<NodalPair<Dim>> pairs_;
     std::vector<std::int32_t> nodes_;
     std::vector<std::int32_t> bodies_;

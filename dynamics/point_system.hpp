@@ -17,12 +17,8 @@ concept PointSystem = System<S> && requires(const S& system) {
     { system.masses() } -> std::convertible_to<std::span<const double>>;                        ///< (n) [kg]
 };
 
-/// Components of angular momentum: none on a line, one in the plane, three in space.
 template <int Dim>
-inline constexpr int n_rotations = Dim*(Dim - 1) / 2;
-
-template <int Dim>
-using AngularMomentum = Eigen::Matrix<double, n_rotations<Dim>, 1, Eigen::DontAlign>;
+using AngularMomentum = AxialVector<Dim>;
 
 /// The positions about which the mean forces of a step have no moment together: they decide which angular momentum MEMM
 /// conserves where nothing acts from outside, and so which one a filter and a restart must leave as it is.
@@ -37,16 +33,6 @@ concept MomentSystem = PointSystem<S> && requires(const S& system) {
     { system.moment_arms() } -> std::convertible_to<MomentArms>;
 };
 
-/// arm × p
-template <int Dim>
-[[nodiscard]] AngularMomentum<Dim> moment(const Vector<Dim>& arm, const Vector<Dim>& p) {
-    if constexpr (Dim == 1)
-        return {};
-    else if constexpr (Dim == 2)
-        return AngularMomentum<2>(arm[0] * p[1] - arm[1] * p[0]);
-    else
-        return {arm[1] * p[2] - arm[2] * p[1], arm[2] * p[0] - arm[0] * p[2], arm[0] * p[1] - arm[1] * p[0]};
-}
 /// omega × arm, the velocity of a point of a body that turns.
 template <int Dim>
 [[nodiscard]] Vector<Dim> turning_velocity(const AngularMomentum<Dim>& omega, const Vector<Dim>& arm) {

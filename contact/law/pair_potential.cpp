@@ -1,6 +1,5 @@
 #include "abut/contact/law/pair_potential.hpp"
 
-#include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@ namespace abut::contact {
 namespace {
 
 using geometry::PairPlace;
+using geometry::PairRest;
 
 constexpr std::ptrdiff_t grain = 64;                 // pairs that are worth a task
 constexpr double far_tilted = -0.76604444311897803;  // n_1 . n_2 of faces that are 20 degrees away from n: -cos(40 degrees)
@@ -22,11 +22,6 @@ Vector<Dim> force_on_second(const geometry::PairCorners<Dim>& gradient) {
     return force;
 }
 
-AxialVector<2> moment_of(const Vector<2>& arm, const Vector<2>& force) {
-    return AxialVector<2>(arm[0] * force[1] - arm[1] * force[0]);
-}
-AxialVector<3> moment_of(const Vector<3>& arm, const Vector<3>& force) { return arm.cross(force); }
-
 /// Adds what the corners of one facet of a pair, from `first` on, do to its body.
 template <int Dim>
 void add_to_body(const NodalPair<Dim>& pair, int first, const geometry::PairCorners<Dim>& gradient, PointsView<Dim> x_0,
@@ -34,7 +29,7 @@ void add_to_body(const NodalPair<Dim>& pair, int first, const geometry::PairCorn
     for (int v = first; v < first + Dim; ++v) {
         const Vector<Dim> start = x_0[pair.node[v]], end = x_1[pair.node[v]], middle = 0.5 * (start + end);
         body.force -= gradient[v];
-        body.moment -= moment_of(middle, gradient[v]);
+        body.moment -= moment<Dim>(middle, gradient[v]);
         body.work += gradient[v].dot(end - start);
     }
 }
@@ -56,31 +51,33 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
 }
 
 template <int Dim>
-auto PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                                TakenForce take) const -> Outcome {
+void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                TakenForce take, Outcome& outcome) const {
+    outcome.admitted = admitted;
+    outcome.inadmissible = outcome.active = false;
     const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
+    // Where nothing can act before the next step it is enough to decide then.
+    const PairRest rest = geometry::rests<Dim>(pair.outlook, start);
+    if (rest == PairRest::apart) outcome.admitted = true;
+    if (rest != PairRest::no && geometry::rests<Dim>(pair.outlook, end) != PairRest::no) return;
     const auto at_start = geometry::pair_placement<Dim>(start, pair.law);
     const auto at_end = geometry::pair_placement<Dim>(end, pair.law);
-    Outcome outcome;
-    outcome.admitted = admitted;
+    if (at_start.place == PairPlace::apart) outcome.admitted = true;
+    if (at_start.place != PairPlace::unclear && at_end.place != PairPlace::unclear) return;
+
     outcome.facing = std::max(at_start.facing, at_end.facing);
     outcome.normal = at_start.normal + at_end.normal;
-    if (at_start.place == PairPlace::apart) outcome.admitted = true;
-    // Where nothing can act before the next step it is enough to decide then.
-    if (at_start.place != PairPlace::unclear && at_end.place != PairPlace::unclear) return outcome;
-
     const bool may_rest_on_flag = admitted && at_start.place == PairPlace::unclear;
     if (at_start.place != PairPlace::apart && !may_rest_on_flag) {
         const auto state = geometry::pair_state<Dim>(start, pair.law);
         outcome.admitted = state.energy == 0.0 && NodalAdmission<Dim>::is_shallow(pair, state);
         outcome.inadmissible = state.energy > 0.0;
     }
-    if (!outcome.admitted) return outcome;
+    if (!outcome.admitted) return;
     take_force(pair, start, end, take, outcome);
     if (may_rest_on_flag && outcome.found.energy_0 == 0.0 &&
         !NodalAdmission<Dim>::is_shallow(pair, geometry::pair_state<Dim>(start, pair.law)))
         outcome.admitted = outcome.active = false;
-    return outcome;
 }
 
 template <int Dim>
@@ -91,6 +88,7 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
         found = geometry::pair_mean_gradient<Dim>(start, end, pair.law, {.events = events_});
     } else {
         const auto at_end = geometry::pair_gradient<Dim>(end, pair.law);
+        found = {};
         found.energy_0 = geometry::pair_state<Dim>(start, pair.law).energy;
         found.energy_1 = at_end.energy;
         found.gap_1 = at_end.gap;
@@ -110,7 +108,7 @@ std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const N
     parallel_each(
         static_cast<std::ptrdiff_t>(pairs.size()),
         [&](std::ptrdiff_t p) {
-            outcomes_[p] = follow(pairs[p], memory[p].admitted, x_0, x_1, take);
+            follow(pairs[p], memory[p].admitted, x_0, x_1, take, outcomes_[p]);
             memory[p].admitted = outcomes_[p].admitted;
         },
         grain);
@@ -122,13 +120,15 @@ template <int Dim>
 void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
                                   std::span<const PairMemory> memory, PointsView<Dim> x, NodalStep<Dim>& step) {
     const auto pairs = listed.pairs();
-    outcomes_.assign(pairs.size(), Outcome{});
+    outcomes_.resize(pairs.size());
     parallel_each(
         static_cast<std::ptrdiff_t>(pairs.size()),
         [&](std::ptrdiff_t p) {
+            outcomes_[p].inadmissible = outcomes_[p].active = false;
+            if (!memory[p].admitted) return;
             const geometry::PairCorners<Dim> corners = pairs[p].at(x);
             const auto place = geometry::pair_placement<Dim>(corners, pairs[p].law);
-            if (!memory[p].admitted || place.place != PairPlace::unclear) return;
+            if (place.place != PairPlace::unclear) return;
             outcomes_[p].facing = place.facing;
             outcomes_[p].normal = place.normal;
             take_force(pairs[p], corners, corners, TakenForce::end, outcomes_[p]);

@@ -32,15 +32,16 @@ public:
 private:
     struct Outcome {
         geometry::PairMeanGradient<Dim> found;
-        Vector<Dim> normal;  ///< of both ends together, of any length
+        Vector<Dim> normal = Vector<Dim>::Zero();  ///< of both ends together, of any length
         double facing = 1.0;
         bool admitted = false;
         bool inadmissible = false;
         bool active = false;
     };
 
-    [[nodiscard]] Outcome follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                                 TakenForce take) const;
+    /// What is not active leaves `found` as it was.
+    void follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
+                Outcome& outcome) const;
     void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
                     const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const;
     /// Adds up what the pairs do, in their order.

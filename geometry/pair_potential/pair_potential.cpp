@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "abut/geometry/pair_potential/kernel.hpp"
 #include "abut/geometry/pair_potential/pair_frame.hpp"
@@ -43,7 +45,74 @@ Vector<Dim> between_middles(const PairCorners<Dim>& x) {
     return between;
 }
 
+/// How far the normal of a face can turn while no corner moves by more than `reach` [rad]; pi / 2 where nothing can be said.
+double largest_turn(const Vector<2>& edge, double reach) {
+    const double ratio = 2.0 * reach / edge.norm();
+    return ratio < 1.0 ? std::asin(ratio) : 0.5 * std::numbers::pi;
+}
+/// About the longest edge, and with it.
+double largest_turn(const Vector<3>& u, const Vector<3>& w, double reach) {
+    const double longest = std::sqrt(std::max({u.squaredNorm(), w.squaredNorm(), (w - u).squaredNorm()}));
+    const double height = u.cross(w).norm() / longest, ratio = 2.0 * reach / height;
+    return ratio < 1.0 ? std::asin(ratio) + std::asin(2.0 * reach / longest) : 0.5 * std::numbers::pi;
+}
+/// The larger one of both faces.
+double largest_turn(const PairCorners<2>& x, double reach) {
+    return std::max(largest_turn(x[1] - x[0], reach), largest_turn(x[3] - x[2], reach));
+}
+double largest_turn(const PairCorners<3>& x, double reach) {
+    return std::max(largest_turn(x[1] - x[0], x[2] - x[0], reach), largest_turn(x[4] - x[3], x[5] - x[3], reach));
+}
+
+/// Of the difference of both normals in n.
+double largest_change(const PairCorners<2>&, const PairLaw<2>& law, double, double reach) {
+    return 2.0 * reach * (1.0 / law.length[0] + 1.0 / law.length[1]);
+}
+double largest_change(const PairCorners<3>&, const PairLaw<3>&, double turn, double) { return 4.0 * std::sin(0.5 * turn); }
+
+/// Face 2 before face 1: its clearance along n is how far all of face 2 is behind face 1.
+template <int Dim>
+PairCorners<Dim> behind(const PairCorners<Dim>& corners) {
+    PairCorners<Dim> result;
+    for (int v = 0; v < Dim; ++v) {
+        result[v] = corners[Dim + v];
+        result[Dim + v] = corners[v];
+    }
+    return result;
+}
+
 }  // namespace
+
+template <int Dim>
+PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim>& law, double reach, double depth) {
+    PairOutlook<Dim> outlook;
+    const double facing = std::clamp(facing_cosine<Dim>(corners), -1.0, 1.0), turn = largest_turn(corners, reach);
+    if (std::acos(facing) + 2.0 * turn < std::acos(not_facing_cosine)) {
+        outlook.may_act = false;
+        return outlook;
+    }
+    if (facing > no_normal_cosine) return outlook;
+    // the sine of the angle by which n can turn; short of a right angle what is apart along n stays apart
+    const auto normals = weighed_normals(corners, law);
+    const Vector<Dim> difference = normals[0] - normals[1];
+    const double sine = largest_change(corners, law, turn, reach) / difference.norm();
+    if (!(sine < 1.0)) return outlook;
+    const Vector<Dim> n = difference.normalized(), between = between_middles<Dim>(corners);
+    const Vector<Dim> aside = between - between.dot(n) * n;
+    outlook.normal = n;
+    outlook.aside_allowance = depth * sine;
+    if (const double length = aside.norm(); length > 1e-6 * between.norm()) outlook.aside = aside / length;
+    outlook.may_act = clearance<Dim>(corners, n) <= 2.0 * reach &&
+                      clearance<Dim>(behind<Dim>(corners), n) <= depth + 2.0 * reach &&
+                      clearance<Dim>(corners, outlook.aside) <= 2.0 * reach + outlook.aside_allowance;
+    return outlook;
+}
+
+template <int Dim>
+PairRest rests(const PairOutlook<Dim>& outlook, const PairCorners<Dim>& corners) {
+    if (clearance<Dim>(corners, outlook.normal) > 0.0) return PairRest::apart;
+    return clearance<Dim>(corners, outlook.aside) > outlook.aside_allowance ? PairRest::beside : PairRest::no;
+}
 
 template <int Dim>
 PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
@@ -97,6 +166,10 @@ PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<D
     return result;
 }
 
+template PairOutlook<2> pair_outlook(const PairCorners<2>&, const PairLaw<2>&, double, double);
+template PairOutlook<3> pair_outlook(const PairCorners<3>&, const PairLaw<3>&, double, double);
+template PairRest rests(const PairOutlook<2>&, const PairCorners<2>&);
+template PairRest rests(const PairOutlook<3>&, const PairCorners<3>&);
 template PairPlacement<2> pair_placement(const PairCorners<2>&, const PairLaw<2>&);
 template PairPlacement<3> pair_placement(const PairCorners<3>&, const PairLaw<3>&);
 template PairState<2> pair_state(const PairCorners<2>&, const PairLaw<2>&);

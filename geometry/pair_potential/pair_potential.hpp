@@ -59,6 +59,29 @@ struct PairPlacement {
 template <int Dim>
 [[nodiscard]] PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
 
+/// What a pair can do in all positions in which no corner is farther than a reach from where it is now.
+template <int Dim>
+struct PairOutlook {
+    /// False only if W = 0 in all of them, where |g| is not larger than a given depth: the faces stay apart, above or beside each
+    /// other, or cannot come to look at each other.
+    bool may_act = true;
+    Vector<Dim> normal = Vector<Dim>::Zero();  ///< n as it is now, unit; zero: n can turn too far for `rests`
+    Vector<Dim> aside = Vector<Dim>::Zero();   ///< from face 1 to face 2 across n, unit
+    double aside_allowance = 0.0;              ///< what apart along `aside` must exceed, since n turns [m]
+};
+template <int Dim>
+[[nodiscard]] PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim>& law, double reach,
+                                            double depth);
+
+enum class PairRest {
+    no,      ///< or not sure
+    apart,   ///< g >= 0 all over: W = 0
+    beside,  ///< no overlap, where |g| <= depth: W = 0
+};
+/// What an outlook tells at once of one of these positions; the cheapest of all tests.
+template <int Dim>
+[[nodiscard]] PairRest rests(const PairOutlook<Dim>& outlook, const PairCorners<Dim>& corners);
+
 template <int Dim>
 struct PairGradient {
     double energy = 0.0;          ///< W [J]

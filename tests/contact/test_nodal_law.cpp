@@ -11,14 +11,6 @@ using contact::NodalStep;
 
 namespace {
 
-template <int Dim>
-AxialVector<Dim> moment(const Vector<Dim>& arm, const Vector<Dim>& force) {
-    if constexpr (Dim == 2)
-        return AxialVector<2>(arm[0] * force[1] - arm[1] * force[0]);
-    else
-        return arm.cross(force);
-}
-
 /// Of nodes whose faces reach no rim.
 template <int Dim>
 bool is_inside(const Vector<Dim>& x) {

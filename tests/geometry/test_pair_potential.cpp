@@ -318,3 +318,34 @@ TEMPLATE_TEST_CASE_SIG("a pair that is apart, beside or turned away at a glance 
     for (const int count : seen) CHECK(count > 100);
     CHECK(unclear_without_energy < seen[static_cast<std::size_t>(PairPlace::unclear)]);
 }
+
+TEMPLATE_TEST_CASE_SIG("an outlook holds wherever the corners go within reach", "[pair_potential]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(11);
+    int left_out = 0, kept = 0, apart = 0, beside = 0;
+    for (int i = 0; i < 4000; ++i) {
+        PairCorners<Dim> x = random_pair<Dim>(random);
+        const Vector<Dim> by = random_vector<Dim>(random, 1.5);
+        const Matrix<Dim> turn = random_turn<Dim>(random, 2.5);
+        for (int v = 0; v < Dim; ++v) x[v] = turn * (x[v] - x[Dim]) + x[Dim] + by;
+        const PairLaw<Dim> law = law_of<Dim>(x);
+        const double reach = uniform(random, 0.0, 0.3), depth = uniform(random, 0.0, 1.0);
+        const auto outlook = pair_outlook<Dim>(x, law, reach, depth);
+        ++(outlook.may_act ? kept : left_out);
+        for (int j = 0; j < 40; ++j) {
+            PairCorners<Dim> moved = x;
+            for (Vector<Dim>& corner : moved) corner += reach * random_vector<Dim>(random, 1.0).normalized();
+            const auto state = pair_state<Dim>(moved, law);
+            const PairRest rest = rests<Dim>(outlook, moved);
+            const bool without_energy = state.energy == 0.0 || state.gap < -depth;
+            if (!outlook.may_act) REQUIRE(without_energy);
+            if (rest == PairRest::apart) REQUIRE(state.energy == 0.0);
+            if (rest == PairRest::beside) REQUIRE(without_energy);
+            apart += rest == PairRest::apart ? 1 : 0;
+            beside += rest == PairRest::beside ? 1 : 0;
+        }
+    }
+    CHECK(left_out > 1000);
+    CHECK(kept > 500);
+    CHECK(apart > 1000);
+    CHECK(beside > 1000);
+}

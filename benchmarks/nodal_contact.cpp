@@ -1,0 +1,310 @@
+// What contact on nodes costs: an active pair by itself, beside a node-to-segment penalty written plainly; an active pair of two
+// meshes that press on each other, beside the modified reconstruction; and a whole step of bodies of linear finite elements.
+//
+// Expected: 0.3 (2D) and 2.5 microseconds (3D) for the mean gradient of a pair; less than 2 % of a step where nothing is near.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "abut/contact/contact.hpp"
+#include "abut/contact/nodal_contact.hpp"
+#include "abut/geometry/pair_potential/pair_potential.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+#include "studies/nodal/p1_bodies.hpp"
+#include "support/measure.hpp"
+
+namespace {
+
+using namespace abut;
+using geometry::PairCorners;
+
+double uniform(std::mt19937& random, double lower, double upper) {
+    return std::uniform_real_distribution<double>(lower, upper)(random);
+}
+template <int Dim>
+Vector<Dim> random_vector(std::mt19937& random, double size) {
+    Vector<Dim> v;
+    for (int d = 0; d < Dim; ++d) v[d] = uniform(random, -size, size);
+    return v;
+}
+
+/// Faces of size 1 that look at each other, some corners beside the other face.
+template <int Dim>
+PairCorners<Dim> facing_pair(std::mt19937& random) {
+    PairCorners<Dim> x;
+    const Vector<Dim> aside = random_vector<Dim>(random, 0.4);
+    for (int v = 0; v < Dim; ++v) {
+        Vector<Dim> a = Vector<Dim>::Zero(), b = Vector<Dim>::Zero();
+        const double angle = 2.0 * M_PI * v / Dim;
+        a[0] = std::cos(angle), b[0] = -std::cos(angle);
+        if constexpr (Dim == 3) a[1] = std::sin(angle), b[0] = -b[0], b[1] = -std::sin(angle);
+        x[v] = a + random_vector<Dim>(random, 0.1);
+        x[Dim + v] = b + aside + random_vector<Dim>(random, 0.1);
+        x[Dim + v][Dim - 1] -= 0.1;
+    }
+    return x;
+}
+
+template <int Dim>
+struct Pairs {
+    std::vector<PairCorners<Dim>> start, end, translated;
+    std::vector<geometry::PairLaw<Dim>> law;
+
+    explicit Pairs(int n) {
+        std::mt19937 random(1);
+        while (static_cast<int>(start.size()) < n) {
+            const PairCorners<Dim> x = facing_pair<Dim>(random);
+            geometry::PairLaw<Dim> of_pair{.stiffness = 1.0};
+            if constexpr (Dim == 2) of_pair.length = {(x[1] - x[0]).norm(), (x[3] - x[2]).norm()};
+            if (geometry::pair_gradient<Dim>(x, of_pair).energy == 0.0) continue;
+            PairCorners<Dim> moved = x, shifted = x;
+            const Vector<Dim> by = random_vector<Dim>(random, 3e-3);
+            for (int v = 0; v < 2 * Dim; ++v) {
+                moved[v] += random_vector<Dim>(random, 3e-3);
+                if (v < Dim) shifted[v] += by;
+            }
+            start.push_back(x), end.push_back(moved), translated.push_back(shifted), law.push_back(of_pair);
+        }
+    }
+};
+
+/// A node against a segment or triangle with a penalty: projection, test, gap, forces on the nodes.
+double penalty(const PairCorners<2>& x, double k, PairCorners<2>& force) {
+    double energy = 0.0;
+    const Vector<2> along = x[3] - x[2], normal = Vector<2>(along[1], -along[0]).normalized();
+    for (int v = 0; v < 2; ++v) {
+        const double s = along.dot(x[v] - x[2]) / along.squaredNorm(), gap = normal.dot(x[v] - x[2]);
+        if (s < 0.0 || s > 1.0 || gap >= 0.0) continue;
+        const Vector<2> f = -k * gap * normal;
+        force[v] += f;
+        force[2] -= (1.0 - s) * f;
+        force[3] -= s * f;
+        energy += 0.5 * k * gap * gap;
+    }
+    return energy;
+}
+double penalty(const PairCorners<3>& x, double k, PairCorners<3>& force) {
+    double energy = 0.0;
+    const Vector<3> u = x[4] - x[3], w = x[5] - x[3], normal = u.cross(w).normalized();
+    const double uu = u.dot(u), uw = u.dot(w), ww = w.dot(w), determinant = uu * ww - uw * uw;
+    for (int v = 0; v < 3; ++v) {
+        const Vector<3> r = x[v] - x[3];
+        const double b = (ww * u.dot(r) - uw * w.dot(r)) / determinant, c = (uu * w.dot(r) - uw * u.dot(r)) / determinant;
+        const double gap = normal.dot(r);
+        if (b < 0.0 || c < 0.0 || b + c > 1.0 || gap >= 0.0) continue;
+        const Vector<3> f = -k * gap * normal;
+        force[v] += f;
+        force[3] -= (1.0 - b - c) * f;
+        force[4] -= b * f;
+        force[5] -= c * f;
+        energy += 0.5 * k * gap * gap;
+    }
+    return energy;
+}
+
+/// Work on the corners against the change of W.
+template <int Dim>
+void check(const Pairs<Dim>& pairs) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < pairs.start.size(); ++i)
+        for (const auto* end : {&pairs.end[i], &pairs.translated[i]}) {
+            const auto found = geometry::pair_mean_gradient<Dim>(pairs.start[i], *end, pairs.law[i]);
+            double work = found.energy_0 - found.energy_1, force = 0.0;
+            for (int v = 0; v < 2 * Dim; ++v) {
+                work += found.gradient[v].dot((*end)[v] - pairs.start[i][v]);
+                force += found.gradient[v].norm();
+            }
+            worst = std::max(worst, std::abs(work) / (found.energy_0 + found.energy_1 + 0.02 * force));
+        }
+    benchmark::require_small("balance of energy of a pair", worst, 1e-13);
+}
+
+template <int Dim>
+nlohmann::json time_pairs(int repetitions) {
+    const Pairs<Dim> pairs(4000);
+    check<Dim>(pairs);
+    double sink = 0.0;
+    const auto each = [&](const auto& work) {
+        return [&, work] {
+            for (std::size_t i = 0; i < pairs.start.size(); ++i) sink += work(i);
+        };
+    };
+    PairCorners<Dim> force{};
+    const auto times = benchmark::time_in_turn(
+        repetitions, benchmark::Clock::processor,
+        {each([&](std::size_t i) {
+             return geometry::pair_mean_gradient<Dim>(pairs.start[i], pairs.end[i], pairs.law[i]).energy_1;
+         }),
+         each([&](std::size_t i) {
+             return geometry::pair_mean_gradient<Dim>(pairs.start[i], pairs.translated[i], pairs.law[i]).energy_1;
+         }),
+         each([&](std::size_t i) { return geometry::pair_gradient<Dim>(pairs.start[i], pairs.law[i]).energy; }),
+         each([&](std::size_t i) { return geometry::pair_placement<Dim>(pairs.start[i], pairs.law[i]).facing; }),
+         each([&](std::size_t i) { return penalty(pairs.start[i], 1.0, force); })});
+    const auto ns = [&](std::size_t i) { return 1e9 * times[i].least() / static_cast<double>(pairs.start.size()); };
+    nlohmann::json result{{"dim", Dim},        {"mean gradient", ns(0)}, {"mean gradient, translating", ns(1)},
+                          {"gradient", ns(2)}, {"glance", ns(3)},        {"node-to-segment penalty, one state", ns(4)},
+                          {"sink", sink}};
+    fmt::print(
+        "{}D, ns a pair: mean gradient {:.0f} (faces that translate {:.0f}), gradient {:.0f}, a glance {:.0f}, "
+        "penalty {:.0f} for one state\n",
+        Dim, ns(0), ns(1), ns(2), ns(3), ns(4));
+    return result;
+}
+
+/// A flat grid of n cells a side of unit length that looks up or down, triangles or segments.
+template <int Dim>
+void append_plate(int n, double height, int body, std::vector<Vector<Dim>>& nodes, contact::NodalFaceArrays<Dim>& faces,
+                  contact::Surface<Dim>& surface) {
+    const auto first = static_cast<std::int32_t>(nodes.size());
+    const auto at = [&](int i, int j) { return first + (Dim == 2 ? i : i * (n + 1) + j); };
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= (Dim == 2 ? 0 : n); ++j) {
+            Vector<Dim> x = height * Vector<Dim>::Unit(Dim - 1);
+            x[0] = static_cast<double>(i) / n;
+            if (Dim == 3) x[1] = static_cast<double>(j) / n;
+            nodes.push_back(x);
+        }
+    const auto append = [&](std::vector<std::int32_t> corners) {
+        if (body == 0) std::reverse(corners.begin(), corners.end());
+        std::vector<Vector<Dim>> points;
+        for (const std::int32_t node : corners) points.push_back(nodes[static_cast<std::size_t>(node)]);
+        faces.append_face(corners, 0.5 / n, body);
+        surface.append(points, 0.5 / n, 1.0, body);
+    };
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < (Dim == 2 ? 1 : n); ++j) {
+            if constexpr (Dim == 2) append({at(i, 0), at(i + 1, 0)});
+            if constexpr (Dim == 3) {
+                append({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+                append({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+            }
+        }
+}
+
+/// Two plates that do not match, pressed together and slid a little: both laws on the same pairs.
+template <int Dim>
+nlohmann::json time_laws(int repetitions) {
+    std::vector<Vector<Dim>> nodes;
+    contact::NodalFaceArrays<Dim> faces;
+    contact::Surface<Dim> surface;
+    const int n = Dim == 2 ? 2000 : 30;
+    append_plate<Dim>(n, 0.0, 0, nodes, faces, surface);
+    const std::size_t lower = nodes.size();
+    append_plate<Dim>(n * 7 / 6, 0.01 / n, 1, nodes, faces, surface);
+    faces.stiffness = {1.0, 1.0};
+
+    std::vector<Vector<Dim>> start = nodes, end;
+    for (std::size_t i = lower; i < nodes.size(); ++i) start[i] -= 0.05 / n * Vector<Dim>::Unit(Dim - 1);
+    end = start;
+    std::mt19937 random(2);
+    for (std::size_t i = 0; i < end.size(); ++i) end[i] += random_vector<Dim>(random, 1e-4 / n);
+    std::vector<Vector<Dim>> u_0, u_1, rest(static_cast<std::size_t>(surface.size()), Vector<Dim>::Zero());
+    for (std::int32_t f = 0; f < surface.size(); ++f) {
+        u_0.push_back(surface.body[f] == 0 ? 0.0 * Vector<Dim>::Unit(0) : -0.05 / n * Vector<Dim>::Unit(Dim - 1));
+        u_1.push_back(u_0.back() + random_vector<Dim>(random, 1e-4 / n));
+    }
+    contact::NodalContact<Dim> nodal(contact::NodalSurface<Dim>(nodes, faces.view()));
+    contact::Contact<Dim> by_faces(surface.view());
+    const auto coupling = [](std::span<const contact::SurfaceFace> listed) {
+        contact::FaceCoupling<Dim> own;
+        for (std::size_t i = 0; i < listed.size(); ++i) {
+            own.columns.push_back(static_cast<std::int32_t>(i));
+            own.offsets.push_back(static_cast<std::int32_t>(i) + 1);
+            own.blocks.push_back(Matrix<Dim>::Identity());
+        }
+        return own;
+    };
+    const auto gradients = [](auto, auto y_0, auto y_1) {
+        std::ranges::fill(y_0, Vector<Dim>::Zero());
+        std::ranges::fill(y_1, Vector<Dim>::Zero());
+    };
+    nodal.step(nodes, nodes);
+    by_faces.step({rest, rest, coupling, gradients});
+    const auto times = benchmark::time_in_turn(
+        repetitions, benchmark::Clock::processor,
+        {[&] { (void)nodal.step(start, end); }, [&] { (void)nodal.step(start, start, contact::TakenForce::end); },
+         [&] {
+             (void)by_faces.step({u_0, u_1, coupling, gradients});
+         }});
+    const double nodal_pairs = static_cast<double>(nodal.report().active_pairs);
+    const double face_pairs = static_cast<double>(by_faces.report().active_pairs);
+    fmt::print(
+        "{}D, two plates, ns per active pair, search left out: potential {:.0f} (end of step alone {:.0f}), "
+        "{:.0f} pairs; modified reconstruction {:.0f}, {:.0f} pairs\n",
+        Dim, 1e9 * times[0].least() / nodal_pairs, 1e9 * times[1].least() / nodal_pairs, nodal_pairs,
+        1e9 * times[2].least() / face_pairs, face_pairs);
+    return {{"dim", Dim},
+            {"potential", 1e9 * times[0].least() / nodal_pairs},
+            {"potential, end of step", 1e9 * times[1].least() / nodal_pairs},
+            {"modified reconstruction", 1e9 * times[2].least() / face_pairs}};
+}
+
+/// Two discs or rods, `gap` apart.
+template <int Dim>
+studies::P1Bodies<Dim> bodies(double size, double gap) {
+    studies::P1Scene<Dim> scene;
+    if constexpr (Dim == 2)
+        scene.mesh = mesh::combine<2>(
+            std::vector{mesh::disc({.size = size}), mesh::disc({.centre = {2.0 + gap, 0.0}, .size = size, .variant = 1})});
+    else
+        scene.mesh = mesh::combine<3>(std::vector{
+            mesh::cylinder({.size = size}), mesh::cylinder({.centre = {2.0 + gap, 0.0, 0.0}, .size = size, .variant = 1})});
+    scene.materials = {{}, {}};
+    return studies::P1Bodies<Dim>(std::move(scene));
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> placed(const studies::P1Bodies<Dim>& host, std::span<const double> q) {
+    std::vector<Vector<Dim>> x = host.mesh().vertices;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += as_vectors<Dim>(q)[i];
+    return x;
+}
+
+/// The share of contact in a step of the whole: pressed together, and far apart.
+template <int Dim>
+nlohmann::json time_steps(int repetitions, double size) {
+    nlohmann::json result{{"dim", Dim}};
+    for (const bool near : {true, false}) {
+        auto host = bodies<Dim>(size, near ? 1e-4 : 1.0);
+        std::vector<double> q(host.size(), 0.0), f(host.size());
+        host.mean_force(q, q, 0.0, 1e-3, f);
+        if (near)
+            for (std::size_t i = 0; i < host.masses().size(); ++i)
+                if (host.node_body()[i] == 1) q[Dim * i] = -0.01;
+        const auto times =
+            benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
+                                    {[&] { host.mean_force(q, q, 0.0, 1e-3, f); },
+                                     [&] { (void)host.contact().step(placed<Dim>(host, q), placed<Dim>(host, q)); },
+                                     [&] { (void)placed<Dim>(host, q), (void)placed<Dim>(host, q); }});
+        const double contact = times[1].least() - times[2].least();
+        fmt::print("{}D, {} elements, {}: a step {:.3f} ms, contact {:.2f} % of the rest, {} active pairs of {}\n", Dim,
+                   host.mesh().n_cells(), near ? "pressed together" : "far apart", 1e3 * times[0].least(),
+                   100.0 * contact / (times[0].least() - contact), host.contact().report().active_pairs, host.contact().report().candidates);
+        result[near ? "pressed together" : "far apart"] = contact / (times[0].least() - contact);
+    }
+    return result;
+}
+
+int run_benchmark(int argc, char** argv) {
+    int repetitions = 100;
+    std::string json;
+    CLI::App app{"What contact on nodes costs."};
+    app.option_defaults()->always_capture_default();
+    app.add_option("--repetitions", repetitions)->check(CLI::PositiveNumber);
+    app.add_option("--json", json, "file for the result");
+    CLI11_PARSE(app, argc, argv);
+    nlohmann::json result = benchmark::circumstances(argc, argv);
+    result["pairs"] = {time_pairs<2>(repetitions), time_pairs<3>(repetitions)};
+    result["laws"] = {time_laws<2>(repetitions), time_laws<3>(repetitions)};
+    result["steps"] = {time_steps<2>(repetitions, 0.05), time_steps<3>(repetitions, 0.1)};
+    benchmark::write(result, json);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return benchmark::main(argc, argv, run_benchmark); }
