@@ -61,7 +61,7 @@ public:
           options_(options),
           motion_(motion),
           report_(report),
-          detection_(bodies, options, report.near),
+          detection_(bodies, options, report.near, !motion.only_translates()),
           output_(bodies, options.out, options.write_every) {}
 
     void all_steps() {
@@ -82,7 +82,7 @@ private:
             const Stopwatch watch(report_.seconds.motion);
             motion_.move(bodies_, step);
         }
-        const StepResult& result = detection_.find(step, !motion_.only_translates());
+        const StepResult& result = detection_.find(step);
         log_step(result, motion_.steps());
         report_.decided += result.narrow.decided;
         report_.overlaps_max = std::max(report_.overlaps_max, static_cast<std::int64_t>(result.overlaps.size()));

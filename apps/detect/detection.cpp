@@ -16,6 +16,8 @@ constexpr double default_distance = 0.5;  // mean face sizes
 constexpr double no_skin = 1e-6;          // mean face sizes: for rounding, where a list serves one step
 constexpr double bytes_a_megabyte = 1e6;
 
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
 contact::CandidateOptions search_options(const DetectOptions& options, const Nearness& near) {
     contact::CandidateOptions search = options.search;
     search.distance = near.distance;
@@ -33,41 +35,64 @@ Nearness nearness(const DetectOptions& options, const Bodies& bodies, const Moti
     Nearness near{options.distance, options.depth, options.skin};
     if (std::isnan(near.distance)) near.distance = default_distance * size;
     if (std::isnan(near.depth)) near.depth = near.distance;
-    if (std::isnan(near.skin)) near.skin = motion.steps() > 0 && motion.only_translates() ? 0.0 : no_skin * size;
+    if (std::isnan(near.skin)) near.skin = motion.steps() > 0 ? 0.0 : no_skin * size;
     return near;
 }
 
-Detection::Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near)
+Detection::Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near, bool turns)
     : bodies_(bodies),
       area_(options.area),
+      facing_cosine_(options.search.facing_cosine),
       near_(near),
-      at_rest_(bodies.surface.body.size(), Vector<3>::Zero()),
-      search_(bodies.surface.view(), search_options(options, near)) {}
+      turns_(turns),
+      start_(bodies.surface),
+      search_(start_.view(), search_options(options, near)) {}
 
-const StepResult& Detection::find(int step, bool turned) {
+const StepResult& Detection::find(int step) {
     result_ = {.step = step};
     {
         const Stopwatch watch(seconds_search_);
-        result_.searched = turned || !search_.is_valid_for(motion_since());
+        result_.searched = !search_.is_valid_for(motion_since());
         if (result_.searched) search();
     }
     result_.box_pairs = search_.report().box_pairs;
     result_.candidates = search_.report().candidates;
     const Stopwatch watch(seconds_narrow_);
-    contact::find_overlaps<3>(bodies_.surface.view(), at_rest_, search_.candidates(), area_, found_);
+    contact::find_overlaps_moved<3>(start_.view(), bodies_.surface.vertices, search_.candidates(), area_, found_);
     keep_near_ones();
     return result_;
 }
 
 void Detection::search() {
-    if (!at_search_.empty()) search_.surface_changed();
     try {
-        search_.search(at_rest_, at_rest_);
+        search_where_faces_are();
     } catch (const geometry::SearchLimitError& error) {
         throw std::runtime_error(
             fmt::format("step {}: {} Here: --distance, --skin, --max-pairs, --max-memory.", result_.step, error.what()));
     }
     at_search_ = bodies_.surface.vertices;
+}
+
+/// The gap that decides on a pair is that between the centroids.
+void Detection::search_where_faces_are() {
+    const auto& now = bodies_.surface.vertices;
+    if (turns_) {
+        search_.search_moved(now, now, contact::GapOf::centroids);
+    } else {
+        const auto u = translations();
+        search_.search(u, u);
+    }
+}
+
+/// Of each face, as its first corner shows it.
+std::vector<Vector<3>> Detection::translations() const {
+    std::vector<Vector<3>> u;
+    u.reserve(start_.body.size());
+    for (std::int32_t face = 0; face < start_.size(); ++face) {
+        const std::size_t corner = at(start_.view().vertices_of(face).front());
+        u.push_back(bodies_.surface.vertices[corner] - start_.vertices[corner]);
+    }
+    return u;
 }
 
 double Detection::motion_since() const {
@@ -82,8 +107,13 @@ void Detection::keep_near_ones() {
     result_.narrow = found_.report;
     result_.gap_min = std::numeric_limits<double>::infinity();
     result_.gap_max = -result_.gap_min;
+    const auto& normal = bodies_.surface.normal;
     for (const contact::Overlap<3>& overlap : found_.found) {
-        if (overlap.gap > near_.distance) {
+        // A list of faces that turn holds pairs whichever way they look.
+        const double cosine = normal[at(overlap.face_1)].dot(normal[at(overlap.face_2)]);
+        if (!(cosine < facing_cosine_)) {
+            ++result_.too_steep;
+        } else if (overlap.gap > near_.distance) {
             ++result_.too_far;
         } else if (!(overlap.gap > -near_.depth)) {
             ++result_.too_deep;

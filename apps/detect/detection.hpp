@@ -27,18 +27,19 @@ struct StepResult {
     double area = 0.0;  ///< of the overlaps kept, together [m^2]
     double gap_min = 0.0, gap_max = 0.0;
     std::int64_t too_far = 0, too_deep = 0;  ///< overlaps left out because of their gap
+    std::int64_t too_steep = 0;              ///< left out because n_1 . n_2 is not below --facing
     contact::OverlapReport narrow;
-    std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance
+    std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance, n_1 . n_2 < --facing
 };
 
-/// Finds candidates and overlaps step by step. Keeps a reference to the bodies.
+/// Finds candidates and overlaps step by step. Keeps a reference to the bodies, which are at the start when it is made.
 class Detection {
 public:
-    Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near);
+    /// `turns`: bodies turn or deform in some step. If not, normals help to choose the candidates.
+    Detection(const Bodies& bodies, const DetectOptions& options, const Nearness& near, bool turns);
 
-    /// Where the bodies are now. The candidate list is rebuilt where it is not valid for the motion since, or where bodies
-    /// have `turned`: normals decide which faces look at each other, and no skin allows for that.
-    [[nodiscard]] const StepResult& find(int step, bool turned);
+    /// Where the bodies are now. The candidate list is rebuilt where it is not valid for the motion since.
+    [[nodiscard]] const StepResult& find(int step);
 
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const { return search_.candidates(); }
     [[nodiscard]] double skin() const { return search_.skin(); }
@@ -48,13 +49,17 @@ public:
 
 private:
     void search();
+    void search_where_faces_are();
+    [[nodiscard]] std::vector<Vector<3>> translations() const;
     [[nodiscard]] double motion_since() const;
     void keep_near_ones();
 
     const Bodies& bodies_;
     geometry::AreaMethod area_;
+    double facing_cosine_;
     Nearness near_;
-    std::vector<Vector<3>> at_rest_;    // (n faces) no displacement: the arrays move themselves
+    bool turns_;
+    contact::Surface<3> start_;
     std::vector<Vector<3>> at_search_;  // vertices
     contact::CandidateSearch<3> search_;
     contact::Overlaps<3> found_;

@@ -120,6 +120,7 @@ Json last_json(const DetectReport& report) {
             {"overlaps", last.overlaps.size()},
             {"too_far", last.too_far},
             {"too_deep", last.too_deep},
+            {"too_steep", last.too_steep},
             {"area", last.area},
             {"gap_min", gap_or_null(report, last.gap_min)},
             {"gap_max", gap_or_null(report, last.gap_max)}};
@@ -171,8 +172,8 @@ void print_search(const DetectReport& report) {
 
 void print_last(const DetectReport& report) {
     const StepResult& last = report.last;
-    print_line("overlaps", fmt::format("{} ({} more are too far apart, {} too deep)", last.overlaps.size(), last.too_far,
-                                       last.too_deep));
+    print_line("overlaps", fmt::format("{} ({} more are too far apart, {} too deep, {} too steep)", last.overlaps.size(),
+                                       last.too_far, last.too_deep, last.too_steep));
     if (last.overlaps.empty()) return;
     print_line("area in contact", fmt::format("{:.9g} m^2", last.area));
     print_line("gap, least and largest", fmt::format("{:.9g} to {:.9g} m", last.gap_min, last.gap_max));
