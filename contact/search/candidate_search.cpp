@@ -77,13 +77,6 @@ public:
         measure_extent();
     }
 
-    void surface_changed() {
-        list_holds_ = false;
-        check(surface_);
-        measure_extent();
-        translated_.forget();
-    }
-
     [[nodiscard]] bool is_valid_for(double motion) const { return list_holds_ && motion <= 0.5 * list_skin_; }
 
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1) {
@@ -327,10 +320,6 @@ void CandidateSearch<Dim>::search(std::span<const Vector<Dim>> u_0, std::span<co
 template <int Dim>
 void CandidateSearch<Dim>::search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap) {
     implementation_->search_moved(x_0, x_1, gap);
-}
-template <int Dim>
-void CandidateSearch<Dim>::surface_changed() {
-    implementation_->surface_changed();
 }
 template <int Dim>
 std::span<const IndexPair> CandidateSearch<Dim>::candidates() const {

@@ -34,13 +34,14 @@ enum class GapOf {
 
 /// The pairs of faces that can touch: a list over any number of surfaces, that lives for many steps. docs/detection.md.
 ///
-/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches again if need be.
+/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches again if need
+/// be: with `search` where faces translate, with `search_moved` where they turn or deform.
 /// The faces of a body are kept in a spatial order from one search to the next, so that the packed tree is built in one
 /// sweep over them.
 template <int Dim>
 class CandidateSearch {
 public:
-    /// Keeps the view: the host's arrays must outlive it, and stay as they are, or see `surface_changed`. Throws
+    /// Keeps the view: the host's arrays must outlive it, and stay as they are: bodies at rest. Throws
     /// BadInput naming what is wrong: a surface that `check` refuses, or an option out of range.
     explicit CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options = {});
     ~CandidateSearch();
@@ -52,10 +53,6 @@ public:
     /// faces look at each other and where a gap lies, and no skin allows for a change of them; after `search_moved` faces turn
     /// and deform as they like. False before the first search, and after one that failed.
     [[nodiscard]] bool is_valid_for(double motion) const;
-
-    /// For a host whose faces turn or deform: it has changed coordinates and all that follows from them, but no face and no
-    /// corner came or went. The list holds no longer. Throws as the constructor.
-    void surface_changed();
 
     /// Rebuilds the list for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
     /// pair of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that path and as long

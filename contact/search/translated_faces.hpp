@@ -34,7 +34,7 @@ public:
         u_0_ = u_0;
         u_1_ = u_1;
     }
-    /// The order is another one, or the surface has changed.
+    /// The order is another one.
     void forget() { rest_.clear(); }
     void prepare(const FaceOrder& order) {
         if (!rest_.empty()) return;

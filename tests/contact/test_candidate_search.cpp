@@ -89,23 +89,6 @@ TEST_CASE("any number of threads gives the same list and the same counts", "[con
     for (const int threads : {2, 5}) CHECK(on_threads(threads) == one);
 }
 
-TEST_CASE("a host whose faces turn changes its arrays, says so, and searches again", "[contact][candidates]") {
-    contact::Surface<3> surface;
-    surface.append(tile<3>(Vector<3>::Zero(), up<3>(), 0.5), 0.1, 1.0, 0);
-    surface.append(tile<3>(2.0 * axis<3>(0), -axis<3>(0), 0.5), 0.1, 1.0, 1);
-    contact::CandidateSearch<3> search(surface.view(), {.distance = 0.5});
-    search.search(at_rest(surface), at_rest(surface));
-    CHECK(search.candidates().empty());
-    const auto turned = tile<3>(0.2 * up<3>(), -up<3>(), 0.5);  // face 1 now looks down on face 0
-    std::copy(turned.begin(), turned.end(), surface.vertices.begin() + 4);
-    surface.normal[1] = -up<3>();
-    surface.centroid[1] = 0.2 * up<3>();
-    search.surface_changed();
-    CHECK_FALSE(search.is_valid_for(0.0));
-    search.search(at_rest(surface), at_rest(surface));
-    CHECK(search.candidates().size() == 1);
-}
-
 TEST_CASE("the chosen skin costs little more than the best fixed one", "[contact][candidates][skin]") {
     // A sheet slides over another one, pressed a little into it. The cost of a run by the model of the choice: a list costs
     // 4 per face and 10 per pair, a pair in a step 1. Some lists, by which the choice learns, come first.
