@@ -19,6 +19,8 @@ concept PointSystem = System<S> && requires(const S& system) {
 
 template <int Dim>
 using AngularMomentum = AxialVector<Dim>;
+template <int Dim>
+inline constexpr int n_rotations = AxialVector<Dim>::RowsAtCompileTime;
 
 /// The positions about which the mean forces of a step have no moment together: they decide which angular momentum MEMM
 /// conserves where nothing acts from outside, and so which one a filter and a restart must leave as it is.
