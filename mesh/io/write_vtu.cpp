@@ -150,9 +150,12 @@ struct VtuSeries<Dim>::Files {
     vtkSmartPointer<vtkPolyData> surface;
 
     [[nodiscard]] std::size_t n_cells() const { return static_cast<std::size_t>(cells->GetNumberOfCells()); }
+    [[nodiscard]] std::size_t n_vertices() const { return static_cast<std::size_t>(cells->GetNumberOfPoints()); }
     [[nodiscard]] std::size_t n_boundary_faces() const { return static_cast<std::size_t>(surface->GetNumberOfCells()); }
     [[nodiscard]] std::string surface_name() const { return basename + "_surface"; }
-    void add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells, vtkDataSet& of_surface) const;
+    void add_displacement(const Frame<Dim>& frame, vtkDataSet& of_cells, vtkDataSet& of_surface) const;
+    void add_vertex_displacement(std::span<const Vector<Dim>> at_vertices, vtkDataSet& of_cells,
+                                 vtkDataSet& of_surface) const;
     void publish_lists(const std::vector<double>& new_times);
 };
 
@@ -172,12 +175,19 @@ void VtuSeries<Dim>::Files::publish_lists(const std::vector<double>& new_times) 
 }
 
 template <int Dim>
-void VtuSeries<Dim>::Files::add_displacement(std::span<const Vector<Dim>> displacement, vtkDataSet& of_cells,
-                                             vtkDataSet& of_surface) const {
-    if (displacement.empty()) return;
-    add_field(*of_cells.GetCellData(), vtk_array("displacement", displacement), n_cells(), "cells", "VtuSeries");
-    const auto at_vertices = vertex_means(displacement, cell_vertices, static_cast<std::size_t>(cells->GetNumberOfPoints()));
-    of_cells.GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
+void VtuSeries<Dim>::Files::add_displacement(const Frame<Dim>& frame, vtkDataSet& of_cells, vtkDataSet& of_surface) const {
+    if (!frame.displacement.empty())
+        add_field(*of_cells.GetCellData(), vtk_array("displacement", frame.displacement), n_cells(), "cells", "VtuSeries");
+    if (!frame.vertex_displacement.empty())
+        add_vertex_displacement(frame.vertex_displacement, of_cells, of_surface);
+    else if (!frame.displacement.empty())
+        add_vertex_displacement(vertex_means(frame.displacement, cell_vertices, n_vertices()), of_cells, of_surface);
+}
+
+template <int Dim>
+void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>> at_vertices, vtkDataSet& of_cells,
+                                                    vtkDataSet& of_surface) const {
+    add_field(*of_cells.GetPointData(), vtk_array("displacement", at_vertices), n_vertices(), "vertices", "VtuSeries");
     std::vector<Vector<Dim>> on_surface;
     for (const std::int32_t vertex : surface_vertices) on_surface.push_back(at_vertices[static_cast<std::size_t>(vertex)]);
     of_surface.GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(on_surface)));
@@ -209,7 +219,7 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
     vtkNew<vtkPolyData> surface;
     cells->ShallowCopy(files_->cells);
     surface->ShallowCopy(files_->surface);
-    files_->add_displacement(frame.displacement, *cells, *surface);
+    files_->add_displacement(frame, *cells, *surface);
     add_fields<Dim>(*cells->GetCellData(), frame.cell_fields, files_->n_cells(), "cells", "VtuSeries");
     add_fields<Dim>(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces",
                     "VtuSeries");

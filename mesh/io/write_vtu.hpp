@@ -25,8 +25,10 @@ template <int Dim>
 struct Frame {
     double time = 0.0;                            ///< [s]
     std::span<const Vector<Dim>> displacement{};  ///< u_c [m], (n_cells, Dim), or empty
-    std::vector<Field<Dim>> cell_fields{};        ///< each of n_cells
-    std::vector<Field<Dim>> boundary_fields{};    ///< each of boundary_faces.size(), in that order
+    /// Of the vertices [m], (n_vertices, Dim), or empty: of a host that has them, in place of means over the cells around
+    std::span<const Vector<Dim>> vertex_displacement{};
+    std::vector<Field<Dim>> cell_fields{};      ///< each of n_cells
+    std::vector<Field<Dim>> boundary_fields{};  ///< each of boundary_faces.size(), in that order
 };
 
 /// The mesh in motion, as files for ParaView: BASENAME_000000.vtu, ... with the cells and
@@ -34,7 +36,7 @@ struct Frame {
 /// them with their times (open these two).
 ///
 /// Both carry the cell array "body". The displacement is written on cells and, averaged over the cells around a vertex, on
-/// points: that is what the filter Warp By Vector takes. 2D vectors get a third component 0, tensors six components (xx, yy,
+/// points, unless it is known there: that is what the filter Warp By Vector takes. 2D vectors get a third component 0, tensors six components (xx, yy,
 /// zz, xy, yz, xz). Data are binary and compressed. Every file is written under another name and then moved, the lists last:
 /// a run that breaks off leaves a readable series.
 template <int Dim>

@@ -144,6 +144,22 @@ TEST_CASE("the displacement of a vertex is the mean of its own body's cells", "[
         CHECK(displacement->GetComponent(point, 0) == (point < 7 ? 1.0 : -3.0));
 }
 
+TEST_CASE("a displacement that is known at the vertices is written there as it is", "[mesh][vtu]") {
+    const test::ScratchFolder folder;
+    const auto mesh = test::small_box(CellShape::triangle);
+    std::vector<Vector<2>> u;
+    for (const Vector<2>& x : mesh.vertices) u.emplace_back(x[1], -x[0]);
+    VtuSeries<2> series(folder.path(), "turned", mesh);
+    series.write({.vertex_displacement = u});
+    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "turned_000000.vtu");
+    auto* displacement = grid->GetPointData()->GetArray("displacement");
+    CHECK(grid->GetCellData()->GetArray("displacement") == nullptr);
+    for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point)
+        for (int d = 0; d < 2; ++d) CHECK(displacement->GetComponent(point, d) == u[static_cast<std::size_t>(point)][d]);
+    u.pop_back();
+    CHECK_THROWS_WITH(series.write({.vertex_displacement = u}), Contains("vertices is needed"));
+}
+
 TEST_CASE("a field of the wrong size is refused by name and writes nothing", "[mesh][vtu]") {
     const test::ScratchFolder folder;
     const auto mesh = test::small_box(CellShape::quadrangle);
