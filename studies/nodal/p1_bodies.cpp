@@ -34,7 +34,8 @@ contact::NodalSurface<Dim> P1Bodies<Dim>::surface_of(const P1Scene<Dim>& scene, 
     for (const std::int32_t face : mesh.boundary_faces) {
         const std::int32_t body = mesh.cell_body[mesh.face_cells[face][0]];
         const double depth = half_height(mesh, face);
-        depths[static_cast<std::size_t>(body)].push_back(depth);
+        if (!scene.touches || scene.touches(mesh.face_centroid[face]))
+            depths[static_cast<std::size_t>(body)].push_back(depth);
         faces.append_face(mesh.face_vertices[face], depth, body);
     }
     for (std::size_t body = 0; body < scene.materials.size(); ++body) {
@@ -56,6 +57,7 @@ void P1Bodies<Dim>::make_elements() {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
     mass_.assign(mesh.vertices.size(), 0.0);
     node_body_.assign(mesh.vertices.size(), 0);
+    node_elements_.resize(mesh.vertices.size());
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
         const P1Material& material = scene_.materials[static_cast<std::size_t>(mesh.cell_body[cell])];
         Element element{.node = {},
@@ -72,6 +74,7 @@ void P1Bodies<Dim>::make_elements() {
         for (const std::int32_t node : element.node) {
             mass_[node] += material.density * element.measure / (Dim + 1);
             node_body_[node] = mesh.cell_body[cell];
+            node_elements_[node].push_back(cell);
         }
         elements_.push_back(element);
     }
@@ -112,11 +115,17 @@ void P1Bodies<Dim>::add_outside(std::span<const double> q_0, std::span<const dou
     const auto force = as_vectors<Dim>(f);
     for (std::size_t i = 0; i < mass_.size(); ++i) force[i] += mass_[i] * scene_.gravity;
     for (const Pin<Dim>& pin : scene_.pins) {
-        Vector<Dim> mean = Vector<Dim>::Zero();
-        for (const std::int32_t node : pin.nodes) mean += 0.5 * (as_vectors<Dim>(q_0)[node] + as_vectors<Dim>(q_1)[node]);
-        const auto n = static_cast<double>(pin.nodes.size());
-        for (const std::int32_t node : pin.nodes) force[node] -= pin.stiffness / (n * n) * mean;
+        const Vector<Dim> pull = pin_force(pin, q_0, q_1);
+        for (const std::int32_t node : pin.nodes) force[node] += pull;
     }
+}
+
+template <int Dim>
+Vector<Dim> P1Bodies<Dim>::pin_force(const Pin<Dim>& pin, std::span<const double> q_0, std::span<const double> q_1) const {
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const std::int32_t node : pin.nodes) sum += 0.5 * (as_vectors<Dim>(q_0)[node] + as_vectors<Dim>(q_1)[node]);
+    const auto n = static_cast<double>(pin.nodes.size());
+    return -pin.stiffness / (n * n) * sum;
 }
 
 template <int Dim>
@@ -224,7 +233,12 @@ std::vector<Matrix<Dim>> P1Bodies<Dim>::stresses(std::span<const double> q) cons
     std::vector<Matrix<Dim>> result;
     for (const Element& element : elements_) {
         const Matrix<Dim> g = gradient(element, q);
-        result.push_back(stress_between(element, g, g));
+        Matrix<Dim> stress = stress_between(element, g, g);
+        if (scene_.strain == Strain::finite) {
+            const Matrix<Dim> stretch = Matrix<Dim>::Identity() + g;
+            stress = stress * stretch.transpose() / stretch.determinant();
+        }
+        result.push_back(stress);
     }
     return result;
 }

@@ -7,7 +7,9 @@
 
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/rigid_path.hpp"
+#include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/mass.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::studies {
@@ -46,6 +48,9 @@ struct P1Scene {
     std::vector<MovingObstacle<Dim>> obstacles = {};
     std::vector<Pin<Dim>> pins = {};
     contact::NodalOptions contact = {};
+    /// Faces whose depths make the k of their body, by their centroids; empty: all. To be given where cells are graded: the
+    /// mean over large faces that never touch makes a skin too soft
+    std::function<bool(const Vector<Dim>&)> touches = {};
 };
 
 /// Bodies of linear finite elements with contact on their nodes: a host as most solvers are one. q holds the displacements of
@@ -72,8 +77,13 @@ public:
     [[nodiscard]] dynamics::ContactCounts contact_counts() const {
         return {contact_.report().active_pairs, contact_.report().events};
     }
-    // StiffnessProductSystem: of the bulk at rest
+    // PatchSystem
+    /// The nodes of the elements that own active faces; pairs and common nodes join them to one patch.
+    [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const;
+    void end_force_on(std::span<const std::int32_t> points, std::span<const double> q, std::span<Vector<Dim>> force);
+    // StiffnessProductSystem, StiffnessSystem: of the bulk at rest
     void stiffness_product(std::span<const double> q, std::span<double> product);
+    void append_stiffness(std::span<const double> q, double factor, std::vector<dynamics::MatrixEntry>& entries) const;
 
     /// 0.85 * 2/omega with contact, by estimate.
     [[nodiscard]] contact::NodalStableStep stable_step();
@@ -81,11 +91,13 @@ public:
     [[nodiscard]] contact::NodalContact<Dim>& contact() { return contact_; }
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return scene_.mesh; }
     [[nodiscard]] const std::vector<std::int32_t>& node_body() const { return node_body_; }
-    /// Stress of each element, Cauchy's where strains are small, (n_elements) [Pa].
+    /// Cauchy's stress of each element (n_elements) [Pa].
     [[nodiscard]] std::vector<Matrix<Dim>> stresses(std::span<const double> q) const;
     /// Largest sum of corrections over sum of forces of a step, and over the run.
     [[nodiscard]] double correction_share() const { return forces_ > 0.0 ? corrections_ / forces_ : 0.0; }
     [[nodiscard]] std::int64_t pair_steps() const { return pair_steps_; }
+    /// Normal force over the area of each boundary face of the mesh in the last step, in the order of boundary_faces [Pa].
+    [[nodiscard]] std::vector<double> contact_pressure() const;
 
 private:
     struct Element {
@@ -102,8 +114,11 @@ private:
     [[nodiscard]] Matrix<Dim> stress_between(const Element& element, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
     void add_bulk(std::span<const double> q_0, std::span<const double> q_1, std::span<double> f) const;
     void add_outside(std::span<const double> q_0, std::span<const double> q_1, std::span<double> f) const;
+    /// On each of its nodes, at the mean of two states [N].
+    [[nodiscard]] Vector<Dim> pin_force(const Pin<Dim>& pin, std::span<const double> q_0, std::span<const double> q_1) const;
     void place(std::span<const double> q, double t, std::vector<Vector<Dim>>& x) const;
     void add_contact(const contact::NodalStep<Dim>& step, std::span<double> f) const;
+    [[nodiscard]] std::vector<std::int32_t> element_nodes(contact::SurfaceFace face) const;
     void follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, contact::TakenForce take,
                 std::span<double> f);
 
@@ -112,6 +127,7 @@ private:
     contact::NodalContact<Dim> contact_;
     std::vector<Element> elements_;
     std::vector<std::int32_t> node_body_;
+    std::vector<std::vector<std::int32_t>> node_elements_;
     std::vector<double> mass_;
     std::vector<double> inverse_mass_;
     std::vector<Vector<Dim>> x_0_, x_1_;
