@@ -1,0 +1,66 @@
+#include "studies/nodal/rows.hpp"
+#include "studies/nodal/scenes.hpp"
+
+namespace abut::studies::turning {
+namespace {
+
+/// Velocity of the left body at the end; the table of five hosts of other makers, with faces that translate.
+constexpr double velocity_allowed = 0.01;
+const Vector<2> disc_velocity(-0.0280, -0.0399), cylinder_velocity(-0.0276, -0.0403);
+
+template <int Dim>
+void slip(const Impact<Dim>& impact, const ImpactOptions& run, const std::string& setting, const Vector<2>& velocity,
+          const Options& options, const Sink& sink) {
+    ImpactResult<Dim> result;
+    Row row = row_of<Dim>(impact, run, setting, options, &result);
+    const Vector<2> left = result.velocity[0].template head<2>();
+    // The hosts of the table had small strain; at a twentieth of the wave speed finite strain is another solid.
+    double allowed = options.quick ? 5.0 * velocity_allowed : velocity_allowed;
+    if (impact.scene.strain == Strain::finite) allowed = std::numeric_limits<double>::infinity();
+    row.quantities.push_back(at_most("velocity of the left body, off from the table of hosts",
+                                     (left - velocity).norm() / velocity.norm(), allowed));
+    for (int d = 0; d < 2; ++d)
+        row.quantities.push_back(
+            {.name = d == 0 ? "velocity x" : "velocity y", .unit = "m/s", .value = left[d], .reference = velocity[d]});
+    sink(row);
+}
+
+}  // namespace
+
+void run_slipping(const Options& options, const Sink& sink) {
+    const double size_2 = options.quick ? 0.2 : 0.03, size_3 = options.quick ? 0.5 : 0.13;
+    for (const Scheme scheme : {Scheme::memm, Scheme::leapfrog})
+        for (const Strain strain : {Strain::small, Strain::finite}) {
+            ImpactOptions run = options.impact;
+            run.scheme = scheme;
+            run.filter = run.filter && scheme == Scheme::memm;
+            const std::string setting = std::string(scheme == Scheme::memm ? "memm" : "leapfrog") +
+                                        (strain == Strain::small ? ", small strain" : ", finite strain");
+            slip<2>(slipping_discs(strain, size_2), run, setting, disc_velocity, options, sink);
+            slip<3>(slipping_cylinders(strain, size_3), run, setting, cylinder_velocity, options, sink);
+        }
+}
+
+void run_turning(const Options& options, const Sink& sink) {
+    const std::string setting =
+        std::string(options.impact.scheme == Scheme::memm ? "memm" : "leapfrog") + (options.impact.filter ? ", filter" : "");
+    const bool quick = options.quick;
+    sink(row_of<2>(spinning_discs(quick ? 0.25 : 0.08), options.impact, setting, options));
+    sink(row_of<2>(tumbling_block(quick ? 4 : 10), options.impact, setting, options));
+    sink(row_of<2>(gears(quick ? 6 : 10, quick ? 0.1 : 3.0), options.impact, setting, options));
+    sink(row_of<2>(rotor(quick ? 0.25 : 0.08), options.impact, setting, options));
+    sink(row_of<3>(spinning_cubes(quick ? 3 : 10), options.impact, setting, options));
+    sink(row_of<3>(cube_on_corner(quick ? 3 : 6), options.impact, setting, options));
+}
+
+void run_long(const Options& options, const Sink& sink) {
+    for (const bool filter : {false, true}) {
+        ImpactOptions run = options.impact;
+        run.filter = filter;
+        run.frames = 0;
+        run.steps = options.quick ? std::min<std::int64_t>(options.long_steps, 20'000) : options.long_steps;
+        sink(row_of<2>(disc_between_walls(0.4), run, filter ? "memm, filter" : "memm", options));
+    }
+}
+
+}  // namespace abut::studies::turning

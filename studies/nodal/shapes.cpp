@@ -1,0 +1,81 @@
+#include "studies/nodal/shapes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "abut/mesh/shapes/shapes.hpp"
+
+namespace abut::studies {
+
+template <int Dim>
+mesh::Mesh<Dim> mapped(const mesh::Mesh<Dim>& mesh, const std::string& name,
+                       const std::function<Vector<Dim>(const Vector<Dim>&)>& map) {
+    mesh::CellSoup<Dim> soup;
+    soup.name = name;
+    soup.body_names = {name};
+    soup.cell_shape = mesh.cell_shape;
+    soup.cell_vertices = mesh.cell_vertices;
+    soup.cell_body = mesh.cell_body;
+    for (const Vector<Dim>& x : mesh.vertices) soup.vertices.push_back(map(x));
+    return mesh::build_mesh(std::move(soup));
+}
+
+template <int Dim>
+mesh::Mesh<Dim> turned_box(const TurnedBox<Dim>& box) {
+    const auto shape = Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron;
+    const Vector<Dim> half = 0.5 * box.sides;
+    const auto upright = mesh::structured_box<Dim>(-half, half, box.cells, shape, box.name);
+    return mapped<Dim>(upright, box.name, [&](const Vector<Dim>& x) { return Vector<Dim>(box.centre + box.turn * x); });
+}
+
+Matrix<2> rotation(double angle) {
+    Matrix<2> turn;
+    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    return turn;
+}
+
+mesh::Mesh<2> gear(const Gear& gear) {
+    const int around = gear.teeth * gear.cells;
+    const double side = 2.0 * std::numbers::pi * gear.radius / around;
+    const int layers = std::max(2, static_cast<int>(std::lround((gear.radius - gear.bore) / side)));
+    mesh::CellSoup<2> soup;
+    soup.name = gear.name;
+    soup.body_names = {gear.name};
+    for (int layer = 0; layer <= layers; ++layer)
+        for (int i = 0; i < around; ++i) {
+            const double angle = gear.phase + 2.0 * std::numbers::pi * i / around;
+            const double outer = gear.radius + gear.height * std::cos(gear.teeth * (angle - gear.phase));
+            const double radius = gear.bore + (outer - gear.bore) * layer / layers;
+            soup.vertices.push_back(gear.centre + radius * Vector<2>(std::cos(angle), std::sin(angle)));
+        }
+    const auto append = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+        soup.cell_vertices.append(std::array<std::int32_t, 3>{a, b, c});
+        soup.cell_shape.push_back(mesh::CellShape::triangle);
+        soup.cell_body.push_back(0);
+    };
+    for (int layer = 0; layer < layers; ++layer)
+        for (int i = 0; i < around; ++i) {
+            const int next = (i + 1) % around;
+            const int a = layer * around + i, b = layer * around + next, c = a + around, d = b + around;
+            append(a, c, d);
+            append(a, d, b);
+        }
+    return mesh::build_mesh(std::move(soup));
+}
+
+contact::RigidObstacle<2> rectangle_obstacle(const Vector<2>& half_sides) {
+    const double a = half_sides[0], b = half_sides[1];
+    const std::array<Vector<2>, 4> corners{Vector<2>(-a, -b), Vector<2>(a, -b), Vector<2>(a, b), Vector<2>(-a, b)};
+    contact::RigidObstacle<2> obstacle;
+    for (std::size_t i = 0; i < 4; ++i) obstacle.faces.push_back({corners[i], corners[(i + 1) % 4]});
+    return obstacle;
+}
+
+template mesh::Mesh<2> mapped<2>(const mesh::Mesh<2>&, const std::string&,
+                                 const std::function<Vector<2>(const Vector<2>&)>&);
+template mesh::Mesh<3> mapped<3>(const mesh::Mesh<3>&, const std::string&,
+                                 const std::function<Vector<3>(const Vector<3>&)>&);
+template mesh::Mesh<2> turned_box<2>(const TurnedBox<2>&);
+template mesh::Mesh<3> turned_box<3>(const TurnedBox<3>&);
+
+}  // namespace abut::studies

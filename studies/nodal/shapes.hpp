@@ -1,0 +1,47 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "abut/contact/obstacle.hpp"
+#include "abut/mesh/mesh.hpp"
+
+/// Bodies and obstacles that the scenes of nodal contact are made of.
+namespace abut::studies {
+
+/// The same cells with their vertices elsewhere; groups are dropped. Throws MeshError where a cell is turned inside out.
+template <int Dim>
+[[nodiscard]] mesh::Mesh<Dim> mapped(const mesh::Mesh<Dim>& mesh, const std::string& name,
+                                     const std::function<Vector<Dim>(const Vector<Dim>&)>& map);
+
+/// A box of simplices about `centre`, turned: cells along each side.
+template <int Dim>
+struct TurnedBox {
+    Vector<Dim> centre = Vector<Dim>::Zero();
+    Vector<Dim> sides = Vector<Dim>::Ones();
+    std::array<int, Dim> cells{};
+    Matrix<Dim> turn = Matrix<Dim>::Identity();
+    std::string name = "box";
+};
+template <int Dim>
+[[nodiscard]] mesh::Mesh<Dim> turned_box(const TurnedBox<Dim>& box);
+
+/// By this angle [rad], counter-clockwise.
+[[nodiscard]] Matrix<2> rotation(double angle);
+
+/// A ring whose outer radius is `radius` + `height` cos(teeth (angle - phase)): flanks slope by at most teeth height/radius.
+struct Gear {
+    Vector<2> centre = Vector<2>::Zero();
+    int teeth = 12;
+    double radius = 1.0;
+    double bore = 0.5;     ///< radius of the hole
+    double height = 0.08;  ///< of a tooth over the radius, and depth of a gap under it
+    double phase = 0.0;    ///< angle of the middle of a tooth [rad]
+    int cells = 8;         ///< around a tooth
+    std::string name = "gear";
+};
+[[nodiscard]] mesh::Mesh<2> gear(const Gear& gear);
+
+/// The outline of a rectangle about the origin.
+[[nodiscard]] contact::RigidObstacle<2> rectangle_obstacle(const Vector<2>& half_sides);
+
+}  // namespace abut::studies

@@ -1,0 +1,89 @@
+// Contact on nodes, of bodies that turn: what it keeps, where it is right, and where it ends.
+//
+// Linear finite elements, of small strain or St. Venant-Kirchhoff's, touch by the potential of a pair (docs/method.md). Runs
+// are asked for H~ less the work from outside, momentum, J~ = sum x × p - dt/4 sum v^- × p^+ where nothing holds the bodies,
+// missed contacts and the force that closes the balance of energy. Solutions at rest are asked for stress and pressure.
+// No energy is claimed without H - H~, |e|/m and the number of events beside it. docs/turning.md reads the table.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "abut/run/folder_lock.hpp"
+#include "apps/support/choices.hpp"
+#include "studies/nodal/rows.hpp"
+
+namespace abut::studies::turning {
+
+const std::vector<Part>& parts() {
+    static const std::vector<Part> all{
+        {"slipping", "Round bodies that slip off each other, beside what other hosts gave.", run_slipping},
+        {"turning", "Bodies that turn: what is kept.", run_turning},
+        {"patch", "Blocks on each other at rest: stress is uniform.", solve_patches},
+        {"hertz", "Round bodies pressed onto each other: the pressure is Hertz's.", solve_hertz},
+        {"edges", "Corners and edges: is a corner pushed aside, do edges rebound?", run_edges},
+        {"steps", "How far may the advised step be exceeded?", sweep_steps},
+        {"long", "A disc between rigid walls, for very many steps.", run_long},
+    };
+    return all;
+}
+
+namespace {
+
+const apps::Program program{
+    .name = "turning",
+    .purpose = "Contact on nodes, of bodies that turn: energies, momenta, patch tests, Hertz, corners, time steps.",
+    .footer = "A target that is missed is said to be; the exit code is that of the program alone."};
+
+void add_options(CLI::App& app, Options& options) {
+    std::vector<std::string> names;
+    for (const Part& part : parts()) names.push_back(part.name);
+    app.add_option("--only", options.only, "parts to run; by default all of " + apps::joined(names))
+        ->delimiter(',')
+        ->check(apps::one_of(names))
+        ->type_name("NAME,...")
+        ->group("Parts");
+    app.add_flag("--quick", options.quick, "coarse meshes and short runs")->default_str("off")->group("Parts");
+    apps::add_choice(app, "--scheme", options.impact.scheme, "of the runs in which it is not compared",
+                     apps::Choices<Scheme>{{"memm", Scheme::memm}, {"leapfrog", Scheme::leapfrog}})
+        ->group("Time");
+    app.add_flag("--filter", options.impact.filter, "take the alternating mode of memm out of what touches")
+        ->default_str("off")
+        ->group("Time");
+    apps::add_number(app, "--cfl", options.impact.cfl, "time step over the advised one", {.above = 0.0})->group("Time");
+    app.add_option("--steps", options.long_steps, "of the long runs")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str()
+        ->group("Time");
+    apps::add_count(app, "--frames", options.impact.frames, "for ParaView, of each run; 0: none", 0)->group("Output");
+    options.out = "out/" + program.name;
+    app.add_option("--out", options.out, "folder of all results; made if it is not there")
+        ->type_name("DIR")
+        ->capture_default_str()
+        ->group("Output");
+}
+
+void run(const Options& options) {
+    const run::FolderLock lock(options.out, program.name);
+    std::vector<Row> rows;
+    for (const Part& part : parts()) {
+        if (!options.only.empty() && std::ranges::find(options.only, part.name) == options.only.end()) continue;
+        print_head(part);
+        part.run(options, [&](const Row& row) {
+            print(row);
+            rows.push_back(row);
+        });
+    }
+    write_report(program, options, rows);
+}
+
+}  // namespace
+}  // namespace abut::studies::turning
+
+int main(int argc, char** argv) {
+    using namespace abut;
+    using namespace abut::studies;
+    turning::Options options;
+    return apps::run_program(
+        turning::program, argc, argv, [&](CLI::App& app) { turning::add_options(app, options); },
+        [&] { turning::run(options); });
+}
