@@ -11,9 +11,12 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/filter.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/run/options.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/scenes/bar_host.hpp"
 #include "studies/scenes/bars.hpp"
 
 namespace abut::studies {
@@ -38,7 +41,8 @@ struct BounceOptions {
     double cfl = 0.5;       // c dt/h [-]
     int steps = 0;
     bool filter = false;
-    int patch = 2;  // masses
+    int patch = 2;    // masses
+    int restart = 0;  // steps; 0: none
     std::filesystem::path out = "out/" + program.name;
     int interval = 0;
 };
@@ -62,41 +66,16 @@ void add_options(CLI::App& app, BounceOptions& options) {
     auto* patch =
         apps::add_count(app, "--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2)
             ->needs(filter);
-    for (auto* option : {filter, patch}) apps::restrict_to(option->group("Schemes"), options.schemes, {apps::Scheme::memm});
+    auto* restart = apps::add_count(app, "--restart", options.restart,
+                                    "of memm: steps between neutral restarts, which clear that mode everywhere; 0: none", 0);
+    for (auto* option : {filter, patch, restart})
+        apps::restrict_to(option->group("Schemes"), options.schemes, {apps::Scheme::memm});
     apps::add_out_option(app, options.out);
     apps::add_interval_option(app, options.interval);
 }
 
 /// Whether the lowest mass, displaced by q, presses on the wall.
 bool touches(double q) { return q + height < 0.0; }
-
-/// Takes the alternating mode of MEMM out of the masses next to the wall without touching H~. docs/method.md, Time:
-///     p^{n+3/2} -= e - alpha M v,   alpha = v . e / (v . M v)
-/// over the patch; v = M^-1 p^{n+1/2}, e is the parasitic momentum. The patch rests on the wall, so that rigid parts stay in
-/// e and v. Of one mass it would take nothing.
-class PatchFilter {
-public:
-    PatchFilter(BarChain& chain, int masses) : chain_(chain), masses_(static_cast<std::size_t>(masses)), e_(chain.size()) {}
-
-    void operator()(std::span<const double> q, double dt, std::span<const double> before, std::span<double> after) {
-        const std::vector<double>& inverse_mass = chain_.inverse_mass();
-        if (!touches(q[0]) && !touches(q[0] - dt * inverse_mass[0] * before[0])) return;
-        chain_.force(q, e_);
-        double work = 0.0, square = 0.0;
-        for (std::size_t i = 0; i < masses_; ++i) {
-            e_[i] = after[i] - before[i] - dt * e_[i];
-            work += inverse_mass[i] * before[i] * e_[i];
-            square += inverse_mass[i] * before[i] * before[i];
-        }
-        if (square == 0.0) return;
-        for (std::size_t i = 0; i < masses_; ++i) after[i] -= e_[i] - work / square * before[i];
-    }
-
-private:
-    BarChain& chain_;
-    std::size_t masses_;
-    std::vector<double> e_;
-};
 
 /// What happens at the wall.
 class Impacts : public apps::Watcher {
@@ -230,6 +209,7 @@ Json to_json(const BounceOptions& options, std::int64_t steps) {
     json.update(apps::to_json(options.schemes));
     json["filter"] = options.filter ? "neutral" : "none";
     if (options.filter) json["patch"] = options.patch;
+    json["restart"] = options.restart;
     json["out"] = options.out.string();
     return json;
 }
@@ -241,16 +221,26 @@ void check(const BounceOptions& options) {
             fmt::format("--patch: {} masses, the bar has {}. Give at most that many.", options.patch, options.cells));
 }
 
+/// What of `options` is for MEMM. The remedies must outlive the integrator.
+template <class Integrator>
+void prepare(Integrator& integrator, const BounceOptions& options, dynamics::NeutralFilter<BarHost>& filter,
+             dynamics::NeutralRestart<BarHost>& restart) {
+    if constexpr (Integrator::takes_node_restart) {
+        if (options.filter)
+            integrator.set_after_step([&](auto q, double dt, auto before, auto after) { filter(q, dt, before, after); });
+        if (options.restart > 0)
+            integrator.set_node_restart([&](auto q, double dt, auto before, auto after) { restart(q, dt, before, after); });
+    }
+}
+
 apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, const apps::Start& start,
                            const apps::Schedule& schedule) {
-    BarChain bar = bar_chain({.gap = height, .gravity = options.gravity}, options.cells);
+    BarHost bar({.gap = height, .gravity = options.gravity}, options.cells, options.patch);
+    dynamics::NeutralFilter filter(bar);
+    dynamics::NeutralRestart restart(bar, {.period = std::max(options.restart, 1)});
     Impacts impacts(options.gravity);
-    const bool filtered = options.filter && scheme == apps::Scheme::memm;
     return apps::follow(scheme, bar, start, options.schemes, schedule, impacts,
-                        [&]<class Integrator>(Integrator& integrator) {
-                            if constexpr (Integrator::takes_after_step)
-                                if (filtered) integrator.set_after_step(PatchFilter(bar, options.patch));
-                        });
+                        [&](auto& integrator) { prepare(integrator, options, filter, restart); });
 }
 
 void run_study(const BounceOptions& options) {

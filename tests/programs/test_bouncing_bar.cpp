@@ -77,3 +77,12 @@ TEST_CASE("the filter makes the parasitic mode of the chain smaller and leaves i
     CHECK(figure(filtered, "memm", "parasitic_max") < 0.5 * figure(plain, "memm", "parasitic_max"));
     CHECK(figure(filtered, "memm", "excess_relative") <= figure(plain, "memm", "excess_relative"));
 }
+
+TEST_CASE("restarts take the parasitic mode of the chain out near the stable limit, where the filter leaves most of H - H~",
+          "[programs]") {
+    const std::string bounces = "--integrator memm --cfl 0.9 --steps 200000 --filter neutral";
+    const auto filtered = bar(bounces, "bar_fast"), both = bar(bounces + " --restart 50", "bar_restarted");
+    for (const auto& outcome : {filtered, both}) CHECK(figure(outcome, "memm", "drift_relative") < 1e-12);
+    CHECK(figure(both, "memm", "excess_relative") < 0.5 * figure(filtered, "memm", "excess_relative"));
+    CHECK(figure(both, "memm", "parasitic_max") < figure(filtered, "memm", "parasitic_max"));
+}
