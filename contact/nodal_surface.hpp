@@ -26,8 +26,10 @@ struct NodalFaces {
     std::span<const double> stiffness;
 };
 
-/// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the depths of its faces. A k for each face fails the patch
-/// test where depths vary. docs/method.md, The potential of a pair.
+/// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the given depths of its faces. A k for each face fails the
+/// patch test where depths vary. On graded meshes give the depths of the faces that will touch alone: with those of all faces,
+/// six times deeper far from the contact, the skin is too soft, and the pressure of Hertz off by 13 % (docs/turning.md).
+/// docs/method.md, The potential of a pair. Throws BadInput for a modulus or a sum of depths that is not finite and > 0.
 [[nodiscard]] double skin_stiffness(double p_wave_modulus, std::span<const double> depth);
 
 /// The boundary of a host's bodies, for laws of contact on nodes: flat facets between nodes. A face with four corners is cut in
