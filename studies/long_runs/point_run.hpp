@@ -29,7 +29,7 @@ public:
         const auto p = as_vectors<Dim>(p_at_start);
         for (std::size_t i = 0; i < p.size(); ++i) {
             momentum_scale_ += p[i].norm();
-            spin_scale_ += dynamics::moment<Dim>(host.rest_positions()[i], p[i]).norm();
+            spin_scale_ += moment<Dim>(host.rest_positions()[i], p[i]).norm();
         }
     }
     void record(const Vector<Dim>& momentum, const dynamics::AngularMomentum<Dim>& spin) {
