@@ -12,7 +12,7 @@
 namespace abut::dynamics {
 namespace {
 
-constexpr double rounding = 1e-14;  // |e| over the momenta that it is a difference of: there is nothing to take
+constexpr double rounding = 1e-12;  // |e| over the momenta that it is a difference of: there is nothing to take
 constexpr int most_halvings = 20;
 constexpr double least_scale = 0.25, largest_scale = 1.21;  // of sigma^2
 constexpr double no_inertia = 1e-12;                        // over the largest: points on a line have none about it
