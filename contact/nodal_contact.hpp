@@ -37,7 +37,7 @@ struct NodalStableStep {
 /// size; other schemes take the force at the end of the step.
 ///
 /// A host calls `step` once per step, with its nodes at both ends, and adds the forces to its own. Obstacles are bodies with
-/// infinite stiffness, whose nodes the host places where it wants (`RigidPath` helps). docs/embedding.md walks through it;
+/// infinite stiffness, whose nodes the host places where it wants (`Placement` turns and shifts). docs/embedding.md walks through it;
 /// docs/method.md, The potential of a pair, has the equations.
 ///
 /// Not safe to use from two threads at once; several objects are independent of each other. After an exception the step did

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/rigid_path.hpp"
+#include "abut/contact/nodal_faces.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 

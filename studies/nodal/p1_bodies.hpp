@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/rigid_path.hpp"
+#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/placement.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/mass.hpp"

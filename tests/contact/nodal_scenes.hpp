@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/rigid_path.hpp"
+#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/placement.hpp"
 #include "contact/surfaces.hpp"
 
 namespace abut::test {

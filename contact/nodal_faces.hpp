@@ -10,15 +10,6 @@
 
 namespace abut::contact {
 
-/// Where a rigid body is: a point that is at X at rest is at `turn` X + `offset`.
-template <int Dim>
-struct Placement {
-    Matrix<Dim> turn = Matrix<Dim>::Identity();  ///< a rotation
-    Vector<Dim> offset = Vector<Dim>::Zero();    ///< [m]
-
-    [[nodiscard]] Vector<Dim> operator()(const Vector<Dim>& at_rest) const { return turn * at_rest + offset; }
-};
-
 /// Nodes and faces of many bodies, for a host that has no arrays of its own or appends obstacles to them.
 template <int Dim>
 struct NodalFaceArrays {
