@@ -118,6 +118,8 @@ private:
             throw BadInput("nodal contact: `compression_warning` is " + number(options.compression_warning) +
                            " and `compression_limit` " + number(options.compression_limit) +
                            "; they must be >= 0 and > 0. 0.3 and 2 are the defaults.");
+        options.search.facing_cosine =
+            CandidateOptions{}.facing_cosine;  // 1 would list what is near alone, not what is deep
         return options;
     }
 

@@ -199,6 +199,22 @@ TEMPLATE_TEST_CASE_SIG("evaluate gives W and its gradient where a step ended, an
     CHECK(difference == Approx(-work).epsilon(1e-6));
 }
 
+TEST_CASE("which way faces must look to be listed has no effect", "[contact][nodal]") {
+    const auto scene = two_boxes<2>(3, 4, 0.02);
+    const auto closed = placed<2>(scene, 1, shifted<2>({0.0, -0.15}));
+    std::vector<double> energies;
+    for (const double cosine : {-0.2, 1.0}) {
+        contact::NodalOptions options;
+        options.search.facing_cosine = cosine;
+        options.search.skin = 1e-3;
+        NodalContact<2> contact(scene.surface(), options);
+        contact.step(scene.rest, scene.rest);
+        energies.push_back(contact.step(scene.rest, closed).energy);
+    }
+    CHECK(energies[0] > 0.0);
+    CHECK(energies[0] == energies[1]);
+}
+
 TEST_CASE("input of a host that cannot be used is refused by name", "[contact][nodal]") {
     const auto good = two_boxes<3>(2, 2, 0.1);
     CHECK(message_of(good).empty());
