@@ -78,6 +78,11 @@ public:
     [[nodiscard]] dynamics::ContactCounts contact_counts() const {
         return {contact_.report().active_pairs, contact_.report().events};
     }
+    // MomentSystem, BodySystem
+    [[nodiscard]] dynamics::MomentArms moment_arms() const {
+        return scene_.strain == Strain::small ? dynamics::MomentArms::rest : dynamics::MomentArms::mid_step;
+    }
+    [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return node_body_; }
     // PatchSystem
     /// The nodes of the elements that own active faces; pairs and common nodes join them to one patch.
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const;
