@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "studies/nodal/rows.hpp"
 #include "studies/nodal/scenes.hpp"
 
@@ -25,6 +29,42 @@ void slip(const Impact<Dim>& impact, const ImpactOptions& run, const std::string
     sink(row);
 }
 
+/// The angle of the rotation that is nearest to the motion of a body, about its centre of mass [rad].
+double mean_rotation(const dynamics::RunView<2>& run, const P1Bodies<2>& bodies, std::int32_t body) {
+    const auto u = as_vectors<2>(run.q);
+    double mass = 0.0, sine = 0.0, cosine = 0.0;
+    Vector<2> centre = Vector<2>::Zero(), moved = Vector<2>::Zero();
+    const auto each = [&](const auto& visit) {
+        for (std::size_t i = 0; i < u.size(); ++i)
+            if (bodies.node_body()[i] == body) visit(bodies.masses()[i], bodies.rest_positions()[i], u[i]);
+    };
+    each([&](double m, const Vector<2>& rest, const Vector<2>& shift) {
+        mass += m;
+        centre += m * rest;
+        moved += m * (rest + shift);
+    });
+    each([&](double m, const Vector<2>& rest, const Vector<2>& shift) {
+        const Vector<2> a = rest - centre / mass, b = rest + shift - moved / mass;
+        sine += m * (a[0] * b[1] - a[1] * b[0]);
+        cosine += m * a.dot(b);
+    });
+    return std::atan2(sine, cosine);
+}
+
+void turn_gears(int cells_around_tooth, double turns, const std::string& setting, const Options& options, const Sink& sink) {
+    constexpr double whole = 2.0 * std::numbers::pi;
+    double turned = 0.0, before = 0.0;
+    const Watch<2> watch = [&](const auto& run, const auto& bodies) {
+        const double angle = mean_rotation(run, bodies, 0);
+        turned += std::remainder(angle - before, whole);
+        before = angle;
+    };
+    Row row = row_of<2>(gears(cells_around_tooth, turns), options.impact, setting, options, nullptr, watch);
+    row.quantities.push_back(at_most("turns short of those asked for", std::max(0.0, turns - turned / whole), 0.0));
+    row.quantities.push_back({.name = "turns of the first gear", .unit = "", .value = turned / whole, .reference = turns});
+    sink(row);
+}
+
 }  // namespace
 
 void run_slipping(const Options& options, const Sink& sink) {
@@ -47,7 +87,7 @@ void run_turning(const Options& options, const Sink& sink) {
     const bool quick = options.quick;
     sink(row_of<2>(spinning_discs(quick ? 0.25 : 0.08), options.impact, setting, options));
     sink(row_of<2>(tumbling_block(quick ? 4 : 10), options.impact, setting, options));
-    sink(row_of<2>(gears(quick ? 6 : 10, quick ? 0.1 : 3.0), options.impact, setting, options));
+    turn_gears(quick ? 6 : 10, quick ? 0.1 : 3.0, setting, options, sink);
     sink(row_of<2>(rotor(quick ? 0.25 : 0.08), options.impact, setting, options));
     sink(row_of<3>(spinning_cubes(quick ? 3 : 10), options.impact, setting, options));
     sink(row_of<3>(cube_on_corner(quick ? 3 : 6), options.impact, setting, options));

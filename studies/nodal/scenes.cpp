@@ -101,7 +101,7 @@ Impact<2> tumbling_block(int cells) {
 }
 
 Impact<2> gears(int cells_around_tooth, double turns) {
-    const double spin = 0.06, apart = 2.02;
+    const double spin = 0.06, second_spin = 0.04, apart = 2.02;
     Gear first{.centre = {-0.5 * apart, 0.0}, .cells = cells_around_tooth, .name = "first"};
     Gear second = first;
     second.centre[0] *= -1.0;
@@ -114,7 +114,8 @@ Impact<2> gears(int cells_around_tooth, double turns) {
         impact.motion[static_cast<std::size_t>(body)].centre = centre;
     }
     impact.motion[0].spin[0] = spin;
-    impact.time = turns * 2.0 * std::numbers::pi / (0.5 * spin);  // equal gears share the spin
+    impact.motion[1].spin[0] = -second_spin;
+    impact.time = turns * 2.0 * std::numbers::pi / second_spin;  // they share the spin, and lose some of it to vibration
     impact.is_free = false;
     return impact;
 }

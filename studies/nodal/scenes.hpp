@@ -12,7 +12,7 @@ namespace abut::studies {
 [[nodiscard]] Impact<2> spinning_discs(double size);
 /// A block that turns as it falls on a rigid plane, again and again.
 [[nodiscard]] Impact<2> tumbling_block(int cells);
-/// Two gears on axles; the first one drives the other, which is at rest at first. `turns` of the first.
+/// Two gears on axles; the first one turns faster at first, and drives the other. `turns` of the first.
 [[nodiscard]] Impact<2> gears(int cells_around_tooth, double turns);
 /// A rigid bar on a given path, which turns once and strikes two discs on springs.
 [[nodiscard]] Impact<2> rotor(double size);
