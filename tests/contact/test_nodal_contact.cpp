@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/unseen_edges.hpp"
 #include "contact/nodal_scenes.hpp"
 
 using namespace abut;
@@ -213,6 +214,12 @@ TEST_CASE("which way faces must look to be listed has no effect", "[contact][nod
     }
     CHECK(energies[0] > 0.0);
     CHECK(energies[0] == energies[1]);
+}
+
+TEST_CASE("edges that are too sharp to be seen are told before a run", "[contact][nodal]") {
+    const auto surface = two_boxes<3>(2, 3, 0.02).surface();  // edges of 90 degrees: sin(45 degrees)^2 = 0.5
+    CHECK_FALSE(contact::unseen_edges<3>(surface.facets().view(), -0.33));
+    CHECK(contact::unseen_edges<3>(surface.facets().view(), -0.6)->facing() == Approx(0.5).epsilon(1e-12));
 }
 
 TEST_CASE("input of a host that cannot be used is refused by name", "[contact][nodal]") {
