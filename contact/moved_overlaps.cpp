@@ -1,3 +1,4 @@
+// The part of overlaps.hpp for faces whose vertices have moved.
 #include <array>
 #include <cmath>
 #include <string>
