@@ -6,11 +6,21 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
-#include "abut/dynamics/sparse.hpp"
+#include "abut/dynamics/mass.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
 namespace abut::studies {
 namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+Sparse assembled(std::size_t n, std::span<const dynamics::MatrixEntry> entries) {
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (const auto& [row, column, value] : entries) triplets.emplace_back(row, column, value);
+    Sparse matrix(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+    matrix.setFromTriplets(triplets.begin(), triplets.end());
+    return matrix;
+}
 
 template <int Dim>
 constexpr int most_iterations = Dim == 2 ? 400 : 100;
@@ -121,8 +131,8 @@ public:
         std::vector<dynamics::MatrixEntry> entries = bulk_;
         append_contact_stiffness<Dim>(bodies_, q, entries);
         hold(entries, load_.held);
-        Eigen::SimplicialLDLT<dynamics::Sparse> solver(dynamics::assembled(q.size(), entries));
-        return solver.solve(dynamics::dense(std::span<const double>(force_)));
+        Eigen::SimplicialLDLT<Sparse> solver(assembled(q.size(), entries));
+        return solver.solve(Eigen::Map<const Eigen::VectorXd>(force_.data(), static_cast<Eigen::Index>(force_.size())));
     }
 
 private:
