@@ -9,12 +9,11 @@ bool Admission<Dim>::is_pressed_in(const ContactPair<Dim>& pair, const Vector<Di
 }
 
 template <int Dim>
-auto Admission<Dim>::decide_first(const ContactPair<Dim>& pair, std::span<const Vector<Dim>> u, bool run_begins) const
-    -> First {
+FirstAdmission Admission<Dim>::decide_first(const ContactPair<Dim>& pair, std::span<const Vector<Dim>> u,
+                                            bool run_begins) const {
     const Vector<Dim>&u_1 = u[pair.face_1], &u_2 = u[pair.face_2];
     const bool is_shallow = list_.position(surface_, pair, u_1, u_2).gap > -pair.admission_depth;
-    if (run_begins || !is_pressed_in(pair, u_1, u_2)) return is_shallow ? First::admitted : First::not_admitted;
-    return is_shallow ? First::missed : First::not_admitted;
+    return first_admission(is_shallow, is_pressed_in(pair, u_1, u_2), run_begins);
 }
 
 template <int Dim>

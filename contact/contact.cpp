@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -17,19 +16,12 @@
 #include "abut/contact/path/measures.hpp"
 #include "abut/contact/path/pieces.hpp"
 #include "abut/contact/report_counters.hpp"
+#include "abut/contact/saved_contact.hpp"
 
 namespace abut::contact {
 namespace {
 
 constexpr std::uint32_t state_version = 3;
-
-/// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
-static_assert(sizeof(ContactReport) == 15 * sizeof(double));
-
-template <int Dim>
-std::string state_kind() {
-    return "contact " + std::to_string(Dim) + "D";
-}
 
 }  // namespace
 
@@ -153,31 +145,15 @@ public:
     }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        StateWriter state(state_kind<Dim>(), state_version);
-        state.put(fingerprint(surface_));
-        state.put(static_cast<std::uint8_t>(has_searched_));
-        state.put(candidates_.next_skin());
-        for_each_counter(report_, [&](const auto& counter) { state.put(counter); });
-        store_.save(state);
-        return std::move(state).finish();
+        return saved(state_key(), has_searched_, candidates_.next_skin(), report_, store_);
     }
 
     void restore(std::span<const std::byte> bytes) {
-        StateReader state(bytes, state_kind<Dim>(), state_version);
-        if (state.get<std::uint64_t>() != fingerprint(surface_))
-            throw BadInput(
-                "state of " + state_kind<Dim>() +
-                ": it is of another surface. Restore it into a Contact of the same faces, depths and stiffnesses.");
-        const bool has_searched = state.get<std::uint8_t>() != 0;
-        const double next_skin = state.get<double>();
-        ContactReport report;
-        for_each_counter(report, [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
-        PairStore store = PairStore::restored(state, surface_.size());
-        state.finish();
-        candidates_.restore_skin(next_skin);
-        store_ = std::move(store);
-        report_ = report;
-        has_searched_ = has_searched;
+        SavedContact from = read_saved(state_key(), bytes);
+        candidates_.restore_skin(from.next_skin);
+        store_ = std::move(from.store);
+        report_ = from.report;
+        has_searched_ = from.has_searched;
         list_holds_ = false;
         searched_at_.clear();
         faces_.clear();
@@ -194,6 +170,10 @@ private:
     static const ContactOptions& checked(const ContactOptions& options) {
         check_options(options);
         return options;
+    }
+
+    [[nodiscard]] StateKey state_key() const {
+        return {"contact " + std::to_string(Dim) + "D", state_version, fingerprint(surface_), surface_.size()};
     }
 
     [[nodiscard]] bool is_admitted(std::int32_t pair) const {
@@ -246,10 +226,9 @@ private:
     }
 
     [[nodiscard]] bool is_admitted_at_first(const ContactPair<Dim>& pair, std::span<const Vector<Dim>> u_0) {
-        using First = typename Admission<Dim>::First;
-        const First first = admission_.decide_first(pair, u_0, !has_searched_);
-        if (first == First::missed) ++report_.missed_contacts;
-        return first == First::admitted;
+        const FirstAdmission first = admission_.decide_first(pair, u_0, !has_searched_);
+        if (first == FirstAdmission::missed) ++report_.missed_contacts;
+        return first == FirstAdmission::admitted;
     }
 
     void require_list() const {

@@ -15,12 +15,6 @@
 
 namespace abut::contact {
 
-/// Which force of a step a scheme takes.
-enum class TakenForce {
-    mean,  ///< the exact mean along the straight path: MEMM
-    end,   ///< that at the end of the step: central differences, Bilbao. What opens and closes inside the step is not seen
-};
-
 /// How the gradients of a host answer to corrections of these listed faces; asked after each search.
 template <int Dim>
 using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)>;

@@ -4,29 +4,23 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/base/state_bytes.hpp"
 #include "abut/contact/law/pair_potential.hpp"
 #include "abut/contact/messages.hpp"
 #include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_stable_step.hpp"
 #include "abut/contact/nodal_store.hpp"
 #include "abut/contact/report_counters.hpp"
+#include "abut/contact/saved_contact.hpp"
 
 namespace abut::contact {
 namespace {
 
 constexpr std::uint32_t state_version = 1;
-
-template <int Dim>
-std::string state_kind() {
-    return "nodal contact " + std::to_string(Dim) + "D";
-}
 
 }  // namespace
 
@@ -44,7 +38,6 @@ public:
         check_size(x_0);
         check_size(x_1);
         if (!list_holds_at(x_0) || !list_holds_at(x_1)) search(x_0, x_1);
-        if (pairs_.pairs().empty()) return step_;
         report_.inadmissible_overlaps = law_.apply(surface_, pairs_, store_.memory(), x_0, x_1, take, step_);
         count_step(report_, step_, options_.compression_warning);
         if (step_.report.compression > options_.compression_limit) refuse_depth();
@@ -54,7 +47,7 @@ public:
     const NodalStep<Dim>& evaluate(PointsView<Dim> x) {
         check_size(x);
         if (!list_holds_at(x)) search(x, x);
-        if (!pairs_.pairs().empty()) law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
+        law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
         return step_;
     }
 
@@ -65,31 +58,15 @@ public:
     }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        StateWriter state(state_kind<Dim>(), state_version);
-        state.put(fingerprint(surface_.facets().view()));
-        state.put(static_cast<std::uint8_t>(has_searched_));
-        state.put(candidates_.next_skin());
-        for_each_counter(report_, [&](const auto& counter) { state.put(counter); });
-        store_.save(state);
-        return std::move(state).finish();
+        return saved(state_key(), has_searched_, candidates_.next_skin(), report_, store_);
     }
 
     void restore(std::span<const std::byte> bytes) {
-        StateReader state(bytes, state_kind<Dim>(), state_version);
-        if (state.get<std::uint64_t>() != fingerprint(surface_.facets().view()))
-            throw BadInput(
-                "state of " + state_kind<Dim>() +
-                ": it is of another surface. Restore it into a NodalContact of the same faces, depths and stiffnesses.");
-        const bool has_searched = state.get<std::uint8_t>() != 0;
-        const double next_skin = state.get<double>();
-        ContactReport report;
-        for_each_counter(report, [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
-        PairStore store = PairStore::restored(state, surface_.facets().size());
-        state.finish();
-        candidates_.restore_skin(next_skin);
-        store_ = std::move(store);
-        report_ = report;
-        has_searched_ = has_searched;
+        SavedContact from = read_saved(state_key(), bytes);
+        candidates_.restore_skin(from.next_skin);
+        store_ = std::move(from.store);
+        report_ = from.report;
+        has_searched_ = from.has_searched;
         drop_list();
     }
 
@@ -118,9 +95,14 @@ private:
             throw BadInput("nodal contact: `compression_warning` is " + number(options.compression_warning) +
                            " and `compression_limit` " + number(options.compression_limit) +
                            "; they must be >= 0 and > 0. 0.3 and 2 are the defaults.");
-        options.search.facing_cosine =
-            CandidateOptions{}.facing_cosine;  // 1 would list what is near alone, not what is deep
+        // 1 would list what is near alone, not what is deep
+        options.search.facing_cosine = CandidateOptions{}.facing_cosine;
         return options;
+    }
+
+    [[nodiscard]] StateKey state_key() const {
+        return {"nodal contact " + std::to_string(Dim) + "D", state_version, fingerprint(surface_.facets().view()),
+                surface_.facets().size()};
     }
 
     void check_size(PointsView<Dim> x) const {
@@ -175,10 +157,9 @@ private:
     }
 
     [[nodiscard]] bool is_admitted_at_first(const NodalPair<Dim>& pair, PointsView<Dim> x_0) {
-        using First = typename NodalAdmission<Dim>::First;
-        const First first = NodalAdmission<Dim>::decide_first(pair, x_0, !has_searched_);
-        if (first == First::missed) ++report_.missed_contacts;
-        return first == First::admitted;
+        const FirstAdmission first = decide_first<Dim>(pair, x_0, !has_searched_);
+        if (first == FirstAdmission::missed) ++report_.missed_contacts;
+        return first == FirstAdmission::admitted;
     }
 
     void drop_list() {

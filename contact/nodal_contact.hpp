@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/contact.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/options.hpp"
+#include "abut/contact/report.hpp"
+#include "abut/contact/search/candidate_search.hpp"
 
 namespace abut::contact {
 
@@ -58,7 +60,8 @@ public:
     const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
 
     /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, where
-    /// the last step ended. Counts nothing. Throws Misuse where the candidate list does not hold there.
+    /// the last step ended. No step is counted; searches first where the candidate list does not hold. Throws as `step`, except
+    /// TooDeep.
     const NodalStep<Dim>& evaluate(PointsView<Dim> x);
 
     /// The result of the last of these calls.

@@ -94,17 +94,7 @@ void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface) {
     }
 }
 
-template <int Dim>
-auto NodalAdmission<Dim>::decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, bool run_begins) -> First {
-    const auto state = geometry::pair_state<Dim>(pair.at(x), pair.law);
-    const bool shallow = is_shallow(pair, state);
-    if (run_begins || state.energy == 0.0) return shallow ? First::admitted : First::not_admitted;
-    return shallow ? First::missed : First::not_admitted;
-}
-
 template class NodalPairs<2>;
 template class NodalPairs<3>;
-template struct NodalAdmission<2>;
-template struct NodalAdmission<3>;
 
 }  // namespace abut::contact

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "abut/base/ids.hpp"
+#include "abut/contact/admission.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
@@ -67,21 +68,17 @@ private:
     std::vector<BodyPair> body_pairs_;
 };
 
-/// Whether a pair counts as a contact where it is pressed in, or is the far side of a body. Decided only where W = 0: there,
-/// and only there, the flag may change without a change of energy. docs/method.md, Contact.
+/// Whether a pair may be pressed in from here on, where W = 0: it is no far side of a body. docs/method.md, Contact.
 template <int Dim>
-struct NodalAdmission {
-    enum class First {
-        admitted,
-        not_admitted,
-        missed,  ///< not admitted, though it is so shallow that it must have been a contact before anybody looked
-    };
-    /// Of a pair that was not in the list before. Where W > 0 it is no contact, unless the run only begins.
-    [[nodiscard]] static First decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, bool run_begins);
-    /// Whether it may be pressed in from here on, where W = 0.
-    [[nodiscard]] static bool is_shallow(const NodalPair<Dim>& pair, const geometry::PairState<Dim>& state) {
-        return std::isfinite(state.gap) && state.gap > -pair.admission_depth;
-    }
-};
+[[nodiscard]] bool is_shallow(const NodalPair<Dim>& pair, const geometry::PairState<Dim>& state) {
+    return std::isfinite(state.gap) && state.gap > -pair.admission_depth;
+}
+
+/// Of a pair that was not in the list before.
+template <int Dim>
+[[nodiscard]] FirstAdmission decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, bool run_begins) {
+    const auto state = geometry::pair_state<Dim>(pair.at(x), pair.law);
+    return first_admission(is_shallow(pair, state), state.energy > 0.0, run_begins);
+}
 
 }  // namespace abut::contact

@@ -7,6 +7,12 @@
 
 namespace abut::contact {
 
+/// Which force of a step a scheme takes.
+enum class TakenForce {
+    mean,  ///< the exact mean along the straight path: MEMM
+    end,   ///< that at the end of the step: central differences, Bilbao. What opens and closes inside the step is not seen
+};
+
 /// How the energy gradients of a host's faces answer to corrections: y_f = y_free,f + sum_f' Q_ff' delta_f', among the listed
 /// faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary faces of
 /// its cell, those of cells that share a stabilised interior face with it. Rows of rigid faces may be empty. Q_ff' = d²V/ddelta_f

@@ -70,13 +70,13 @@ void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, Point
     const bool may_rest_on_flag = admitted && at_start.place == PairPlace::unclear;
     if (at_start.place != PairPlace::apart && !may_rest_on_flag) {
         const auto state = geometry::pair_state<Dim>(start, pair.law);
-        outcome.admitted = state.energy == 0.0 && NodalAdmission<Dim>::is_shallow(pair, state);
+        outcome.admitted = state.energy == 0.0 && is_shallow<Dim>(pair, state);
         outcome.inadmissible = state.energy > 0.0;
     }
     if (!outcome.admitted) return;
     take_force(pair, start, end, take, outcome);
     if (may_rest_on_flag && outcome.found.energy_0 == 0.0 &&
-        !NodalAdmission<Dim>::is_shallow(pair, geometry::pair_state<Dim>(start, pair.law)))
+        !is_shallow<Dim>(pair, geometry::pair_state<Dim>(start, pair.law)))
         outcome.admitted = outcome.active = false;
 }
 

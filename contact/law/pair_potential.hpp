@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "abut/contact/contact.hpp"
 #include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
 

@@ -1,0 +1,44 @@
+#include "abut/contact/saved_contact.hpp"
+
+#include <type_traits>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/state_bytes.hpp"
+#include "abut/contact/report_counters.hpp"
+
+namespace abut::contact {
+namespace {
+
+/// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
+static_assert(sizeof(ContactReport) == 15 * sizeof(double));
+
+}  // namespace
+
+std::vector<std::byte> saved(const StateKey& key, bool has_searched, double next_skin, const ContactReport& report,
+                             const PairStore& store) {
+    StateWriter state(key.kind, key.version);
+    state.put(key.fingerprint);
+    state.put(static_cast<std::uint8_t>(has_searched));
+    state.put(next_skin);
+    for_each_counter(report, [&](const auto& counter) { state.put(counter); });
+    store.save(state);
+    return std::move(state).finish();
+}
+
+SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
+    StateReader state(bytes, key.kind, key.version);
+    if (state.get<std::uint64_t>() != key.fingerprint)
+        throw BadInput("state of " + key.kind +
+                       ": it is of another surface. Restore it where the faces, depths and stiffnesses are the same.");
+    SavedContact contact;
+    contact.has_searched = state.get<std::uint8_t>() != 0;
+    contact.next_skin = state.get<double>();
+    for_each_counter(contact.report,
+                     [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
+    contact.store = PairStore::restored(state, key.n_faces);
+    state.finish();
+    return contact;
+}
+
+}  // namespace abut::contact

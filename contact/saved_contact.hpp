@@ -1,0 +1,35 @@
+#pragma once
+// Private to the layer.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "abut/contact/pair_store.hpp"
+#include "abut/contact/report.hpp"
+
+namespace abut::contact {
+
+/// What a state is of, and what it must fit.
+struct StateKey {
+    std::string kind;  ///< "contact 3D"
+    std::uint32_t version;
+    std::uint64_t fingerprint;  ///< of the surface
+    std::int32_t n_faces;
+};
+
+/// What the next steps depend on, whatever the law.
+struct SavedContact {
+    bool has_searched = false;
+    double next_skin = 0.0;  ///< [m]
+    ContactReport report;
+    PairStore store;
+};
+
+[[nodiscard]] std::vector<std::byte> saved(const StateKey& key, bool has_searched, double next_skin,
+                                           const ContactReport& report, const PairStore& store);
+/// Throws BadInput for bytes that are damaged, or of another kind, version or surface.
+[[nodiscard]] SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes);
+
+}  // namespace abut::contact
