@@ -13,9 +13,9 @@ struct FacingWeight {
     double chi;
     double slope;  ///< dchi/dc
 };
-[[nodiscard]] inline FacingWeight facing_weight(double cosine) {
-    constexpr double width = not_facing_cosine - fully_facing_cosine;
-    const double y = std::clamp((not_facing_cosine - cosine) / width, 0.0, 1.0);
+[[nodiscard]] inline FacingWeight facing_weight(double cosine, const FacingFade& fade) {
+    const double width = fade.none - fade.full;
+    const double y = std::clamp((fade.none - cosine) / width, 0.0, 1.0);
     return {y * y * (3.0 - 2.0 * y), -6.0 * y * (1.0 - y) / width};
 }
 
@@ -71,8 +71,8 @@ struct PairView {
 };
 
 template <int Dim>
-[[nodiscard]] PairEnergy<Dim> pair_energy(const PairNormals<Dim>& normals, const PairCorners<Dim>& z, double stiffness,
-                                          bool with_gradient);
+[[nodiscard]] PairEnergy<Dim> pair_energy(const PairNormals<Dim>& normals, const PairCorners<Dim>& z,
+                                          const PairLaw<Dim>& law, bool with_gradient);
 template <int Dim>
 [[nodiscard]] PairView pair_view(const PairNormals<Dim>& normals, const PairCorners<Dim>& z);
 

@@ -81,9 +81,10 @@ PairNormals<2>::PairNormals(const PairCorners<2>& z) : edge{z[1] - z[0], z[3] - 
 }
 
 template <>
-PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z, double stiffness, bool with_gradient) {
+PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z, const PairLaw<2>& law,
+                          bool with_gradient) {
     PairEnergy<2> result;
-    if (normals.facing >= not_facing_cosine) return result;
+    if (normals.facing >= law.facing.none) return result;
     const Strip strip(normals, z);
     const double low = strip.low.xi, high = strip.high.xi;
     if (!(high > low)) return result;
@@ -93,8 +94,8 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
     const double root = low + (high - low) * gap_low / (gap_low - gap_high);  // used where the signs differ
     const double p = gap_low < 0.0 ? low : root, q = gap_high < 0.0 ? high : root, m = 0.5 * (p + q);
     const double g_p = std::min(gap_low, 0.0), g_q = std::min(gap_high, 0.0), g_m = 0.5 * (g_p + g_q);
-    const double energy = stiffness * (q - p) / 12.0 * (g_p * g_p + 4.0 * g_m * g_m + g_q * g_q);
-    const FacingWeight weight = facing_weight(normals.facing);
+    const double energy = law.stiffness * (q - p) / 12.0 * (g_p * g_p + 4.0 * g_m * g_m + g_q * g_q);
+    const FacingWeight weight = facing_weight(normals.facing, law.facing);
     result.energy = weight.chi * energy;
     result.area = q - p;
     result.gap = std::min(g_p, g_q);
@@ -103,12 +104,12 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
     for (int corner = 0; corner < 4; ++corner) {
         const double sign = corner < 2 ? -1.0 : 1.0;
         const double integral =
-            stiffness * (q - p) / 6.0 *
+            law.stiffness * (q - p) / 6.0 *
             (g_p * strip.shape(corner, p) + 4.0 * g_m * strip.shape(corner, m) + g_q * strip.shape(corner, q));
         result.gradient[corner] = weight.chi * sign * integral * Vector<2>(-normals.slope[corner < 2 ? 0 : 1], 1.0);
     }
     const auto add_end = [&](const End& end, double gap, double sign) {
-        const double pull = weight.chi * sign * 0.5 * stiffness * gap * gap;
+        const double pull = weight.chi * sign * 0.5 * law.stiffness * gap * gap;
         result.gradient[end.corner][0] += end.share * pull;
         result.gradient[end.other][0] += (1.0 - end.share) * pull;
     };

@@ -162,9 +162,10 @@ PairNormals<3>::PairNormals(const PairCorners<3>& z) : edge_b{z[1] - z[0], z[4] 
 }
 
 template <>
-PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z, double stiffness, bool with_gradient) {
+PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z, const PairLaw<3>& law,
+                          bool with_gradient) {
     PairEnergy<3> result;
-    if (normals.facing >= not_facing_cosine) return result;
+    if (normals.facing >= law.facing.none) return result;
     const Seen seen(normals, z);
     if (seen.is_apart()) return result;
     PlanePolygon polygon = overlap_in_plane(seen.plane);
@@ -173,15 +174,15 @@ PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z
     if (!has_area(polygon, seen.plane)) return result;
 
     const Moments moments = moments_of(polygon, normals.slope[1] - normals.slope[0]);
-    const double energy = 0.5 * stiffness * moments.gap_squared();
-    const FacingWeight weight = facing_weight(normals.facing);
+    const double energy = 0.5 * law.stiffness * moments.gap_squared();
+    const FacingWeight weight = facing_weight(normals.facing, law.facing);
     result.energy = weight.chi * energy;
     result.area = moments.area;
     for (int i = 0; i < polygon.size; ++i) result.gap = std::min(result.gap, polygon.corner[i].gap);
     if (!with_gradient) return result;
     PlaneGradient plane;
-    add_inside(normals, seen, moments, stiffness, plane);
-    add_edges(polygon, stiffness, seen, plane);
+    add_inside(normals, seen, moments, law.stiffness, plane);
+    add_edges(polygon, law.stiffness, seen, plane);
     result.gradient = in_space(normals, seen, plane, energy, weight);
     return result;
 }

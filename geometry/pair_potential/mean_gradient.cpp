@@ -82,19 +82,29 @@ std::array<double, 8> event_functions(const PairCorners<2>& z) {
 }
 
 /// Roots of straight lines between the ends: they need not be exact, since the correction takes up what is left.
-Cuts cuts_of(const PairPath<2>& path, const PairCorners<2>& z_1, const PairPathOptions& options) {
+Cuts cuts_of(const PairPath<2>& path, const PairLaw<2>&, const PairMeanGradient<2>&) {
     Cuts cuts;
-    if (!options.events) return cuts;
-    const auto at_0 = event_functions(path.z_0), at_1 = event_functions(z_1);
+    const auto at_0 = event_functions(path.z_0), at_1 = event_functions(path.at(1.0));
     for (std::size_t i = 0; i < at_0.size(); ++i) cut_at_root(at_0[i], at_1[i], cuts);
     return cuts;
 }
 
-/// Events in 3D are no roots of short polynomials: long ways are halved instead.
-Cuts cuts_of(const PairPath<3>& path, const PairCorners<3>&, const PairPathOptions& options) {
-    constexpr double long_way = 0.03;  // of the size of the pair
+/// Cuts where the contact begins or ends, by the least gap over the overlap.
+void cut_at_touch(const PairPath<3>& path, const PairLaw<3>& law, const PairMeanGradient<3>& ends, Cuts& cuts) {
+    const bool begins = ends.energy_0 == 0.0;
+    const PairCorners<3> apart = begins ? path.z_0 : path.at(1.0);
+    if (facing_cosine<3>(apart) >= law.facing.none) return;
+    const PairView view = pair_view<3>(PairNormals<3>(apart), apart);
+    if (view.overlap == 0.0) return;
+    cut_at_root(begins ? view.gap : ends.gap_0, begins ? ends.gap_1 : view.gap, cuts);
+}
+
+/// Other events in 3D are no roots of short polynomials: long paths are halved instead.
+Cuts cuts_of(const PairPath<3>& path, const PairLaw<3>& law, const PairMeanGradient<3>& ends) {
+    constexpr double long_path = 0.03;  // of the size of the pair
     Cuts cuts;
-    if (options.events && path.distance > long_way * path.size) cuts.insert(0.5);
+    if ((ends.energy_0 == 0.0) != (ends.energy_1 == 0.0)) cut_at_touch(path, law, ends, cuts);
+    if (path.distance > long_path * path.size) cuts.insert(0.5);
     return cuts;
 }
 
@@ -115,7 +125,7 @@ const GaussRule& rule_of(bool only_translates) {
 
 /// Adds the mean of dW/dz along the path.
 template <int Dim>
-void add_mean(const PairPath<Dim>& path, const Cuts& cuts, const PairNormals<Dim>& normals_0, double stiffness,
+void add_mean(const PairPath<Dim>& path, const Cuts& cuts, const PairNormals<Dim>& normals_0, const PairLaw<Dim>& law,
               PairCorners<Dim>& phi, PairMeanGradient<Dim>& result) {
     const bool only_translates = path.only_translates();
     const GaussRule& rule = rule_of<Dim>(only_translates);
@@ -124,8 +134,8 @@ void add_mean(const PairPath<Dim>& path, const Cuts& cuts, const PairNormals<Dim
         if (length == 0.0) continue;
         for (int k = 0; k < rule.points; ++k) {
             const PairCorners<Dim> z = path.at(begin + rule.at[k] * length);
-            const PairEnergy<Dim> found = only_translates ? pair_energy<Dim>(normals_0, z, stiffness, true)
-                                                          : pair_energy<Dim>(PairNormals<Dim>(z), z, stiffness, true);
+            const PairEnergy<Dim> found = only_translates ? pair_energy<Dim>(normals_0, z, law, true)
+                                                          : pair_energy<Dim>(PairNormals<Dim>(z), z, law, true);
             if (found.energy == 0.0) continue;
             const double weight = rule.weight[k] * length;
             for (std::size_t v = 0; v < phi.size(); ++v) phi[v] += weight * found.gradient[v];
@@ -156,19 +166,19 @@ PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const Pair
                                          const PairPathOptions& options) {
     PairMeanGradient<Dim> result;
     result.gradient.fill(Vector<Dim>::Zero());
-    if (facing_cosine<Dim>(x_0) >= not_facing_cosine && facing_cosine<Dim>(x_1) >= not_facing_cosine) return result;
+    if (facing_cosine<Dim>(x_0) >= law.facing.none && facing_cosine<Dim>(x_1) >= law.facing.none) return result;
     const PairFrame<Dim> start(x_0, law), end(x_1, law);
     const PairNormals<Dim> normals_0(start.z), normals_1(end.z);
-    const PairEnergy<Dim> at_start = pair_energy<Dim>(normals_0, start.z, law.stiffness, false);
-    const PairEnergy<Dim> at_end = pair_energy<Dim>(normals_1, end.z, law.stiffness, false);
+    const PairEnergy<Dim> at_start = pair_energy<Dim>(normals_0, start.z, law, false);
+    const PairEnergy<Dim> at_end = pair_energy<Dim>(normals_1, end.z, law, false);
     result.energy_0 = at_start.energy, result.energy_1 = at_end.energy;
     result.gap_0 = at_start.gap, result.gap_1 = at_end.gap;
 
     const PairPath<Dim> path(start, end);
-    const Cuts cuts = cuts_of(path, end.z, options);
+    const Cuts cuts = options.events ? cuts_of(path, law, result) : Cuts{};
     PairCorners<Dim> phi;
     phi.fill(Vector<Dim>::Zero());
-    add_mean<Dim>(path, cuts, normals_0, law.stiffness, phi, result);
+    add_mean<Dim>(path, cuts, normals_0, law, phi, result);
     if (result.active_share == 0.0 && result.energy_0 == 0.0 && result.energy_1 == 0.0) return result;
     result.events = cuts.pieces - 1;
     result.correction = close_balance<Dim>(path, result.energy_0, result.energy_1, phi);

@@ -26,13 +26,14 @@ std::array<Vector<3>, 2> weighed_normals(const PairCorners<3>& x, const PairLaw<
     return {(x[1] - x[0]).cross(x[2] - x[0]).normalized(), (x[4] - x[3]).cross(x[5] - x[3]).normalized()};
 }
 
-/// From the highest corner of face 1 to the lowest one of face 2 along a direction.
+/// From the highest corner of face 1 to the lowest one of face 2 along a direction, without the digits that a position far
+/// from the origin would cost.
 template <int Dim>
 double clearance(const PairCorners<Dim>& x, const Vector<Dim>& direction) {
-    double highest = direction.dot(x[0]), lowest = direction.dot(x[Dim]);
+    double highest = 0.0, lowest = direction.dot(x[Dim] - x[0]);
     for (int v = 1; v < Dim; ++v) {
-        highest = std::max(highest, direction.dot(x[v]));
-        lowest = std::min(lowest, direction.dot(x[Dim + v]));
+        highest = std::max(highest, direction.dot(x[v] - x[0]));
+        lowest = std::min(lowest, direction.dot(x[Dim + v] - x[0]));
     }
     return lowest - highest;
 }
@@ -87,7 +88,7 @@ template <int Dim>
 PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim>& law, double reach, double depth) {
     PairOutlook<Dim> outlook;
     const double facing = std::clamp(facing_cosine<Dim>(corners), -1.0, 1.0), turn = largest_turn(corners, reach);
-    if (std::acos(facing) + 2.0 * turn < std::acos(not_facing_cosine)) {
+    if (std::acos(facing) + 2.0 * turn < std::acos(law.facing.none)) {
         outlook.may_act = false;
         return outlook;
     }
@@ -117,21 +118,46 @@ PairRest rests(const PairOutlook<Dim>& outlook, const PairCorners<Dim>& corners)
 template <int Dim>
 PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
     const auto normals = weighed_normals(corners, law);
-    PairPlacement<Dim> found{PairPlace::unclear, normals[0].dot(normals[1]), normals[0] - normals[1]};
+    PairPlacement<Dim> found{
+        PairPlace::unclear, normals[0].dot(normals[1]), normals[0] - normals[1], 0.0, Vector<Dim>::Zero(), 0.0};
     if constexpr (Dim == 2) found.facing /= normals[0].norm() * normals[1].norm();
-    if (found.facing >= not_facing_cosine) {
+    if (found.facing >= law.facing.none) {
         found.place = PairPlace::turned_away;
         return found;
     }
     found.normal.normalize();
-    if (clearance<Dim>(corners, found.normal) >= 0.0) {
+    found.above = clearance<Dim>(corners, found.normal);
+    if (found.above >= 0.0) {
         found.place = PairPlace::apart;
         return found;
     }
     const Vector<Dim> between = between_middles<Dim>(corners);
-    const Vector<Dim> aside = between - between.dot(found.normal) * found.normal;
-    if (clearance<Dim>(corners, aside) > 1e-14 * between.squaredNorm()) found.place = PairPlace::beside;
+    found.aside = between - between.dot(found.normal) * found.normal;
+    found.beside = clearance<Dim>(corners, found.aside);
+    if (found.beside > 1e-14 * between.squaredNorm()) found.place = PairPlace::beside;
     return found;
+}
+
+// Clearance along one direction is a concave function along straight paths: what is clear along it at both ends stays so.
+// Points that lie over each other along an n that has turned are apart along `aside` by no more than their height times the
+// cosine between both; twice that at the end allows for n that turns unevenly.
+template <int Dim>
+bool stays_inactive(const PairPlacement<Dim>& at_start, const PairPlacement<Dim>& at_end, const PairCorners<Dim>& end) {
+    if (at_start.place != at_end.place) return false;
+    switch (at_start.place) {
+        case PairPlace::apart:
+            return clearance<Dim>(end, at_start.normal) >= 0.0;
+        case PairPlace::beside: {
+            const double turned = 2.0 * std::abs(at_start.aside.dot(at_end.normal));
+            return std::min(at_start.beside, clearance<Dim>(end, at_start.aside)) >
+                   -turned * std::min(at_start.above, at_end.above);
+        }
+        case PairPlace::turned_away:
+            return true;
+        case PairPlace::unclear:
+            return false;
+    }
+    return false;
 }
 
 template <int Dim>
@@ -142,7 +168,7 @@ PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& l
     if (state.facing > no_normal_cosine) return state;
     const PairFrame<Dim> frame(corners, law);
     const PairNormals<Dim> normals(frame.z);
-    const PairEnergy<Dim> energy = pair_energy<Dim>(normals, frame.z, law.stiffness, false);
+    const PairEnergy<Dim> energy = pair_energy<Dim>(normals, frame.z, law, false);
     const PairView view = pair_view<Dim>(normals, frame.z);
     state.energy = energy.energy;
     state.area = energy.area;
@@ -156,9 +182,9 @@ template <int Dim>
 PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<Dim>& law) {
     PairGradient<Dim> result;
     result.gradient.fill(Vector<Dim>::Zero());
-    if (facing_cosine<Dim>(corners) >= not_facing_cosine) return result;
+    if (facing_cosine<Dim>(corners) >= law.facing.none) return result;
     const PairFrame<Dim> frame(corners, law);
-    const PairEnergy<Dim> energy = pair_energy<Dim>(PairNormals<Dim>(frame.z), frame.z, law.stiffness, true);
+    const PairEnergy<Dim> energy = pair_energy<Dim>(PairNormals<Dim>(frame.z), frame.z, law, true);
     result.energy = energy.energy;
     result.area = energy.area;
     result.gap = energy.gap;
@@ -172,6 +198,8 @@ template PairRest rests(const PairOutlook<2>&, const PairCorners<2>&);
 template PairRest rests(const PairOutlook<3>&, const PairCorners<3>&);
 template PairPlacement<2> pair_placement(const PairCorners<2>&, const PairLaw<2>&);
 template PairPlacement<3> pair_placement(const PairCorners<3>&, const PairLaw<3>&);
+template bool stays_inactive(const PairPlacement<2>&, const PairPlacement<2>&, const PairCorners<2>&);
+template bool stays_inactive(const PairPlacement<3>&, const PairPlacement<3>&, const PairCorners<3>&);
 template PairState<2> pair_state(const PairCorners<2>&, const PairLaw<2>&);
 template PairState<3> pair_state(const PairCorners<3>&, const PairLaw<3>&);
 template PairGradient<2> pair_gradient(const PairCorners<2>&, const PairLaw<2>&);

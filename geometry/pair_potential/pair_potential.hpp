@@ -11,9 +11,12 @@ namespace abut::geometry {
 template <int Dim>
 using PairCorners = std::array<Vector<Dim>, 2 * Dim>;
 
-/// n_1 . n_2 up to which a pair acts with all its stiffness, and from which on not at all; a smooth weight in between.
-inline constexpr double fully_facing_cosine = -0.6;
-inline constexpr double not_facing_cosine = -0.2;
+/// The weight chi of a pair as its faces turn away from each other: 1 up to n_1 . n_2 = `full`, 0 from `none` on, smooth in
+/// between. -1 <= full < none <= 0.
+struct FacingFade {
+    double full = -0.6;
+    double none = -0.2;
+};
 
 /// The contact potential of a pair of faces whose corners move,
 ///
@@ -25,6 +28,7 @@ template <int Dim>
 struct PairLaw {
     double stiffness;                    ///< k [Pa/m]
     std::array<double, 2> length{1, 1};  ///< of the two segments at rest [m]; they weigh the normals in n (2D alone)
+    FacingFade facing{};
 };
 
 /// What a pair is like in one place.
@@ -47,7 +51,7 @@ template <int Dim>
 enum class PairPlace {
     apart,        ///< g >= 0 all over: W = 0
     beside,       ///< no overlap: W = 0
-    turned_away,  ///< n_1 . n_2 >= not_facing_cosine: W = 0
+    turned_away,  ///< n_1 . n_2 >= FacingFade::none: W = 0
     unclear,      ///< none of these is sure
 };
 template <int Dim>
@@ -55,9 +59,17 @@ struct PairPlacement {
     PairPlace place;
     double facing;       ///< n_1 . n_2
     Vector<Dim> normal;  ///< n where the faces look at each other
+    double above;        ///< from the highest corner of face 1 to the lowest one of face 2 along n [m]
+    /// From the middle of face 1 to that of face 2, across n; asked for where they are not apart
+    Vector<Dim> aside;
+    double beside;  ///< as `above`, along `aside`, times its length
 };
 template <int Dim>
 [[nodiscard]] PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
+/// Whether two placements tell that W = 0 all along the straight paths of the corners between them, which end at `end`.
+template <int Dim>
+[[nodiscard]] bool stays_inactive(const PairPlacement<Dim>& at_start, const PairPlacement<Dim>& at_end,
+                                  const PairCorners<Dim>& end);
 
 /// What a pair can do in all positions in which no corner is farther than a reach from where it is now.
 template <int Dim>
@@ -96,8 +108,9 @@ template <int Dim>
 
 /// How the mean along a step is taken.
 struct PairPathOptions {
-    /// Cut the step where faces begin or end to overlap and corners pass through the other face (2D; 3D halves large steps
-    /// instead). Without, the correction takes up more, and the force is less accurate; energy is as exact.
+    /// Cut the step where faces begin or end to overlap and corners pass through the other face (2D), or where the contact
+    /// begins or ends and in the middle of large steps (3D). Without, the correction takes up more, and the force is less
+    /// accurate; energy is as exact.
     bool events = true;
 };
 

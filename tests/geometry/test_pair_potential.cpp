@@ -59,7 +59,8 @@ TEMPLATE_TEST_CASE_SIG("the gradient is that of W, by central differences", "[pa
     int active = 0;
     for (int i = 0; i < 3000; ++i) {
         const PairCorners<Dim> x = random_pair<Dim>(random);
-        const PairLaw<Dim> law = law_of<Dim>(x);
+        PairLaw<Dim> law = law_of<Dim>(x);
+        if (i % 2 == 1) law.facing = {-0.9, -0.05};
         const auto exact = pair_gradient<Dim>(x, law);
         if (exact.energy < 1e-4) continue;
         ++active;
@@ -140,7 +141,7 @@ TEST_CASE("W of two triangles is k/2 times the integral of min(g, 0)^2 by a sum 
         const PairCorners<3> x = random_pair<3>(random);
         const Vector<3> n_1 = (x[1] - x[0]).cross(x[2] - x[0]).normalized(),
                         n_2 = (x[4] - x[3]).cross(x[5] - x[3]).normalized();
-        if (n_1.dot(n_2) > fully_facing_cosine) continue;
+        if (n_1.dot(n_2) > FacingFade{}.full) continue;
         const auto found = pair_gradient<3>(x, {.stiffness = 2.0});
         const Vector<3> n = (n_1 - n_2).normalized(), t = n.unitOrthogonal(), s = n.cross(t);
         constexpr int m = 200;
@@ -204,19 +205,21 @@ TEST_CASE("of faces that lie beside each other the gap is halfway between them",
 
 TEST_CASE("a weight without steps leads from full stiffness to none as faces turn away", "[pair_potential]") {
     // Face 2 of a wedge is turned about the middle of face 1 by an angle, so that n_1 . n_2 = -cos(angle).
+    const FacingFade fade = GENERATE(FacingFade{}, FacingFade{-0.3, -0.05});
+    const PairLaw<2> law{.stiffness = 1.0, .facing = fade};
     double before = std::numeric_limits<double>::infinity(), largest_step = 0.0, first = 0.0;
     for (double angle = 0.0; angle < 2.0; angle += 1e-3) {
         const Vector<2> half = 0.5 * Vector<2>(std::cos(angle), std::sin(angle)), down(0.0, -0.1);
-        const auto state =
-            pair_state<2>({Vector<2>(0.5, 0), Vector<2>(-0.5, 0), down - half, down + half}, {.stiffness = 1.0});
+        const auto state = pair_state<2>({Vector<2>(0.5, 0), Vector<2>(-0.5, 0), down - half, down + half}, law);
         CHECK(state.facing == Approx(-std::cos(angle)).margin(1e-12));
-        if (-std::cos(angle) >= not_facing_cosine) CHECK(state.energy == 0.0);
+        if (-std::cos(angle) >= fade.none) CHECK(state.energy == 0.0);
+        if (-std::cos(angle) < fade.none - 1e-3) CHECK(state.energy > 0.0);
         if (angle == 0.0) first = state.energy;
         if (std::isfinite(before)) raise(largest_step, std::abs(state.energy - before));
         before = state.energy;
     }
     CHECK(first == Approx(0.5 * 0.1 * 0.1).epsilon(1e-12));
-    CHECK(largest_step < 0.02 * first);
+    CHECK(largest_step < 0.01 / (fade.none - fade.full) * first);
 }
 
 TEMPLATE_TEST_CASE_SIG("needles and faces nearly on edge give finite forces", "[pair_potential]", ((int Dim), Dim), 2, 3) {
@@ -277,6 +280,23 @@ TEST_CASE("without its correction a step loses energy, and events make the loss 
     CHECK(without > 3.0 * with_events);
 }
 
+TEST_CASE("triangles that meet or part all at once press by the exact mean over the step", "[pair_potential]") {
+    // The force of a uniform gap is k A min(g, 0); its mean over a step from g_0 > 0 to g_1 < 0 is k A g_1^2/2 / (g_1 - g_0).
+    const double g_0 = GENERATE(1e-3, 0.02, 0.3), g_1 = GENERATE(-1e-3, -0.02, -0.1);
+    const bool parts = GENERATE(false, true);
+    const auto triangles = [](double gap) {
+        return PairCorners<3>{Vector<3>(0, 0, 0),   Vector<3>(1, 0, 0),   Vector<3>(0, 1, 0),
+                              Vector<3>(0, 0, gap), Vector<3>(0, 1, gap), Vector<3>(1, 0, gap)};
+    };
+    const auto found = parts ? pair_mean_gradient<3>(triangles(g_1), triangles(g_0), {.stiffness = 3.0})
+                             : pair_mean_gradient<3>(triangles(g_0), triangles(g_1), {.stiffness = 3.0});
+    const double expected = 3.0 * 0.5 * 0.5 * g_1 * g_1 / (g_1 - g_0);
+    const Vector<3> on_second = found.gradient[3] + found.gradient[4] + found.gradient[5];
+    CHECK(on_second[2] == Approx(expected).epsilon(1e-12));
+    CHECK(on_second.head<2>().norm() < 1e-12 * std::abs(expected));
+    CHECK(found.correction < 1e-12 * std::abs(expected));
+}
+
 TEST_CASE("sizes of 1e-9 and 1e9 change nothing but the unit", "[pair_potential]") {
     std::mt19937 random(9);
     double worst = 0.0;
@@ -317,6 +337,27 @@ TEMPLATE_TEST_CASE_SIG("a pair that is apart, beside or turned away at a glance 
     }
     for (const int count : seen) CHECK(count > 100);
     CHECK(unclear_without_energy < seen[static_cast<std::size_t>(PairPlace::unclear)]);
+}
+
+TEMPLATE_TEST_CASE_SIG("a pair that is told to stay inactive along a step has no force in it", "[pair_potential]",
+                       ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(12);
+    int told = 0, moved_past = 0;
+    for (int i = 0; i < 40000; ++i) {
+        PairCorners<Dim> x_0 = random_pair<Dim>(random);
+        const Vector<Dim> by = random_vector<Dim>(random, 1.5);
+        for (int v = 0; v < Dim; ++v) x_0[v] += by;
+        const PairCorners<Dim> x_1 = moved_on<Dim>(x_0, random, 0.3, i % 2 == 0 ? 0.05 : 0.6);
+        const PairLaw<Dim> law = law_of<Dim>(x_0);
+        const auto at_start = pair_placement<Dim>(x_0, law), at_end = pair_placement<Dim>(x_1, law);
+        const bool inactive = stays_inactive<Dim>(at_start, at_end, x_1);
+        const auto found = pair_mean_gradient<Dim>(x_0, x_1, law);
+        if (inactive) ++told;
+        if (!inactive && at_start.place != PairPlace::unclear && at_end.place != PairPlace::unclear) ++moved_past;
+        if (inactive) REQUIRE(found.active_share == 0.0);
+    }
+    CHECK(told > 1000);
+    CHECK(moved_past > 100);
 }
 
 TEMPLATE_TEST_CASE_SIG("an outlook holds wherever the corners go within reach", "[pair_potential]", ((int Dim), Dim), 2, 3) {
