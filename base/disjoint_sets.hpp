@@ -1,5 +1,4 @@
 #pragma once
-// Private to the sources of the layers.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

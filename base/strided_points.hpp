@@ -1,11 +1,12 @@
 #pragma once
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
+#include "abut/base/error.hpp"
 #include "abut/base/vector.hpp"
 
 namespace abut {
@@ -19,10 +20,12 @@ public:
     /// Strides count doubles, and may be negative.
     StridedPoints(Double* data, std::int32_t size, std::ptrdiff_t item, std::ptrdiff_t component)
         : data_(data), size_(size), item_(item), component_(component) {}
-    /// Packed (n, Dim).
+    /// Packed (n, Dim). Throws BadInput for a size that is no multiple of Dim.
     StridedPoints(std::span<Double> values)  // implicit: a view
         : StridedPoints(values.data(), static_cast<std::int32_t>(values.size() / Dim), Dim, 1) {
-        assert(values.size() % Dim == 0);
+        if (values.size() % Dim != 0)
+            throw BadInput(std::to_string(values.size()) + " numbers are no points of " + std::to_string(Dim) +
+                           " components; give " + std::to_string(Dim) + " for each point.");
     }
     template <class V>
     StridedPoints(std::span<V> points) requires(std::is_same_v<std::remove_const_t<V>, Vector<Dim>>)  // implicit: a view

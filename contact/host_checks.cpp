@@ -117,26 +117,29 @@ private:
     }
 };
 
+[[noreturn]] void refuse_option(const std::string& what, double value) {
+    throw BadInput("contact options: " + what, {.value = value});
+}
+
 }  // namespace
 
 void check_options(const ContactOptions& options) {
-    const auto refuse = [](const std::string& what, double value) {
-        throw BadInput("contact options: " + what, {.value = value});
-    };
     if (options.quadrature < 0 || options.quadrature > 3)
-        refuse("quadrature is " + std::to_string(options.quadrature) +
-                   "; it must be 1, 2 or 3 points (0: as many as exactness needs).",
-               options.quadrature);
+        refuse_option("quadrature is " + std::to_string(options.quadrature) +
+                          "; it must be 1, 2 or 3 points (0: as many as exactness needs).",
+                      options.quadrature);
     if (!(options.search.facing_cosine < 0.0))
-        refuse("facing_cosine is " + number(options.search.facing_cosine) +
-                   "; contact needs one between -1 and 0. -0.2 is the default.",
-               options.search.facing_cosine);
-    if (!(options.compression_warning > 0.0))
-        refuse("compression_warning is " + number(options.compression_warning) + "; it must be > 0. 0.3 is the default.",
-               options.compression_warning);
-    if (!(options.compression_limit > 0.0))
-        refuse("compression_limit is " + number(options.compression_limit) + "; it must be > 0. 2 is the default.",
-               options.compression_limit);
+        refuse_option("facing_cosine is " + number(options.search.facing_cosine) +
+                          "; contact needs one between -1 and 0. -0.2 is the default.",
+                      options.search.facing_cosine);
+    check_compression(options.compression_warning, options.compression_limit);
+}
+
+void check_compression(double warning, double limit) {
+    if (!(warning > 0.0))
+        refuse_option("compression_warning is " + number(warning) + "; it must be > 0. 0.3 is the default.", warning);
+    if (!(limit > 0.0))
+        refuse_option("compression_limit is " + number(limit) + "; it must be > 0. 2 is the default.", limit);
 }
 
 template <int Dim>

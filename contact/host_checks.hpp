@@ -9,6 +9,7 @@ namespace abut::contact {
 
 /// Checks of a host's input. All throw BadInput; `check_path` throws Diverged where a value is not finite.
 void check_options(const ContactOptions& options);
+void check_compression(double warning, double limit);
 /// An array that should have one entry per listed face.
 void check_listed(std::size_t size, std::size_t n_faces);
 /// A coupling that is no second derivative of an energy would give a wrong force, or none. Linear in the number of blocks,

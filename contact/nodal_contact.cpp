@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/pair_potential.hpp"
 #include "abut/contact/messages.hpp"
 #include "abut/contact/nodal_pairs.hpp"
@@ -22,6 +23,11 @@ namespace {
 
 constexpr std::uint32_t state_version = 1;
 
+/// n_1 . n_2 where the weight y^2 (3 - 2 y) is a quarter: y = 1/2 - sin(10 degrees).
+double quarter_weight_cosine(const geometry::FacingFade& facing) {
+    return facing.none - 0.32635182233306964 * (facing.none - facing.full);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -31,6 +37,7 @@ public:
         : surface_(std::move(surface)),
           options_(checked(std::move(options))),
           candidates_(surface_.facets().view(), options_.search),
+          pairs_(options_.facing),
           law_(options_.events) {}
     Implementation(const Implementation&) = delete;  // the search has a view of the surface
 
@@ -46,8 +53,12 @@ public:
 
     const NodalStep<Dim>& evaluate(PointsView<Dim> x) {
         check_size(x);
-        if (!list_holds_at(x)) search(x, x);
-        law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
+        if (list_holds_at(x) || !has_searched_) {
+            if (!list_holds_) search(x, x);  // the run begins here
+            law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
+        } else {
+            evaluate_elsewhere(x);
+        }
         return step_;
     }
 
@@ -55,6 +66,10 @@ public:
 
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const {
         return estimate_stable_step(surface_, mass, omega_free);
+    }
+
+    [[nodiscard]] std::optional<EdgePair<Dim>> unseen_edges() const {
+        return contact::unseen_edges<Dim>(surface_.facets().view(), quarter_weight_cosine(options_.facing));
     }
 
     [[nodiscard]] std::vector<std::byte> state() const {
@@ -91,10 +106,13 @@ private:
             throw BadInput(
                 "nodal contact: faces of one body do not touch each other; leave `self_contact` off, or number the "
                 "parts of a body that may touch as bodies.");
-        if (!(options.compression_warning >= 0.0) || !(options.compression_limit > 0.0))
-            throw BadInput("nodal contact: `compression_warning` is " + number(options.compression_warning) +
-                           " and `compression_limit` " + number(options.compression_limit) +
-                           "; they must be >= 0 and > 0. 0.3 and 2 are the defaults.");
+        check_compression(options.compression_warning, options.compression_limit);
+        const geometry::FacingFade& facing = options.facing;
+        if (!(facing.full >= -1.0 && facing.full < facing.none && facing.none <= 0.0))
+            throw BadInput("nodal contact: pairs fade out from n_1 . n_2 = " + number(facing.full) + " to " +
+                           number(facing.none) +
+                           "; -1 <= facing.full < facing.none <= 0 is needed. -0.6 and -0.2 are the "
+                           "defaults.");
         // 1 would list what is near alone, not what is deep
         options.search.facing_cosine = CandidateOptions{}.facing_cosine;
         return options;
@@ -123,14 +141,15 @@ private:
 
     void search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
         if (!std::exchange(list_holds_, false)) pairs_.assign(surface_, store_.pairs());
-        candidates_.search_moved(x_0, x_1);
+        search_candidates(x_0, x_1);
         found_.clear();
         for (const auto& [facet_1, facet_2] : candidates_.candidates())
             if (const FacePair pair{SurfaceFace{facet_1}, SurfaceFace{facet_2}}; is_wanted(pair)) found_.push_back(pair);
-        keep_contacts(x_0);
+        list_contacts(x_0);
+        found_.insert(found_.end(), in_contact_.begin(), in_contact_.end());
         sort_unique(found_);
 
-        pairs_.assign(surface_, found_, x_0, x_1, 0.5 * candidates_.skin(), options_.compression_limit);
+        pairs_.assign(surface_, found_, in_contact_, x_0, x_1, 0.5 * candidates_.skin(), options_.compression_limit);
         store_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(pairs_.pairs()[i], x_0)}; });
         searched_at_.clear();
         for (const std::int32_t node : surface_.nodes()) searched_at_.push_back(x_0[node]);
@@ -142,17 +161,41 @@ private:
         report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
     }
 
+    /// By a list of its own, of which nothing is left but its result: a pair that is out of reach at x must not lose what it
+    /// remembers.
+    void evaluate_elsewhere(PointsView<Dim> x) {
+        const PairStore store = store_;
+        const ContactReport report = report_;
+        const double next_skin = candidates_.next_skin();
+        const auto take_back = [&] {
+            list_holds_ = false;
+            store_ = store;
+            report_ = report;
+            candidates_.restore_skin(next_skin);
+        };
+        try {
+            search(x, x);
+            law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
+        } catch (...) {
+            take_back();
+            throw;
+        }
+        take_back();
+    }
+
     [[nodiscard]] bool is_wanted(const FacePair& pair) const {
         return !options_.wanted ||
                options_.wanted(surface_.face_of(number_of(pair.face_1)), surface_.face_of(number_of(pair.face_2)));
     }
 
-    /// A pair in contact stays in the list however deep it is.
-    void keep_contacts(PointsView<Dim> x_0) {
+    /// Pairs in contact stay in the list however deep they are.
+    void list_contacts(PointsView<Dim> x_0) {
+        in_contact_.clear();
         for (std::size_t p = 0; p < pairs_.pairs().size(); ++p) {
             const NodalPair<Dim>& pair = pairs_.pairs()[p];
-            if (store_.memory()[p].admitted && geometry::pair_state<Dim>(pair.at(x_0), pair.law).energy > 0.0)
-                found_.push_back(store_.pairs()[p]);
+            if (store_.memory()[p].admitted && is_wanted(store_.pairs()[p]) &&
+                geometry::pair_state<Dim>(pair.at(x_0), pair.law).energy > 0.0)
+                in_contact_.push_back(store_.pairs()[p]);
         }
     }
 
@@ -178,6 +221,23 @@ private:
         return face_name(surface_.facets().view(), facet, number_of(face));
     }
 
+    /// The search knows facets, the host its faces.
+    void search_candidates(PointsView<Dim> x_0, PointsView<Dim> x_1) {
+        try {
+            candidates_.search_moved(x_0, x_1);
+        } catch (const Diverged& error) {
+            ErrorFacts facts = error.facts();
+            const auto facet = static_cast<std::int32_t>(facts.face_1);
+            const SurfaceFace face = surface_.face_of(facet);
+            const std::string of_facet = face_name(surface_.facets().view(), facet);
+            std::string text = error.what();
+            if (const auto at = text.find(of_facet); at != std::string::npos)
+                text.replace(at, of_facet.size(), name_of(face));
+            facts.face_1 = number_of(face);
+            throw Diverged(text, facts);
+        }
+    }
+
     NodalSurface<Dim> surface_;
     NodalOptions options_;
     CandidateSearch<Dim> candidates_;
@@ -188,7 +248,8 @@ private:
     PairPotential<Dim> law_;
     NodalStep<Dim> step_;
     ContactReport report_;
-    std::vector<FacePair> found_;           // work array of `search`
+    std::vector<FacePair> found_;  // work arrays of `search`
+    std::vector<FacePair> in_contact_;
     std::vector<Vector<Dim>> searched_at_;  // nodes of the surface where the last search began
 };
 
@@ -217,6 +278,10 @@ const NodalStep<Dim>& NodalContact<Dim>::last() const {
 template <int Dim>
 NodalStableStep NodalContact<Dim>::stable_step(std::span<const double> mass, double omega_free) const {
     return implementation_->stable_step(mass, omega_free);
+}
+template <int Dim>
+std::optional<EdgePair<Dim>> NodalContact<Dim>::unseen_edges() const {
+    return implementation_->unseen_edges();
 }
 template <int Dim>
 std::vector<std::byte> NodalContact<Dim>::state() const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,11 +13,16 @@
 #include "abut/contact/options.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/unseen_edges.hpp"
+#include "abut/geometry/pair_potential/pair_potential.hpp"
 
 namespace abut::contact {
 
 struct NodalOptions {
-    CandidateOptions search;           ///< `facing_cosine` has no effect: the law itself fades out as faces turn away
+    CandidateOptions search;  ///< `facing_cosine` has no effect: see `facing`
+    /// How pairs fade out as faces turn away from each other. A `none` nearer to 0 lets sharper edges meet that cross, and
+    /// faces around a corner act that look past the other body.
+    geometry::FacingFade facing;
     bool events = true;                ///< follow what begins and ends inside a step (geometry::PairPathOptions)
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
@@ -43,7 +49,7 @@ struct NodalStableStep {
 /// docs/method.md, The potential of a pair, has the equations.
 ///
 /// Not safe to use from two threads at once; several objects are independent of each other. After an exception the step did
-/// not happen (its counters may have seen it).
+/// not happen (counters may have seen it, and `last` holds nothing of use).
 template <int Dim>
 class NodalContact {
 public:
@@ -59,9 +65,9 @@ public:
     /// a search that takes more than its limits allow.
     const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
 
-    /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, where
-    /// the last step ended. No step is counted; searches first where the candidate list does not hold. Throws as `step`, except
-    /// TooDeep.
+    /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, at any
+    /// x. Changes nothing that the next steps depend on; only before the first step the run begins at x. Cheap where the
+    /// candidate list holds, as where the last step ended; it searches for each call elsewhere. Throws as `step`, except TooDeep.
     const NodalStep<Dim>& evaluate(PointsView<Dim> x);
 
     /// The result of the last of these calls.
@@ -70,6 +76,11 @@ public:
     /// `mass`: of each node (n_nodes) [kg]; `omega_free`: the highest frequency of the host without contact [rad/s]. Throws
     /// BadInput for a mass of a node of a deformable face that is not > 0, or a frequency that is not >= 0.
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
+
+    /// Bodies whose sharpest edges have less than a quarter of the weight of flat sides where they cross (`NodalOptions::facing`;
+    /// by default edges of 70 degrees and less): they press in deeper than others, or go through each other until a step is
+    /// refused. Nothing in 2D. To be asked once, where positions are those at rest.
+    [[nodiscard]] std::optional<EdgePair<Dim>> unseen_edges() const;
 
     /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After `restore`
     /// of an object made for the same surface with the same options the next steps have the same bits. Throws BadInput, and

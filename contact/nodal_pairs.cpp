@@ -9,27 +9,21 @@
 namespace abut::contact {
 namespace {
 
-/// Springs in series; a rigid body has none of its own.
-double in_series(double k_1, double k_2) {
-    constexpr double rigid = std::numeric_limits<double>::infinity();
-    if (k_1 == rigid) return k_2;
-    if (k_2 == rigid) return k_1;
-    return k_1 * k_2 / (k_1 + k_2);
-}
-
 double admission_depth(double stiffness, double depth) {
     return stiffness == std::numeric_limits<double>::infinity() ? 0.0 : depth;
 }
 
 template <int Dim>
-NodalPair<Dim> make_pair(const Surface<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
+NodalPair<Dim> make_pair(const Surface<Dim>& facets, const FacePair& of_facets, const geometry::FacingFade& facing) {
+    const std::int32_t facet_1 = number_of(of_facets.face_1), facet_2 = number_of(of_facets.face_2);
     NodalPair<Dim> pair{.facet_1 = facet_1, .facet_2 = facet_2};
     for (int v = 0; v < Dim; ++v) {
         pair.node[v] = facets.face_vertices[Dim * facet_1 + v];
         pair.node[Dim + v] = facets.face_vertices[Dim * facet_2 + v];
     }
     const double k_1 = facets.stiffness[facet_1], k_2 = facets.stiffness[facet_2];
-    pair.law.stiffness = in_series(k_1, k_2);
+    pair.law.stiffness = series_stiffness(k_1, k_2);
+    pair.law.facing = facing;
     if constexpr (Dim == 2) pair.law.length = {facets.area[facet_1], facets.area[facet_2]};
     pair.admission_depth =
         admission_depth(k_1, facets.cell_depth[facet_1]) + admission_depth(k_2, facets.cell_depth[facet_2]);
@@ -47,17 +41,20 @@ std::int32_t index_in(const std::vector<T>& sorted, const T& value) {
 }  // namespace
 
 template <int Dim>
-void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets, PointsView<Dim> x_0,
-                             PointsView<Dim> x_1, double reach, double compression) {
+void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets,
+                             std::span<const FacePair> in_contact, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
+                             double compression) {
     pairs_.clear();
     std::erase_if(facets, [&](const FacePair& of_facets) {
-        NodalPair<Dim> pair = make_pair(surface.facets(), number_of(of_facets.face_1), number_of(of_facets.face_2));
+        NodalPair<Dim> pair = make_pair(surface.facets(), of_facets, facing_);
         const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
         double farthest = reach;
         for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
         pair.outlook = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression * pair.admission_depth);
-        if (pair.outlook.may_act) pairs_.push_back(pair);
-        return !pair.outlook.may_act;
+        const bool stays = pair.outlook.may_act || std::ranges::binary_search(in_contact, of_facets);
+        if (!pair.outlook.may_act) pair.outlook = {};  // it says nothing of pairs that are deeper
+        if (stays) pairs_.push_back(pair);
+        return !stays;
     });
     index(surface);
 }
@@ -65,8 +62,7 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FaceP
 template <int Dim>
 void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets) {
     pairs_.clear();
-    for (const auto& [facet_1, facet_2] : facets)
-        pairs_.push_back(make_pair(surface.facets(), number_of(facet_1), number_of(facet_2)));
+    for (const FacePair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
     index(surface);
 }
 

@@ -47,10 +47,13 @@ struct BodyPair {
 template <int Dim>
 class NodalPairs {
 public:
+    explicit NodalPairs(const geometry::FacingFade& facing) : facing_(facing) {}
+
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out of
-    /// `facets` what cannot act there, whatever is admitted with |g| up to `compression` D: boxes know nothing of how faces lie to each other.
-    void assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                double reach, double compression);
+    /// `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know nothing
+    /// of how faces lie to each other.
+    void assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets, std::span<const FacePair> in_contact,
+                PointsView<Dim> x_0, PointsView<Dim> x_1, double reach, double compression);
     /// Pairs without an outlook: of a list that does not hold.
     void assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
@@ -62,6 +65,7 @@ private:
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
     void index(const NodalSurface<Dim>& surface);
 
+    geometry::FacingFade facing_;
     std::vector<NodalPair<Dim>> pairs_;
     std::vector<std::int32_t> nodes_;
     std::vector<std::int32_t> bodies_;

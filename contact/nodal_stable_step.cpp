@@ -27,8 +27,7 @@ double worst_stiffness(const NodalSurface<Dim>& surface, std::int32_t body) {
     double partner = 0.0;
     for (std::int32_t other = 0; other < surface.n_bodies(); ++other)
         if (other != body) partner = std::max(partner, surface.stiffness(other));
-    if (partner == std::numeric_limits<double>::infinity()) return surface.stiffness(body);
-    return surface.stiffness(body) * partner / (surface.stiffness(body) + partner);
+    return partner == 0.0 ? 0.0 : series_stiffness(surface.stiffness(body), partner);
 }
 
 template <int Dim>
@@ -43,7 +42,7 @@ std::vector<Raise> raises(const NodalSurface<Dim>& surface, std::span<const doub
     std::vector<Raise> of_body(stiffness.size());
     for (std::size_t i = 0; i < facets.face_vertices.size(); ++i) {
         const std::int32_t body = facets.body[i / Dim], node = facets.face_vertices[i];
-        if (stiffness[body] == 0.0) continue;
+        if (surface.is_rigid(body)) continue;
         if (!(mass[node] > 0.0))
             throw BadInput("nodal contact: node " + std::to_string(node) + " of body " + std::to_string(body) +
                                " has the mass " + number(mass[node]) + " kg; it must be > 0 where a face is deformable.",

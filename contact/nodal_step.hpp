@@ -45,10 +45,11 @@ struct NodalStep {
     StepReport report;
 
     [[nodiscard]] bool is_active() const { return !pairs.empty(); }
-    /// Adds the forces of the step to those of a host, one per node (n_nodes) [N].
+    /// Adds the forces of the step to those of a host, one per node [N]. `force` may end before the nodes do: a host that has
+    /// appended the nodes of obstacles to its own gets the forces on its own alone, `bodies` has those on the obstacles.
     void add_force_to(PointsSpan<Dim> force) const {
         if (!is_active()) return;
-        for (std::size_t i = 0; i < nodes.size(); ++i) force.add(nodes[i], -gradient[i]);
+        for (std::size_t i = 0; i < nodes.size() && nodes[i] < force.size(); ++i) force.add(nodes[i], -gradient[i]);
     }
 };
 

@@ -43,6 +43,13 @@ std::vector<std::int32_t> new_facets(const NodalSurface<Dim>& before, const Noda
     return new_of_old;
 }
 
+/// Bodies may have become one, or rigid.
+template <int Dim>
+bool may_touch(const NodalSurface<Dim>& surface, std::int32_t facet_1, std::int32_t facet_2) {
+    const std::int32_t body_1 = surface.facets().body[facet_1], body_2 = surface.facets().body[facet_2];
+    return body_1 != body_2 && !(surface.is_rigid(body_1) && surface.is_rigid(body_2));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -53,7 +60,8 @@ PairStore carried_over(const PairStore& store, const NodalSurface<Dim>& before, 
     for (std::size_t p = 0; p < store.pairs().size(); ++p) {
         const auto [a, b] = store.pairs()[p];
         const auto [facet_1, facet_2] = std::minmax({new_of_old[number_of(a)], new_of_old[number_of(b)]});
-        if (facet_1 != gone) known.push_back({{SurfaceFace{facet_1}, SurfaceFace{facet_2}}, store.memory()[p]});
+        if (facet_1 != gone && may_touch(after, facet_1, facet_2))
+            known.push_back({{SurfaceFace{facet_1}, SurfaceFace{facet_2}}, store.memory()[p]});
     }
     std::ranges::sort(known, {}, &std::pair<FacePair, PairMemory>::first);
     std::vector<FacePair> pairs;

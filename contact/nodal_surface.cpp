@@ -41,6 +41,11 @@ public:
                              " are needed for " + std::to_string(n) + " faces. Give `offsets` where faces differ."
                        : "`offsets` has " + std::to_string(faces.offsets.size()) + " entries, " + std::to_string(n + 1) +
                              " are needed: one per face, and one more.");
+        if (!faces.offsets.empty() &&
+            (faces.offsets.front() != 0 || static_cast<std::size_t>(faces.offsets.back()) != faces.nodes.size()))
+            refuse("`offsets` goes from " + std::to_string(faces.offsets.front()) + " to " +
+                   std::to_string(faces.offsets.back()) + "; it must rise from 0 to the size of `nodes`, " +
+                   std::to_string(faces.nodes.size()) + ".");
     }
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(faces_.body.size()); }
@@ -95,12 +100,29 @@ private:
 /// The corners of a facet, as indices into those of its face.
 using Facet = std::array<std::size_t, 3>;
 
-/// Two triangles of a face with four corners, along the shorter diagonal; the first one of equals.
-template <int Dim>
-std::array<Facet, 2> halves(PointsView<Dim> rest, std::span<const std::int32_t> corners) {
+using Halves = std::array<Facet, 2>;
+
+/// Whether two triangles look the same way.
+bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halves& halves) {
+    std::array<Vector<3>, 2> normal;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Vector<3> start = rest[corners[halves[i][0]]];
+        normal[i] = moment<3>(rest[corners[halves[i][1]]] - start, rest[corners[halves[i][2]]] - start);
+    }
+    return normal[0].dot(normal[1]) > 0.0;
+}
+
+/// Two triangles of a face with four corners, along the shorter diagonal, the first one of equals; of a concave face along that
+/// inside.
+Halves halves_of(PointsView<3> rest, std::int32_t face, std::span<const std::int32_t> corners) {
+    Halves shorter{Facet{0, 1, 2}, Facet{0, 2, 3}}, longer{Facet{0, 1, 3}, Facet{1, 2, 3}};
     const double first = (rest[corners[2]] - rest[corners[0]]).norm(), second = (rest[corners[3]] - rest[corners[1]]).norm();
-    if (first <= second * (1.0 + 1e-12)) return {Facet{0, 1, 2}, Facet{0, 2, 3}};
-    return {Facet{0, 1, 3}, Facet{1, 2, 3}};
+    if (first > second * (1.0 + 1e-12)) std::swap(shorter, longer);
+    if (agree(rest, corners, shorter)) return shorter;
+    if (agree(rest, corners, longer)) return longer;
+    refuse_face(face,
+                "has edges that cross, or halves that look opposite ways along both diagonals. Put its corners in order, "
+                "or cut it into triangles.");
 }
 
 }  // namespace
@@ -115,6 +137,12 @@ double skin_stiffness(double p_wave_modulus, std::span<const double> depth) {
         refuse("the depths of the faces of a body add up to " + number(sum) + " m; give one > 0 for each face.",
                {.value = sum});
     return p_wave_modulus * static_cast<double>(depth.size()) / sum;
+}
+
+double series_stiffness(double k_1, double k_2) {
+    if (k_1 == rigid) return k_2;
+    if (k_2 == rigid) return k_1;
+    return k_1 * k_2 / (k_1 + k_2);
 }
 
 template <int Dim>
@@ -140,7 +168,8 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
         };
         if (corners.size() == Dim) append({0, 1, 2});
         if (corners.size() != Dim)
-            for (const Facet& half : halves(rest, corners)) append(half);
+            if constexpr (Dim == 3)
+                for (const Facet& half : halves_of(rest, face, corners)) append(half);
         facet_offsets_.push_back(static_cast<std::int32_t>(face_of_.size()));
     }
     sort_unique(nodes_);
@@ -166,6 +195,26 @@ void NodalSurface<Dim>::append_facet(std::int32_t face, std::span<const std::int
 template <int Dim>
 bool NodalSurface<Dim>::is_rigid(std::int32_t body) const {
     return stiffness(body) == rigid;
+}
+
+template <int Dim>
+std::vector<std::int32_t> NodalSurface<Dim>::inward_bodies() const {
+    const auto n = static_cast<std::size_t>(n_bodies());
+    std::vector<Vector<Dim>> opening(n, Vector<Dim>::Zero()), origin(n);  // 0 where the faces of a body close it
+    std::vector<double> area(n, 0.0), content(n, 0.0);
+    for (std::int32_t facet = 0; facet < facets_.size(); ++facet) {
+        const auto body = static_cast<std::size_t>(facets_.body[facet]);
+        if (area[body] == 0.0) origin[body] = facets_.centroid[facet];
+        const Vector<Dim> face = facets_.area[facet] * facets_.normal[facet];
+        opening[body] += face;
+        area[body] += facets_.area[facet];
+        content[body] += face.dot(facets_.centroid[facet] - origin[body]);
+    }
+    std::vector<std::int32_t> inward;
+    for (std::size_t body = 0; body < n; ++body)
+        if (content[body] < 0.0 && opening[body].norm() <= 1e-9 * area[body])
+            inward.push_back(static_cast<std::int32_t>(body));
+    return inward;
 }
 
 template class NodalSurface<2>;

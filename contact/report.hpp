@@ -15,11 +15,11 @@ struct ContactReport {
     std::int64_t inadmissible_overlaps = 0;  ///< pairs of the current list with A > 0 and g < 0 that are no contacts
     std::int64_t compressed_steps = 0;       ///< steps with |g|/D above the warning
     double compression_max = 0.0;            ///< largest |g|/D
-    double sliding_ratio_max = 0.0;          ///< largest |g| |dA/ds| over the smaller face of a pair
-    std::int64_t slipped_pairs = 0;          ///< slid off each other while pressed in, all steps (StepReport)
-    double slipped_compression_max = 0.0;    ///< their largest |g|/D
-    std::int64_t tilted_pairs_max = 0;       ///< the most in a step (StepReport)
-    double correction_max = 0.0;             ///< of the pair potential, the largest of a step (StepReport)
+    double sliding_ratio_max = 0.0;        ///< largest |g| |dA/ds| over the smaller face of a pair (not on nodes, as below)
+    std::int64_t slipped_pairs = 0;        ///< slid off each other while pressed in, all steps (StepReport)
+    double slipped_compression_max = 0.0;  ///< their largest |g|/D
+    std::int64_t tilted_pairs_max = 0;     ///< the most in a step (StepReport)
+    double correction_max = 0.0;           ///< of the pair potential, the largest of a step (StepReport)
 };
 
 }  // namespace abut::contact

@@ -55,8 +55,8 @@ struct PairStep {
 struct StepReport {
     std::int64_t events = 0;            ///< of all pairs
     double compression = 0.0;           ///< largest |g|/D of an active pair at the ends of the step
-    std::int32_t most_compressed = -1;  ///< which pair it is, in `ContactStep::pairs`; -1: none
-    /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over
+    std::int32_t most_compressed = -1;  ///< which pair it is, in `pairs` of the step; -1: none
+    /// Of the modified reconstruction, like the next two (0 on nodes): largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over
     /// that which the whole face would carry.
     double sliding_ratio = 0.0;
     /// Pairs whose faces slid off each other in this step while pressed in, and neither of which (except for faces of

@@ -59,11 +59,11 @@ void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, Point
     // Where nothing can act before the next step it is enough to decide then.
     const PairRest rest = geometry::rests<Dim>(pair.outlook, start);
     if (rest == PairRest::apart) outcome.admitted = true;
-    if (rest != PairRest::no && geometry::rests<Dim>(pair.outlook, end) != PairRest::no) return;
+    if (rest != PairRest::no && geometry::rests<Dim>(pair.outlook, end) == rest) return;
     const auto at_start = geometry::pair_placement<Dim>(start, pair.law);
     const auto at_end = geometry::pair_placement<Dim>(end, pair.law);
     if (at_start.place == PairPlace::apart) outcome.admitted = true;
-    if (at_start.place != PairPlace::unclear && at_end.place != PairPlace::unclear) return;
+    if (geometry::stays_inactive<Dim>(at_start, at_end, end)) return;
 
     outcome.facing = std::max(at_start.facing, at_end.facing);
     outcome.normal = at_start.normal + at_end.normal;
@@ -88,9 +88,11 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
         found = geometry::pair_mean_gradient<Dim>(start, end, pair.law, {.events = events_});
     } else {
         const auto at_end = geometry::pair_gradient<Dim>(end, pair.law);
+        const auto at_start = geometry::pair_state<Dim>(start, pair.law);
         found = {};
-        found.energy_0 = geometry::pair_state<Dim>(start, pair.law).energy;
+        found.energy_0 = at_start.energy;
         found.energy_1 = at_end.energy;
+        found.gap_0 = at_start.energy > 0.0 ? at_start.gap : 0.0;
         found.gap_1 = at_end.gap;
         found.gradient = at_end.gradient;
         found.area = at_end.area;

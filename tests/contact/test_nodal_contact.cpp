@@ -40,13 +40,17 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEMPLATE_TEST_CASE_SIG("the far side of a thin body is no contact, and no force comes from it", "[contact][nodal]",
                        ((int Dim), Dim), 2, 3) {
-    // A plate as thick as 0.3 over a block: its upper side faces nothing, its lower one the block; the block's bottom would
-    // face the plate's top if depth did not count.
+    // Two plates, 0.06 thick, with D = 0.04: the bottom of the lower one and the top of the upper one look away from each
+    // other, 0.13 apart, and would be pressed in by that much if depth did not count.
     NodalScene<Dim> scene;
-    append_box<Dim>(scene, Vector<Dim>::Zero(), Vector<Dim>::Ones() - 0.7 * up<Dim>(), counts<Dim>(2), 3.0, 0.05);
-    append_box<Dim>(scene, 0.31 * up<Dim>(), Vector<Dim>::Ones() - 0.4 * up<Dim>(), counts<Dim>(3), 3.0, 0.05);
-    NodalContact<Dim> contact(scene.surface());
+    append_box<Dim>(scene, Vector<Dim>::Zero(), Vector<Dim>::Ones() - 0.94 * up<Dim>(), counts<Dim>(2), 3.0, 0.02);
+    append_box<Dim>(scene, 0.07 * up<Dim>(), Vector<Dim>::Ones() - 0.87 * up<Dim>(), counts<Dim>(3), 3.0, 0.02);
+    contact::NodalOptions options;
+    options.search.skin = 0.2;
+    options.compression_limit = 5.0;  // pairs up to 0.2 deep are listed
+    NodalContact<Dim> contact(scene.surface(), options);
     CHECK_FALSE(contact.step(scene.rest, scene.rest).is_active());
+    REQUIRE(contact.report().inadmissible_overlaps > 0);  // they are listed
     const auto closed = placed<Dim>(scene, 1, shifted<Dim>(-0.02 * up<Dim>()));
     const NodalStep<Dim>& step = contact.step(scene.rest, closed);
     REQUIRE(step.is_active());
@@ -130,7 +134,7 @@ TEMPLATE_TEST_CASE_SIG("faces that erode take their pairs along, and the others 
     CHECK(contact.report().missed_contacts == 0);
 
     old_face_of[0] = old_face_of[1];
-    CHECK_THROWS_AS(contact.surface_replaced(scene.surface(), old_face_of), BadInput);
+    CHECK_THROWS_AS(contact.surface_replaced(eroded.surface(), old_face_of), BadInput);
     CHECK(contact.step(x, x).pairs.size() == expected);  // as it was
 }
 
@@ -226,9 +230,15 @@ TEST_CASE("which way faces must look to be listed has no effect", "[contact][nod
 }
 
 TEST_CASE("edges that are too sharp to be seen are told before a run", "[contact][nodal]") {
-    const auto surface = two_boxes<3>(2, 3, 0.02).surface();  // edges of 90 degrees: sin(45 degrees)^2 = 0.5
-    CHECK_FALSE(contact::unseen_edges<3>(surface.facets().view(), -0.33));
-    CHECK(contact::unseen_edges<3>(surface.facets().view(), -0.6)->facing() == Approx(0.5).epsilon(1e-12));
+    const auto scene = two_boxes<3>(2, 3, 0.02);  // edges of 90 degrees: sin(45 degrees)^2 = 0.5
+    CHECK_FALSE(NodalContact<3>(scene.surface()).unseen_edges());
+    contact::NodalOptions options;
+    options.facing = {.full = -0.9, .none = -0.45};  // a quarter of the weight at -0.597
+    const auto unseen = NodalContact<3>(scene.surface(), options).unseen_edges();
+    REQUIRE(unseen);
+    CHECK(unseen->facing() == Approx(0.5).epsilon(1e-12));
+    options.facing = {.full = -0.9, .none = -0.3};  // at -0.496
+    CHECK_FALSE(NodalContact<3>(scene.surface(), options).unseen_edges());
 }
 
 TEST_CASE("input of a host that cannot be used is refused by name", "[contact][nodal]") {
@@ -261,6 +271,9 @@ TEST_CASE("input of a host that cannot be used is refused by name", "[contact][n
     options = {};
     options.compression_limit = 0.0;
     CHECK(has(message_of(good, options), "compression_limit"));
+    options = {};
+    options.facing = {.full = -0.2, .none = -0.6};
+    CHECK(has(message_of(good, options), "facing.full"));
     CHECK_THROWS_AS(contact::skin_stiffness(-1.0, std::vector{1.0}), BadInput);
     CHECK_THROWS_AS(contact::skin_stiffness(1.0, std::vector<double>{}), BadInput);
     CHECK(contact::skin_stiffness(6.0, std::vector{1.0, 2.0}) == Approx(4.0));
