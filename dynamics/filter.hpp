@@ -9,7 +9,7 @@
 
 namespace abut::dynamics {
 
-/// What an obstacle or a prescribed boundary takes from a patch: it does not let this place move along this direction.
+/// An obstacle or a prescribed boundary does not let this position of a patch move along this direction.
 template <int Dim>
 struct Hold {
     Vector<Dim> position;   ///< of the kind of the system's `moment_arms`: at rest, or in the middle of the last step [m]

@@ -159,10 +159,13 @@ detail::BodyPoints detail::points_of_bodies(std::span<const std::int32_t> body_o
 }
 
 void detail::check_restart(const RestartOptions& options) {
-    if (options.period < 1 || options.steps_before < 0)
-        throw BadInput("restart: every " + std::to_string(options.period) + " steps, after " +
-                           std::to_string(options.steps_before) + " of them; periods from 1 and steps from 0 are allowed.",
+    if (options.period < 1)
+        throw BadInput("restart: every " + std::to_string(options.period) + " steps; give 1 or more, 50 is the default.",
                        {.value = static_cast<double>(options.period), .allowed = 1.0});
+    if (options.steps_before < 0)
+        throw BadInput("restart: " + std::to_string(options.steps_before) +
+                           " steps were taken before; give the steps of the saved run, 0 for a new one.",
+                       {.value = static_cast<double>(options.steps_before), .allowed = 0.0});
 }
 
 template <int Dim>

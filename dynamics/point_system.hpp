@@ -22,8 +22,9 @@ using AngularMomentum = AxialVector<Dim>;
 template <int Dim>
 inline constexpr int n_rotations = AxialVector<Dim>::RowsAtCompileTime;
 
-/// The positions about which the mean forces of a step have no moment together: they decide which angular momentum MEMM
-/// conserves where nothing acts from outside, and so which one a filter and a restart must leave as it is.
+/// The positions about which the mean forces inside a body have no moment together: they decide which angular momentum a
+/// filter and a restart leave as it is. MEMM conserves it where contact has no moment about these positions either: under
+/// `rest` while nothing touches, under `mid_step` always (contact::NodalContact).
 enum class MomentArms {
     rest,      ///< X, as under linear strain, where a rotation moves points along straight lines: sum X × p
     mid_step,  ///< the mean of x^n and x^{n+1}, as where bodies turn: J~, see `pseudo_angular_momentum`

@@ -83,6 +83,13 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
         fmt::format("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out));
     add_corners<Dim>(counts, result.blind_corners);
     add_edges<Dim>(counts, result.unseen_edges, result.options.contact.search.facing_cosine);
+    if (const auto& options = result.options; options.restart > 0 && options.interval % options.restart == 0)
+        counts.warnings.push_back(
+            {WarningKind::hidden_mode, Severity::warning,
+             fmt::format("with --interval {} and --restart {} every record comes right after a restart: H - H~ and |e|/m "
+                         "before it are not seen. Take an --interval that shares no factor with --restart, such as {}",
+                         options.interval, options.restart, options.interval + 1),
+             static_cast<double>(options.interval), static_cast<double>(options.restart)});
     return std::move(counts.warnings);
 }
 

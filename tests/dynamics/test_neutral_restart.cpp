@@ -331,8 +331,8 @@ TEST_CASE("restarts come every so many steps, and a saved run goes on counting",
 TEST_CASE("a restart refuses periods below 1, steps below 0 and points without a body", "[dynamics][restart][errors]") {
     Row<2> row = two_bodies<2>(MomentArms::rest);
     const auto make = [&](dynamics::RestartOptions options) { dynamics::NeutralRestart(row, options); };
-    CHECK_THROWS_WITH(make({.period = 0}), Catch::Matchers::Contains("periods from 1"));
-    CHECK_THROWS_WITH(make({.steps_before = -1}), Catch::Matchers::Contains("steps from 0"));
+    CHECK_THROWS_WITH(make({.period = 0}), Catch::Matchers::Contains("every 0 steps; give 1 or more"));
+    CHECK_THROWS_WITH(make({.steps_before = -1}), Catch::Matchers::Contains("-1 steps were taken before"));
     row.bodies[3] = -1;
     CHECK_THROWS_WITH(make({}), Catch::Matchers::Contains("-1"));
     row.bodies.pop_back();

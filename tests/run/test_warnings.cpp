@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <tuple>
 
 #include "abut/run/simulation.hpp"
 #include "run/scenes.hpp"
@@ -105,4 +106,20 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     CHECK(warnings.back().text.find("0.5, 0.25") != std::string::npos);
     CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices,
                                                              WarningKind::extrapolated_faces, WarningKind::blind_corners});
+}
+
+TEST_CASE("records that all come right after a restart are told of", "[run][warnings]") {
+    run::Scene<2> scene;
+    run::RunResult<2> result;
+    for (const auto& [interval, restart, hidden] :
+         {std::tuple{100, 50, true}, {50, 50, true}, {101, 50, false}, {10, 50, false}, {50, 0, false}}) {
+        result.options.interval = interval;
+        result.options.restart = restart;
+        const auto warnings = run::warnings_before(scene, result);
+        REQUIRE(warnings.size() == (hidden ? 1 : 0));
+        if (!hidden) continue;
+        CHECK(warnings[0].kind == WarningKind::hidden_mode);
+        CHECK(warnings[0].value == interval);
+        CHECK(warnings[0].threshold == restart);
+    }
 }
