@@ -274,7 +274,7 @@ nlohmann::json time_steps(int repetitions, double size) {
         host.mean_force(q, q, 0.0, 1e-3, f);
         if (near)
             for (std::size_t i = 0; i < host.masses().size(); ++i)
-                if (host.node_body()[i] == 1) q[Dim * i] = -0.01;
+                if (host.body_of_points()[i] == 1) q[Dim * i] = -0.01;
         const auto times =
             benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
                                     {[&] { host.mean_force(q, q, 0.0, 1e-3, f); },

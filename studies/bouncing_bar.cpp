@@ -74,9 +74,6 @@ void add_options(CLI::App& app, BounceOptions& options) {
     apps::add_interval_option(app, options.interval);
 }
 
-/// Whether the lowest mass, displaced by q, presses on the wall.
-bool touches(double q) { return q + height < 0.0; }
-
 /// What happens at the wall.
 class Impacts : public apps::Watcher {
 public:
@@ -85,7 +82,7 @@ public:
     void look(const apps::Node& node) override {
         double momentum = 0.0;
         for (std::size_t i = 0; i < node.q.size(); ++i) momentum += node.momentum(i);
-        const bool pressed = touches(node.q[0]);
+        const bool pressed = node.q[0] + height < 0.0;  // the lowest mass on the wall
         if (node.time > time_) step(node.time - time_, momentum, pressed);
         time_ = node.time;
         momentum_ = momentum;
@@ -239,8 +236,15 @@ apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, co
     dynamics::NeutralFilter filter(bar);
     dynamics::NeutralRestart restart(bar, {.period = std::max(options.restart, 1)});
     Impacts impacts(options.gravity);
-    return apps::follow(scheme, bar, start, options.schemes, schedule, impacts,
-                        [&](auto& integrator) { prepare(integrator, options, filter, restart); });
+    apps::SchemeRun run = apps::follow(scheme, bar, start, options.schemes, schedule, impacts,
+                                       [&](auto& integrator) { prepare(integrator, options, filter, restart); });
+    const auto& [restarts, shortened, skipped, paid] = restart.report();
+    if (restarts > 0)
+        run.findings.insert(run.findings.end(), {{"restarts", "neutral restarts", restarts},
+                                                 {"restarts_shortened", "of these shortened", shortened},
+                                                 {"restarts_skipped", "of these skipped", skipped},
+                                                 {"restart_paid", "restarts: paid by the vibration [J]", paid}});
+    return run;
 }
 
 void run_study(const BounceOptions& options) {

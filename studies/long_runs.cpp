@@ -71,7 +71,7 @@ Outcome run_solid(const run::Scene<2>& scene, run::RunOptions options, const Rem
         static_cast<void>(run::simulate<2>(scene, options, recorder));
     } catch (const Error& error) {
         if (!recorder.figures) throw;
-        end = fmt::format("ends after step {}", recorder.figures->outcome().steps);
+        end = fmt::format("ends after step {}: {}", recorder.figures->outcome().steps, error.what());
     }
     Outcome outcome = recorder.figures->outcome();
     outcome.seconds = time.seconds();

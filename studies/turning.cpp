@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include "abut/base/error.hpp"
 #include "abut/run/folder_lock.hpp"
 #include "apps/support/choices.hpp"
 #include "studies/nodal/rows.hpp"
@@ -49,6 +50,9 @@ void add_options(CLI::App& app, Options& options) {
     app.add_flag("--filter", options.impact.filter, "take the alternating mode of memm out of what touches")
         ->default_str("off")
         ->group("Time");
+    apps::add_count(app, "--restart", options.impact.restart, "steps of memm from one neutral restart to the next; 0: none",
+                    0)
+        ->group("Time");
     apps::add_number(app, "--cfl", options.impact.cfl, "time step over the advised one", {.above = 0.0})->group("Time");
     app.add_option("--steps", options.long_steps, "of the long runs")
         ->check(CLI::PositiveNumber)
@@ -63,6 +67,10 @@ void add_options(CLI::App& app, Options& options) {
 }
 
 void run(const Options& options) {
+    if (options.impact.scheme == Scheme::leapfrog && (options.impact.filter || options.impact.restart > 0))
+        throw BadInput(
+            "--scheme leapfrog: filter and restart are made for memm, which has the mode they take out. Leave "
+            "--filter and --restart out.");
     const run::FolderLock lock(options.out, program.name);
     std::vector<Row> rows;
     for (const Part& part : parts()) {

@@ -1,15 +1,18 @@
 #include "studies/long_runs/rattle.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <utility>
+
+#include "abut/base/disjoint_sets.hpp"
 
 namespace abut::studies::long_runs {
 namespace {
 
-constexpr double stiffness = 100.0;  // of all springs [N/m]; the masses are 1 kg
-constexpr double reach = 0.6;        // of a contact, more than the points of the ring are apart [m]
-constexpr int n_ring = 24;           // points on each of two circles
+constexpr double stiffness = 100.0;         // of all springs [N/m]; the masses are 1 kg
+constexpr double interaction_radius = 0.6;  // of a contact, more than the points of the ring are apart [m]
+constexpr int n_ring = 24;                  // points on each of two circles
 constexpr double inner_radius = 2.0, outer_radius = 2.4;
 
 Vector<2> on_circle(double radius, double turns) {
@@ -51,7 +54,8 @@ Rattle::Parts Rattle::make() {
                 parts.bonds.push_back({a, b, {.stiffness = stiffness, .length = r.norm()}, r});
             else if (!same && parts.rest[static_cast<std::size_t>(a)].norm() > 0.8 &&
                      parts.rest[static_cast<std::size_t>(b)].norm() < 0.5 * (inner_radius + outer_radius))
-                parts.contacts.push_back({a, b, {.stiffness = stiffness, .length = reach, .one_sided = true}, r});
+                parts.contacts.push_back(
+                    {a, b, {.stiffness = stiffness, .length = interaction_radius, .one_sided = true}, r});
         }
     return parts;
 }
@@ -99,7 +103,7 @@ double Rattle::highest_frequency() const {
 bool Rattle::is_closed(const dynamics::Bond<Strut>& contact, std::span<const double> q) const {
     const auto u = as_vectors<2>(q);
     return (u[static_cast<std::size_t>(contact.second)] - u[static_cast<std::size_t>(contact.first)] + contact.offset)
-               .norm() < reach;
+               .norm() < interaction_radius;
 }
 
 void Rattle::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
@@ -114,24 +118,19 @@ void Rattle::mean_force(std::span<const double> q_0, std::span<const double> q_1
 }
 
 std::vector<dynamics::ContactPatch<2>> Rattle::contact_patches() const {
-    constexpr std::int32_t none = -1;
-    std::vector<std::int32_t> patch_of(rest_.size(), none);
-    for (const std::int32_t mine : touching_) {  // a patch has the number of one of its contacts
-        const auto& contact = contacts_[static_cast<std::size_t>(mine)];
+    DisjointSets joined(rest_.size());
+    for (const std::int32_t index : touching_) {
+        const auto& contact = contacts_[static_cast<std::size_t>(index)];
         for (const std::int32_t end : {contact.first, contact.second})
-            for (const std::int32_t point : neighbours_[static_cast<std::size_t>(end)]) {
-                const std::int32_t other = std::exchange(patch_of[static_cast<std::size_t>(point)], mine);
-                if (other != none) std::ranges::replace(patch_of, other, mine);
-            }
+            for (const std::int32_t point : neighbours_[static_cast<std::size_t>(end)]) joined.join(contact.first, point);
     }
-    std::vector<dynamics::ContactPatch<2>> patches;
-    for (const std::int32_t number : touching_) {
-        dynamics::ContactPatch<2> patch;
-        for (std::size_t i = 0; i < patch_of.size(); ++i)
-            if (patch_of[i] == number) patch.points.push_back(static_cast<std::int32_t>(i));
-        if (!patch.points.empty()) patches.push_back(std::move(patch));
-    }
-    return patches;
+    std::map<std::int32_t, dynamics::ContactPatch<2>> patches;  // by their first point
+    for (const std::int32_t index : touching_) patches[joined.find(contacts_[static_cast<std::size_t>(index)].first)];
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(rest_.size()); ++i)
+        if (const auto patch = patches.find(joined.find(i)); patch != patches.end()) patch->second.points.push_back(i);
+    std::vector<dynamics::ContactPatch<2>> result;
+    for (auto& [first, patch] : patches) result.push_back(std::move(patch));
+    return result;
 }
 
 void Rattle::end_force_on(std::span<const std::int32_t> points, std::span<const double> q, std::span<Vector<2>> on_points) {

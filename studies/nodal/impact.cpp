@@ -1,33 +1,28 @@
 #include "studies/nodal/impact.hpp"
 
-#include <Eigen/Geometry>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
 #include "studies/nodal/impact_files.hpp"
 
 namespace abut::studies {
 namespace {
 
 template <int Dim>
-AxialVector<Dim> cross(const Vector<Dim>& a, const Vector<Dim>& b) {
-    if constexpr (Dim == 2)
-        return AxialVector<2>(a[0] * b[1] - a[1] * b[0]);
-    else
-        return a.cross(b);
-}
-
-template <int Dim>
 std::vector<double> momenta(const Impact<Dim>& impact, const P1Bodies<Dim>& bodies) {
     std::vector<double> p(bodies.size());
     for (std::size_t i = 0; i < bodies.masses().size(); ++i) {
-        const auto& motion = impact.motion[static_cast<std::size_t>(bodies.node_body()[i])];
+        const auto& motion = impact.motion[static_cast<std::size_t>(bodies.body_of_points()[i])];
         as_vectors<Dim>(std::span<double>(p))[i] = bodies.masses()[i] * motion.at(bodies.rest_positions()[i]);
     }
     return p;
@@ -41,13 +36,23 @@ double size_of(std::span<const double> p) {
     return sum;
 }
 
+/// Sum of |x × p| [kg m^2/s].
+template <int Dim>
+double moment_size(const dynamics::RunView<Dim>& run, const P1Bodies<Dim>& bodies) {
+    const auto u = as_vectors<Dim>(run.q);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i)
+        sum += moment<Dim>(bodies.rest_positions()[i] + u[i], run.momentum(static_cast<std::ptrdiff_t>(i))).norm();
+    return sum;
+}
+
 template <int Dim>
 std::vector<Vector<Dim>> velocities(const dynamics::RunView<Dim>& run, const P1Bodies<Dim>& bodies) {
     const auto n = static_cast<std::size_t>(bodies.mesh().n_bodies());
     std::vector<Vector<Dim>> velocity(n, Vector<Dim>::Zero());
     std::vector<double> mass(n, 0.0);
     for (std::size_t i = 0; i < bodies.masses().size(); ++i) {
-        const auto body = static_cast<std::size_t>(bodies.node_body()[i]);
+        const auto body = static_cast<std::size_t>(bodies.body_of_points()[i]);
         velocity[body] += run.momentum(static_cast<std::ptrdiff_t>(i));
         mass[body] += bodies.masses()[i];
     }
@@ -103,15 +108,16 @@ private:
     template <class Integrator>
     void record(Integrator& scheme) {
         const auto entry = dynamics::measure(scheme, bodies_);
-        const auto turning = turning_momentum<Dim>(scheme, scheme.dt(), bodies_);
+        const AxialVector<Dim> turning =
+            dynamics::pseudo_angular_momentum<Dim>(scheme, scheme.dt(), bodies_.rest_positions(), bodies_.masses());
         if (ledger_.entries().empty()) {
-            turning_0_ = turning.value;
-            turning_scale_ = turning.size;
+            turning_0_ = turning;
+            turning_scale_ = moment_size<Dim>(scheme, bodies_);
             momentum_scale_ = 0.5 * (size_of<Dim>(scheme.p_before()) + size_of<Dim>(scheme.p_after()));
         }
-        turning_drift_ = std::max(turning_drift_, (turning.value - turning_0_).norm());
+        turning_drift_ = std::max(turning_drift_, (turning - turning_0_).norm());
         ledger_.record(entry);
-        if (files_) files_->record(entry, turning.value);
+        if (files_) files_->record(entry, turning);
     }
 
     const ImpactOptions& options_;
@@ -133,7 +139,7 @@ void follow(Integrator& scheme, Account<Dim>& account, std::int64_t steps, const
         }
         figures.is_complete = goes_on;
         if (!goes_on) figures.ending = "H - H~ grows beyond all measure";
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         figures.ending = error.what();
     }
     figures.steps = scheme.steps();
@@ -143,24 +149,7 @@ void follow(Integrator& scheme, Account<Dim>& account, std::int64_t steps, const
 
 template <int Dim>
 Vector<Dim> RigidMotion<Dim>::at(const Vector<Dim>& x) const {
-    const Vector<Dim> arm = x - centre;
-    if constexpr (Dim == 2)
-        return velocity + spin[0] * Vector<2>(-arm[1], arm[0]);
-    else
-        return velocity + spin.cross(arm);
-}
-
-template <int Dim>
-TurningMomentum<Dim> turning_momentum(const dynamics::RunView<Dim>& run, double dt, const P1Bodies<Dim>& bodies) {
-    TurningMomentum<Dim> sum{AxialVector<Dim>::Zero(), 0.0};
-    const auto before = as_vectors<Dim>(run.p_before), after = as_vectors<Dim>(run.p_after), u = as_vectors<Dim>(run.q);
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        const Vector<Dim> x = bodies.rest_positions()[i] + u[i];
-        const AxialVector<Dim> node = cross<Dim>(x, 0.5 * (before[i] + after[i]));
-        sum.value += node - 0.25 * dt / bodies.masses()[i] * cross<Dim>(before[i], after[i]);
-        sum.size += node.norm();
-    }
-    return sum;
+    return velocity + dynamics::turning_velocity<Dim>(spin, x - centre);
 }
 
 template <int Dim>
@@ -172,10 +161,18 @@ ImpactResult<Dim> run_impact(const Impact<Dim>& impact, const ImpactOptions& opt
     figures.dt = options.cfl * bodies.stable_step().dt;
     auto steps = static_cast<std::int64_t>(std::ceil(impact.time / figures.dt));
     if (options.steps > 0) steps = std::min(steps, options.steps);
+    if (const auto edges = bodies.contact().unseen_edges())
+        figures.unseen_edges =
+            fmt::format("edges of bodies {} and {} may go through each other where they cross: n_1 . n_2 = {:.2f}",
+                        edges->edge_1.body, edges->edge_2.body, -edges->facing());
     Account<Dim> account(impact, options, bodies, steps);
     const auto run = [&](auto& scheme) {
         dynamics::NeutralFilter<P1Bodies<Dim>> filter(bodies);
         if (options.filter) scheme.set_after_step(filter);
+        dynamics::NeutralRestart<P1Bodies<Dim>> restart(bodies, {.period = std::max(1, options.restart)});
+        if constexpr (std::remove_reference_t<decltype(scheme)>::takes_node_restart)
+            if (options.restart > 0)
+                scheme.set_node_restart([&](auto q, double dt, auto before, auto after) { restart(q, dt, before, after); });
         follow<Dim>(scheme, account, steps, watch, figures);
         result.velocity = velocities<Dim>(scheme, bodies);
         result.q.assign(scheme.q().begin(), scheme.q().end());
@@ -192,10 +189,9 @@ ImpactResult<Dim> run_impact(const Impact<Dim>& impact, const ImpactOptions& opt
     return result;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                \
-    template struct RigidMotion<Dim>;                                                                        \
-    template ImpactResult<Dim> run_impact<Dim>(const Impact<Dim>&, const ImpactOptions&, const Watch<Dim>&); \
-    template TurningMomentum<Dim> turning_momentum<Dim>(const dynamics::RunView<Dim>&, double, const P1Bodies<Dim>&);
+#define ABUT_INSTANTIATE(Dim)         \
+    template struct RigidMotion<Dim>; \
+    template ImpactResult<Dim> run_impact<Dim>(const Impact<Dim>&, const ImpactOptions&, const Watch<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -32,7 +32,8 @@ enum class Scheme { memm, leapfrog };
 
 struct ImpactOptions {
     Scheme scheme = Scheme::memm;
-    bool filter = false;
+    bool filter = false;         ///< the neutral one
+    int restart = 0;             ///< steps from one neutral restart to the next; 0: none
     double cfl = 1.0;            ///< dt over the advised step
     std::int64_t steps = 0;      ///< at most so many; 0: until the end of the scene
     int records = 1500;          ///< of energies, equally far apart
@@ -60,7 +61,8 @@ struct ImpactFigures {
     std::int64_t events = 0;
     std::int64_t pair_steps = 0;
     bool is_complete = false;
-    std::string ending;  ///< why it is not
+    std::string ending;        ///< why it is not
+    std::string unseen_edges;  ///< of bodies that may go through each other; empty: none
     double seconds = 0.0;
 
     [[nodiscard]] bool held() const { return is_complete && excess < 1.0; }
@@ -82,16 +84,5 @@ using Watch = std::function<void(const dynamics::RunView<Dim>& run, P1Bodies<Dim
 template <int Dim>
 [[nodiscard]] ImpactResult<Dim> run_impact(const Impact<Dim>& impact, const ImpactOptions& options,
                                            const Watch<Dim>& watch = {});
-
-/// J~ = sum x × p - dt/4 sum v^{n-1/2} × p^{n+1/2}: what MEMM keeps where mean forces have no moment about the middle of the
-/// step [kg m^2/s]. `size`: sum |x × p|.
-template <int Dim>
-struct TurningMomentum {
-    AxialVector<Dim> value;
-    double size;
-};
-template <int Dim>
-[[nodiscard]] TurningMomentum<Dim> turning_momentum(const dynamics::RunView<Dim>& run, double dt,
-                                                    const P1Bodies<Dim>& bodies);
 
 }  // namespace abut::studies

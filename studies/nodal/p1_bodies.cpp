@@ -1,5 +1,6 @@
 #include "studies/nodal/p1_bodies.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <utility>
@@ -140,31 +141,28 @@ void P1Bodies<Dim>::place(std::span<const double> q, double t, std::vector<Vecto
     }
 }
 
-/// Forces on nodes of obstacles, which come last, go nowhere.
-template <int Dim>
-void P1Bodies<Dim>::add_contact(const contact::NodalStep<Dim>& step, std::span<double> f) const {
-    for (std::size_t i = 0; i < step.nodes.size(); ++i)
-        if (static_cast<std::size_t>(step.nodes[i]) < mass_.size()) as_vectors<Dim>(f)[step.nodes[i]] -= step.gradient[i];
-}
-
 template <int Dim>
 void P1Bodies<Dim>::force(std::span<const double> q, std::span<double> f) {
     std::ranges::fill(f, 0.0);
     add_bulk(q, q, f);
     add_outside(q, q, f);
     place(q, time_, x_1_);
-    add_contact(contact_.evaluate(x_1_), f);
+    contact_.evaluate(x_1_).add_force_to(f);
 }
 
 template <int Dim>
 void P1Bodies<Dim>::follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt,
                            contact::TakenForce take, std::span<double> f) {
+    const std::span<const double> from = take == contact::TakenForce::mean ? q_0 : q_1;
+    std::ranges::fill(f, 0.0);
+    add_bulk(from, q_1, f);
+    add_outside(from, q_1, f);
     place(q_0, t, x_0_);
     place(q_1, t + dt, x_1_);
     time_ = t + dt;
     const contact::NodalStep<Dim>& step = contact_.step(x_0_, x_1_, take);
     work_ += step.work;
-    add_contact(step, f);
+    step.add_force_to(f);
     pair_steps_ += static_cast<std::int64_t>(step.pairs.size());
     double forces = 0.0;
     for (const auto& pair : step.pairs) forces += pair.force.norm();
@@ -175,18 +173,12 @@ void P1Bodies<Dim>::follow(std::span<const double> q_0, std::span<const double> 
 template <int Dim>
 void P1Bodies<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double t, double dt,
                                std::span<double> f) {
-    std::ranges::fill(f, 0.0);
-    add_bulk(q_0, q_1, f);
-    add_outside(q_0, q_1, f);
     follow(q_0, q_1, t, dt, contact::TakenForce::mean, f);
 }
 
 template <int Dim>
 void P1Bodies<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double t, double dt,
                               std::span<double> f) {
-    std::ranges::fill(f, 0.0);
-    add_bulk(q_1, q_1, f);
-    add_outside(q_1, q_1, f);
     follow(q_0, q_1, t, dt, contact::TakenForce::end, f);
 }
 
@@ -226,6 +218,34 @@ contact::NodalStableStep P1Bodies<Dim>::stable_step() {
     std::vector<double> mass = mass_;
     mass.resize(rest_.size(), 0.0);
     return contact_.stable_step(mass, dynamics::bound_of(dynamics::highest_mode(*this)));
+}
+
+template <int Dim>
+std::vector<Matrix<Dim>> P1Bodies<Dim>::mean_gradients(std::span<const double> q) const {
+    const auto n = static_cast<std::size_t>(mesh().n_bodies());
+    std::vector<Matrix<Dim>> mean(n, Matrix<Dim>::Zero());
+    std::vector<double> volume(n, 0.0);
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+        const auto body = static_cast<std::size_t>(mesh().cell_body[i]);
+        mean[body] += elements_[i].measure * gradient(elements_[i], q);
+        volume[body] += elements_[i].measure;
+    }
+    for (std::size_t body = 0; body < n; ++body) mean[body] /= volume[body];
+    return mean;
+}
+
+template <int Dim>
+std::vector<double> P1Bodies<Dim>::rotations(std::span<const double> q) const {
+    std::vector<double> angles;
+    for (const Matrix<Dim>& mean : mean_gradients(q)) {
+        const Eigen::Transform<double, Dim, Eigen::Affine> motion(
+            Eigen::Matrix<double, Dim, Dim>(Matrix<Dim>::Identity() + mean));
+        if constexpr (Dim == 2)
+            angles.push_back(std::abs(Eigen::Rotation2Dd(motion.rotation()).angle()));
+        else
+            angles.push_back(Eigen::AngleAxisd(motion.rotation()).angle());
+    }
+    return angles;
 }
 
 template <int Dim>

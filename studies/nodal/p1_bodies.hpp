@@ -33,7 +33,7 @@ struct MovingObstacle {
     std::function<contact::Placement<Dim>(double time)> path = [](double) { return contact::Placement<Dim>{}; };
 };
 
-/// Holds the mean place of some nodes by a spring: an axle about which a body turns as it likes, or a soft suspension.
+/// Holds the mean position of some nodes by a spring: an axle about which a body turns as it likes, or a soft suspension.
 template <int Dim>
 struct Pin {
     std::vector<std::int32_t> nodes;
@@ -83,6 +83,8 @@ public:
         return scene_.strain == Strain::small ? dynamics::MomentArms::rest : dynamics::MomentArms::mid_step;
     }
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return node_body_; }
+    /// Of the mean displacement gradient of each body (n_bodies) [rad], 0 to pi.
+    [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
     // PatchSystem
     /// The nodes of the elements that own active faces; pairs and common nodes join them to one patch.
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const;
@@ -94,12 +96,12 @@ public:
     /// 0.85 * 2/omega with contact, by estimate.
     [[nodiscard]] contact::NodalStableStep stable_step();
     [[nodiscard]] const contact::NodalContact<Dim>& contact() const { return contact_; }
-    [[nodiscard]] contact::NodalContact<Dim>& contact() { return contact_; }
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return scene_.mesh; }
-    [[nodiscard]] const std::vector<std::int32_t>& node_body() const { return node_body_; }
+    /// du/dX, mean over the volume of each body (n_bodies).
+    [[nodiscard]] std::vector<Matrix<Dim>> mean_gradients(std::span<const double> q) const;
     /// Cauchy's stress of each element (n_elements) [Pa].
     [[nodiscard]] std::vector<Matrix<Dim>> stresses(std::span<const double> q) const;
-    /// Largest sum of corrections over sum of forces of a step, and over the run.
+    /// Sum of corrections over sum of forces, of the run.
     [[nodiscard]] double correction_share() const { return forces_ > 0.0 ? corrections_ / forces_ : 0.0; }
     [[nodiscard]] std::int64_t pair_steps() const { return pair_steps_; }
     /// Normal force over the area of each boundary face of the mesh in the last step, in the order of boundary_faces [Pa].
@@ -123,7 +125,6 @@ private:
     /// On each of its nodes, at the mean of two states [N].
     [[nodiscard]] Vector<Dim> pin_force(const Pin<Dim>& pin, std::span<const double> q_0, std::span<const double> q_1) const;
     void place(std::span<const double> q, double t, std::vector<Vector<Dim>>& x) const;
-    void add_contact(const contact::NodalStep<Dim>& step, std::span<double> f) const;
     [[nodiscard]] std::vector<std::int32_t> element_nodes(contact::SurfaceFace face) const;
     void follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, contact::TakenForce take,
                 std::span<double> f);

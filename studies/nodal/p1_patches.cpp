@@ -1,31 +1,10 @@
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "abut/base/disjoint_sets.hpp"
 #include "studies/nodal/p1_bodies.hpp"
 
 namespace abut::studies {
-namespace {
-
-/// Sets of nodes that grow together.
-class JoinedNodes {
-public:
-    explicit JoinedNodes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-    std::int32_t root(std::int32_t node) {
-        while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-        return node;
-    }
-    void join(std::span<const std::int32_t> nodes) {
-        for (const std::int32_t node : nodes) parent_[root(node)] = root(nodes.front());
-    }
-
-private:
-    std::vector<std::int32_t> parent_;
-};
-
-}  // namespace
-
 /// None for a face of an obstacle.
 template <int Dim>
 std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face) const {
@@ -38,28 +17,28 @@ std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face
 
 template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> P1Bodies<Dim>::contact_patches() const {
-    JoinedNodes joined(mass_.size());
+    DisjointSets joined(mass_.size());
     std::vector<std::int32_t> points;
     const auto& pairs = contact_.last().pairs;
     for (const auto& pair : pairs) {
         std::vector<std::int32_t> nodes = element_nodes(pair.face_1);
         const auto others = element_nodes(pair.face_2);
         nodes.insert(nodes.end(), others.begin(), others.end());
-        joined.join(nodes);
+        for (const std::int32_t node : nodes) joined.join(nodes.front(), node);
         points.insert(points.end(), nodes.begin(), nodes.end());
     }
     std::ranges::sort(points);
     points.erase(std::unique(points.begin(), points.end()), points.end());
 
     std::map<std::int32_t, dynamics::ContactPatch<Dim>> patches;
-    for (const std::int32_t point : points) patches[joined.root(point)].points.push_back(point);
+    for (const std::int32_t point : points) patches[joined.find(point)].points.push_back(point);
     const bool turns = scene_.strain == Strain::finite;
     for (const auto& pair : pairs)
         for (const auto& [face, other] : {std::pair{pair.face_1, pair.face_2}, std::pair{pair.face_2, pair.face_1}}) {
             if (!element_nodes(other).empty()) continue;
             const auto corners = scene_.mesh.face_vertices[scene_.mesh.boundary_faces[static_cast<std::size_t>(face)]];
             for (const std::int32_t node : corners)
-                patches[joined.root(node)].holds.push_back(
+                patches[joined.find(node)].holds.push_back(
                     {.position = turns ? Vector<Dim>(0.5 * (x_0_[node] + x_1_[node])) : rest_[node],
                      .direction = pair.normal});
         }

@@ -40,9 +40,9 @@ double depth_of_corner(const dynamics::RunView<2>& run, const P1Bodies<2>& bodie
     const auto rest = bodies.rest_positions();
     Vector<2> corner(0.0, 1e9), left(-1e9, 0.0), right(1e9, 0.0);
     for (std::size_t i = 0; i < u.size(); ++i)
-        if (const Vector<2> x = rest[i] + u[i]; bodies.node_body()[i] == 1 && x.y() < corner.y()) corner = x;
+        if (const Vector<2> x = rest[i] + u[i]; bodies.body_of_points()[i] == 1 && x.y() < corner.y()) corner = x;
     for (std::size_t i = 0; i < u.size(); ++i) {
-        if (bodies.node_body()[i] != 0 || rest[i].y() < -1e-9) continue;
+        if (bodies.body_of_points()[i] != 0 || rest[i].y() < -1e-9) continue;
         const Vector<2> x = rest[i] + u[i];
         if (x.x() <= corner.x() && x.x() > left.x()) left = x;
         if (x.x() > corner.x() && x.x() < right.x()) right = x;
@@ -60,8 +60,8 @@ void land(int cells, double speed, const Options& options, const Sink& sink) {
     ImpactResult<2> result;
     Row row = row_of<2>(impact, options.impact, fmt::format("{} cells, v = {:g}", cells, speed), options, &result, watch);
     row.quantities.push_back(at_most("pushed aside, over v", std::abs(result.velocity[1].x()) / speed, side_push_allowed));
-    row.quantities.push_back(at_most("sinks in, over the size of a cell", depth * cells, 1e9));
-    row.quantities.back().allowed = std::numeric_limits<double>::infinity();
+    row.quantities.push_back(
+        at_most("sinks in, over the size of a cell", depth * cells, std::numeric_limits<double>::infinity()));
     row.quantities.push_back({.name = "leaves upwards, over v",
                               .unit = "",
                               .value = result.velocity[1].y() / speed,
@@ -83,20 +83,23 @@ mesh::Mesh<3> beam(const Vector<3>& axis, const Vector<3>& middle, double angle,
     });
 }
 
-void cross_beams(double degrees, const Options& options, const Sink& sink) {
+/// `facing`: the contact's own by default.
+void cross_beams(double degrees, const geometry::FacingFade& facing, const Options& options, const Sink& sink) {
     const double angle = degrees * std::numbers::pi / 180.0, speed = 0.05;
     Impact<3> impact{
         .name = "crossing beams",
         .scene = {.mesh = mesh::combine<3>(std::vector{beam(Vector<3>::UnitX(), Vector<3>::Zero(), angle, false),
                                                        beam(Vector<3>::UnitY(), Vector<3>(0.03, 0.0, 0.02), angle, true)}),
                   .materials = {{}, {}},
-                  .strain = Strain::finite},
+                  .strain = Strain::finite,
+                  .contact = {.facing = facing}},
         .motion = std::vector<RigidMotion<3>>(2),
         .time = 12.0};
     impact.motion[0].velocity = {0.0, 0.0, speed};
     impact.motion[1].velocity = {0.0, 0.0, -speed};
     ImpactResult<3> result;
-    Row row = row_of<3>(impact, options.impact, fmt::format("edges of {:g} degrees", degrees), options, &result);
+    const std::string setting = fmt::format("edges of {:g} degrees, fade {:g} to {:g}", degrees, facing.full, facing.none);
+    Row row = row_of<3>(impact, options.impact, setting, options, &result);
     const double apart = (result.velocity[1].z() - result.velocity[0].z()) / (2.0 * speed);
     row.quantities.push_back({.name = "speed apart over that of approach: rebounds where > 0",
                               .unit = "",
@@ -114,7 +117,9 @@ void run_edges(const Options& options, const Sink& sink) {
         for (const double speed : {0.02, 0.005, 0.001})
             if (!options.quick || speed == 0.005) land(cells, speed, options, sink);
     for (const double degrees : {60.0, 70.0, 80.0, 88.0, 90.0, 100.0})
-        if (!options.quick || degrees == 100.0) cross_beams(degrees, options, sink);
+        if (!options.quick || degrees == 100.0) cross_beams(degrees, {}, options, sink);
+    for (const double degrees : {45.0, 60.0, 70.0, 90.0})
+        if (!options.quick) cross_beams(degrees, {.full = -0.25, .none = -0.05}, options, sink);
 }
 
 }  // namespace abut::studies::turning

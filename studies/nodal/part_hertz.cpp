@@ -62,10 +62,10 @@ StaticLoad load_of(const P1Bodies<Dim>& bodies, const HertzOptions& options) {
     StaticLoad load{std::vector<double>(bodies.size(), 0.0), std::vector<char>(bodies.size(), 0)};
     double upper_mass = 0.0;
     for (std::size_t i = 0; i < bodies.masses().size(); ++i)
-        if (bodies.node_body()[i] == 0) upper_mass += bodies.masses()[i];
+        if (bodies.body_of_points()[i] == 0) upper_mass += bodies.masses()[i];
     for (std::size_t i = 0; i < bodies.masses().size(); ++i) {
         const double height = bodies.rest_positions()[i][Dim - 1] / options.radius;
-        if (bodies.node_body()[i] == 0) load.force[i * Dim + Dim - 1] = -options.load * bodies.masses()[i] / upper_mass;
+        if (bodies.body_of_points()[i] == 0) load.force[i * Dim + Dim - 1] = -options.load * bodies.masses()[i] / upper_mass;
         for (std::size_t d = 0; d < Dim; ++d)
             load.held[i * Dim + d] = height < -(1.0 + cap) || (height > 1.0 + cap && d + 1 < Dim) ? 1 : 0;
     }
@@ -79,7 +79,7 @@ std::vector<double> start(const P1Bodies<Dim>& bodies, const HertzOptions& optio
     const double radius = Dim == 2 ? 0.5 * options.radius : options.radius;
     std::vector<double> q(bodies.size(), 0.0);
     for (std::size_t i = 0; i < bodies.masses().size(); ++i)
-        if (bodies.node_body()[i] == 0) q[i * Dim + Dim - 1] = -0.25 * a * a / (2.0 * radius);
+        if (bodies.body_of_points()[i] == 0) q[i * Dim + Dim - 1] = -0.25 * a * a / (2.0 * radius);
     return q;
 }
 

@@ -29,33 +29,17 @@ void slip(const Impact<Dim>& impact, const ImpactOptions& run, const std::string
     sink(row);
 }
 
-/// The angle of the rotation that is nearest to the motion of a body, about its centre of mass [rad].
-double mean_rotation(const dynamics::RunView<2>& run, const P1Bodies<2>& bodies, std::int32_t body) {
-    const auto u = as_vectors<2>(run.q);
-    double mass = 0.0, sine = 0.0, cosine = 0.0;
-    Vector<2> centre = Vector<2>::Zero(), moved = Vector<2>::Zero();
-    const auto each = [&](const auto& visit) {
-        for (std::size_t i = 0; i < u.size(); ++i)
-            if (bodies.node_body()[i] == body) visit(bodies.masses()[i], bodies.rest_positions()[i], u[i]);
-    };
-    each([&](double m, const Vector<2>& rest, const Vector<2>& shift) {
-        mass += m;
-        centre += m * rest;
-        moved += m * (rest + shift);
-    });
-    each([&](double m, const Vector<2>& rest, const Vector<2>& shift) {
-        const Vector<2> a = rest - centre / mass, b = rest + shift - moved / mass;
-        sine += m * (a[0] * b[1] - a[1] * b[0]);
-        cosine += m * a.dot(b);
-    });
-    return std::atan2(sine, cosine);
+/// The angle by which a body has turned [rad], -pi to pi.
+double turned_angle(const dynamics::RunView<2>& run, const P1Bodies<2>& bodies, std::size_t body) {
+    const Matrix<2> stretch = Matrix<2>::Identity() + bodies.mean_gradients(run.q)[body];
+    return std::atan2(stretch(1, 0) - stretch(0, 1), stretch.trace());
 }
 
 void turn_gears(int cells_around_tooth, double turns, const std::string& setting, const Options& options, const Sink& sink) {
     constexpr double whole = 2.0 * std::numbers::pi;
     double turned = 0.0, before = 0.0;
     const Watch<2> watch = [&](const auto& run, const auto& bodies) {
-        const double angle = mean_rotation(run, bodies, 0);
+        const double angle = turned_angle(run, bodies, 0);
         turned += std::remainder(angle - before, whole);
         before = angle;
     };
@@ -73,17 +57,15 @@ void run_slipping(const Options& options, const Sink& sink) {
         for (const Strain strain : {Strain::small, Strain::finite}) {
             ImpactOptions run = options.impact;
             run.scheme = scheme;
-            run.filter = run.filter && scheme == Scheme::memm;
-            const std::string setting = std::string(scheme == Scheme::memm ? "memm" : "leapfrog") +
-                                        (strain == Strain::small ? ", small strain" : ", finite strain");
+            if (scheme == Scheme::leapfrog) run.filter = false, run.restart = 0;
+            const std::string setting = name_of(run) + (strain == Strain::small ? ", small strain" : ", finite strain");
             slip<2>(slipping_discs(strain, size_2), run, setting, disc_velocity, options, sink);
             slip<3>(slipping_cylinders(strain, size_3), run, setting, cylinder_velocity, options, sink);
         }
 }
 
 void run_turning(const Options& options, const Sink& sink) {
-    const std::string setting =
-        std::string(options.impact.scheme == Scheme::memm ? "memm" : "leapfrog") + (options.impact.filter ? ", filter" : "");
+    const std::string setting = name_of(options.impact);
     const bool quick = options.quick;
     sink(row_of<2>(spinning_discs(quick ? 0.25 : 0.08), options.impact, setting, options));
     sink(row_of<2>(tumbling_block(quick ? 4 : 10), options.impact, setting, options));
@@ -94,12 +76,12 @@ void run_turning(const Options& options, const Sink& sink) {
 }
 
 void run_long(const Options& options, const Sink& sink) {
-    for (const bool filter : {false, true}) {
-        ImpactOptions run = options.impact;
+    ImpactOptions run = options.impact;
+    run.frames = 0;
+    run.steps = options.quick ? std::min<std::int64_t>(options.long_steps, 20'000) : options.long_steps;
+    for (const bool filter : run.scheme == Scheme::memm ? std::vector{false, true} : std::vector{false}) {
         run.filter = filter;
-        run.frames = 0;
-        run.steps = options.quick ? std::min<std::int64_t>(options.long_steps, 20'000) : options.long_steps;
-        sink(row_of<2>(disc_between_walls(0.4), run, filter ? "memm, filter" : "memm", options));
+        sink(row_of<2>(disc_between_walls(0.4), run, name_of(run), options));
     }
 }
 

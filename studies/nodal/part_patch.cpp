@@ -57,7 +57,7 @@ std::vector<double> expected(const P1Bodies<Dim>& bodies, double p) {
     const double modulus = young * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
     std::vector<double> q(bodies.size(), 0.0);
     for (std::size_t i = 0; i < bodies.masses().size(); ++i) {
-        const double jump = bodies.node_body()[i] == 1 ? p / pair_stiffness(bodies, 0, 1) : 0.0;
+        const double jump = bodies.body_of_points()[i] == 1 ? p / pair_stiffness(bodies, 0, 1) : 0.0;
         q[i * Dim + Dim - 1] = -p / modulus * bodies.rest_positions()[i][Dim - 1] - jump;
     }
     return q;

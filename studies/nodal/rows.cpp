@@ -39,7 +39,7 @@ std::vector<Quantity> asked_of(const ImpactFigures& run, const ImpactOptions& op
     if (!is_free) return asked;
     asked.push_back(at_most("momentum drift", run.momentum, momentum_allowed));
     const double allowed = run.excess > noise ? noisy_angular_allowed : angular_allowed;
-    if (!turns || options.filter) return asked;  // linear strain keeps neither; the filter takes out rotations elsewhere
+    if (!turns) return asked;  // linear strain keeps neither
     asked.push_back(at_most(memm ? "J~ drift" : "angular momentum drift", memm ? run.pseudo_angular : run.angular, allowed));
     return asked;
 }
@@ -88,7 +88,8 @@ Json to_json(const ImpactFigures& run) {
             {"events", run.events},
             {"pair_steps", run.pair_steps},
             {"complete", run.is_complete},
-            {"ending", run.ending}};
+            {"ending", run.ending},
+            {"unseen_edges", run.unseen_edges}};
 }
 
 Json to_json(const Quantity& quantity) {
@@ -128,6 +129,13 @@ std::string csv_text(const std::vector<Row>& rows) {
 
 }  // namespace
 
+std::string name_of(const ImpactOptions& run) {
+    std::string name = run.scheme == Scheme::memm ? "memm" : "leapfrog";
+    if (run.filter) name += ", filter";
+    if (run.restart > 0) name += fmt::format(", restart {}", run.restart);
+    return name;
+}
+
 Quantity at_most(const std::string& name, double value, double allowed) {
     return {.name = name, .unit = "", .value = value, .reference = 0.0, .scale = 1.0, .allowed = allowed};
 }
@@ -144,7 +152,8 @@ Row row_of(const Impact<Dim>& impact, const ImpactOptions& run, const std::strin
             *figure = run::not_given;
     Row row{.scene = impact.name, .setting = setting, .run = done.figures, .seconds = done.figures.seconds};
     row.quantities = asked_of(done.figures, run, Dim, impact.is_free, impact.scene.strain == Strain::finite);
-    row.remark = done.figures.ending;
+    row.remark = done.figures.unseen_edges;
+    if (!done.figures.ending.empty()) row.remark += (row.remark.empty() ? "" : "\n      ") + done.figures.ending;
     if (result != nullptr) *result = std::move(done);
     return row;
 }
@@ -177,6 +186,7 @@ void write_report(const apps::Program& program, const Options& options, const st
     json["options"] = {{"only", options.only},
                        {"scheme", options.impact.scheme == Scheme::memm ? "memm" : "leapfrog"},
                        {"filter", options.impact.filter},
+                       {"restart", options.impact.restart},
                        {"cfl", options.impact.cfl},
                        {"steps", options.long_steps},
                        {"quick", options.quick}};

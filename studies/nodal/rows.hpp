@@ -46,6 +46,9 @@ void solve_hertz(const Options& options, const Sink& sink);
 void run_edges(const Options& options, const Sink& sink);
 void sweep_steps(const Options& options, const Sink& sink);
 
+/// "memm, filter, restart 50": of a row.
+[[nodiscard]] std::string name_of(const ImpactOptions& run);
+
 /// A figure that is to be at most `allowed`; infinite: shown alone.
 [[nodiscard]] Quantity at_most(const std::string& name, double value, double allowed);
 

@@ -112,7 +112,7 @@ public:
         for (const double force : load.force) largest_load_ = std::max(largest_load_, std::abs(force));
     }
 
-    /// Goes to q along the way from q_0 and leaves what is not in balance there; its size over the largest load.
+    /// Goes to q along the path from q_0 and leaves what is not in balance there; its size over the largest load.
     double go(const std::vector<double>& q_0, const std::vector<double>& q) {
         bodies_.end_force(q_0, q, 0.0, 1.0, force_);
         double largest = 0.0;
@@ -168,8 +168,7 @@ bool search_line(Newton<Dim>& newton, const Eigen::VectorXd& direction, StaticSt
 template <int Dim>
 double pair_stiffness(const P1Bodies<Dim>& bodies, std::int32_t body_1, std::int32_t body_2) {
     const auto& surface = bodies.contact().surface();
-    const double k_1 = surface.stiffness(body_1), k_2 = surface.stiffness(body_2);
-    return 1.0 / (1.0 / k_1 + 1.0 / k_2);
+    return contact::series_stiffness(surface.stiffness(body_1), surface.stiffness(body_2));
 }
 
 template <int Dim>

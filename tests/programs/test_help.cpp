@@ -38,6 +38,7 @@ const std::vector<std::pair<std::string, std::string>> explained = {
     {"contact_patch", "--dim --mesh --strain --out"},
     {"extremes", "--only --steps --quick --cfl --overlap --events --facing-cosine --out"},
     {"long_runs", "--only --steps --period"},
+    {"turning", "--only --quick --scheme --filter --restart --cfl --steps --frames --out"},
     {"trade", "--only --settings --also --levels --repetitions --limit --out"},
     {"disc_on_plane", "--preset --cells --cfl --integrator --weights --events --neumann --out"},
     {"disc_collision", "--preset --size --cfl --integrator --weights --events --neumann --out"},

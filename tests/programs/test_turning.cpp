@@ -41,4 +41,16 @@ TEST_CASE("corners and edges rebound, and the advised step holds", "[programs][t
     CHECK(check_targets(part("edges,steps")) >= 10);
 }
 
+TEST_CASE("filter and restart leave pseudo-energy, momentum and angular momentum of bodies that turn",
+          "[programs][turning]") {
+    const auto outcome =
+        run_well("turning", "--quick --frames 0 --only turning --filter --restart 50", "turning_with_remedies");
+    CHECK(check_targets(outcome) >= 30);
+    int asked = 0;
+    for (const auto& row : read_summary(outcome)["levels"])
+        for (const auto& quantity : row["quantities"])
+            if (quantity["name"] == "J~ drift") ++asked;
+    CHECK(asked == 2);  // of the free ones: discs and cubes
+}
+
 TEST_CASE("a long run between walls keeps pseudo-energy", "[programs][turning]") { CHECK(check_targets(part("long")) >= 2); }
