@@ -245,8 +245,8 @@ nlohmann::json time_laws(int repetitions) {
 
 /// Two discs or rods, `gap` apart.
 template <int Dim>
-studies::P1Bodies<Dim> bodies(double size, double gap) {
-    studies::P1Scene<Dim> scene;
+studies::nodal::P1Bodies<Dim> bodies(double size, double gap) {
+    studies::nodal::P1Scene<Dim> scene;
     if constexpr (Dim == 2)
         scene.mesh = mesh::combine<2>(
             std::vector{mesh::disc({.size = size}), mesh::disc({.centre = {2.0 + gap, 0.0}, .size = size, .variant = 1})});
@@ -254,11 +254,11 @@ studies::P1Bodies<Dim> bodies(double size, double gap) {
         scene.mesh = mesh::combine<3>(std::vector{
             mesh::cylinder({.size = size}), mesh::cylinder({.centre = {2.0 + gap, 0.0, 0.0}, .size = size, .variant = 1})});
     scene.materials = {{}, {}};
-    return studies::P1Bodies<Dim>(std::move(scene));
+    return studies::nodal::P1Bodies<Dim>(std::move(scene));
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> placed(const studies::P1Bodies<Dim>& host, std::span<const double> q) {
+std::vector<Vector<Dim>> placed(const studies::nodal::P1Bodies<Dim>& host, std::span<const double> q) {
     std::vector<Vector<Dim>> x = host.mesh().vertices;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += as_vectors<Dim>(q)[i];
     return x;

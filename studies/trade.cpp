@@ -2,7 +2,8 @@
 //
 // Each setting, as it would be typed, is run on each mesh of each problem: two cylinders that slip (2D, 3D), a cylinder on a
 // block at rest, a bar that hits a wall. The table has four errors beside the seconds: drift of H~, error of the true
-// energy H, of the restitution, of the contact pressure. A run is on the front where no other one of its problem is as fast
+// energy H, of the restitution, of the contact pressure. Cylinders are run with finite elements and contact on their nodes,
+// too ("nodes"), on the same meshes. A run is on the front where no other one of its problem is as fast
 // and as good. docs/trade.md reads the table; the presets of the other programs follow from it.
 #include <fmt/format.h>
 
@@ -86,21 +87,25 @@ nlohmann::ordered_json to_json(const Options& options) {
 /// Runs it; every exception becomes a row.
 Row attempt(const Problem& problem, int level, const Setting& setting, double reference, double limit) {
     Row row{.problem = problem.name, .level = level, .setting = setting};
+    const auto on_nodes = std::ranges::find(nodal_ladder(), setting, &NodalSetting::setting);
     try {
         run::RunOptions run = problem.base;
-        apps::apply_words(setting, run);
-        row.outcome = problem.solve(run, level, reference, limit);
+        if (on_nodes == nodal_ladder().end()) apps::apply_words(setting, run);
+        row.outcome = on_nodes == nodal_ladder().end() ? problem.solve(run, level, reference, limit)
+                                                       : problem.solve_on_nodes(on_nodes->run, level, reference, limit);
     } catch (const std::exception& error) {
         row.refusal = error.what();
     }
     return row;
 }
 
-/// Of the ladder, then those of the user.
+/// Of the ladder, then those of the user, then those of another host.
 std::vector<Setting> settings_of(const Problem& problem, const Options& options) {
     std::vector<Setting> settings = ladder(options.extent, problem.at_rest);
     for (const Setting& setting : options.settings)
         if (std::ranges::find(settings, setting) == settings.end()) settings.push_back(setting);
+    if (problem.solve_on_nodes)
+        for (const NodalSetting& on_nodes : nodal_ladder()) settings.push_back(on_nodes.setting);
     return settings;
 }
 

@@ -15,7 +15,7 @@
 #include "abut/dynamics/neutral_restart.hpp"
 #include "studies/nodal/impact_files.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 namespace {
 
 template <int Dim>
@@ -134,7 +134,10 @@ void follow(Integrator& scheme, Account<Dim>& account, std::int64_t steps, const
     try {
         bool goes_on = account.look(scheme, watch);
         while (goes_on && scheme.steps() < steps) {
-            scheme.step();
+            {
+                const Stopwatch clock(figures.seconds_of_steps);
+                scheme.step();
+            }
             goes_on = account.look(scheme, watch);
         }
         figures.is_complete = goes_on;
@@ -196,4 +199,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

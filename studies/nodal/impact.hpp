@@ -6,7 +6,7 @@
 
 #include "studies/nodal/p1_bodies.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 /// Of a body at the start: v + spin × (X - centre).
 template <int Dim>
@@ -64,6 +64,7 @@ struct ImpactFigures {
     std::string ending;        ///< why it is not
     std::string unseen_edges;  ///< of bodies that may go through each other; empty: none
     double seconds = 0.0;
+    double seconds_of_steps = 0.0;  ///< without set-up, energies and files
 
     [[nodiscard]] bool held() const { return is_complete && excess < 1.0; }
 };
@@ -85,4 +86,4 @@ template <int Dim>
 [[nodiscard]] ImpactResult<Dim> run_impact(const Impact<Dim>& impact, const ImpactOptions& options,
                                            const Watch<Dim>& watch = {});
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

@@ -2,7 +2,7 @@
 
 #include "abut/run/energy_picture.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 namespace {
 
 /// Mean over the corners of each cell [m/s].
@@ -71,4 +71,4 @@ void ImpactFiles<Dim>::finish(const ImpactFigures& figures) const {
 template class ImpactFiles<2>;
 template class ImpactFiles<3>;
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

@@ -5,7 +5,7 @@
 #include "apps/support/csv.hpp"
 #include "studies/nodal/impact.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 /// What a run leaves in its folder: energy.csv and its picture, the series for ParaView.
 template <int Dim>
@@ -29,4 +29,4 @@ private:
     std::optional<mesh::VtuSeries<Dim>> series_;
 };
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

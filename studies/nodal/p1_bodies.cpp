@@ -7,7 +7,7 @@
 
 #include "abut/dynamics/power_iteration.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 namespace {
 
 double lambda_of(const P1Material& m) { return m.young * m.poisson / ((1.0 + m.poisson) * (1.0 - 2.0 * m.poisson)); }
@@ -266,4 +266,4 @@ std::vector<Matrix<Dim>> P1Bodies<Dim>::stresses(std::span<const double> q) cons
 template class P1Bodies<2>;
 template class P1Bodies<3>;
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

@@ -13,7 +13,7 @@
 #include "abut/dynamics/mass.hpp"
 #include "abut/mesh/mesh.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 enum class Strain {
     small,   ///< linear elasticity: bodies that turn grow
@@ -145,4 +145,4 @@ private:
     std::int64_t pair_steps_ = 0;
 };
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

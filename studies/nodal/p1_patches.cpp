@@ -4,7 +4,7 @@
 #include "abut/base/disjoint_sets.hpp"
 #include "studies/nodal/p1_bodies.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 /// None for a face of an obstacle.
 template <int Dim>
 std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face) const {
@@ -111,4 +111,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

@@ -8,6 +8,8 @@
 namespace abut::studies::turning {
 namespace {
 
+std::string name_of(Strain strain) { return strain == Strain::small ? ", small strain" : ", finite strain"; }
+
 /// Velocity of the left body at the end; the table of five hosts of other makers, with faces that translate.
 constexpr double velocity_allowed = 0.01;
 const Vector<2> disc_velocity(-0.0280, -0.0399), cylinder_velocity(-0.0276, -0.0403);
@@ -58,7 +60,7 @@ void run_slipping(const Options& options, const Sink& sink) {
             ImpactOptions run = options.impact;
             run.scheme = scheme;
             if (scheme == Scheme::leapfrog) run.filter = false, run.restart = 0;
-            const std::string setting = name_of(run) + (strain == Strain::small ? ", small strain" : ", finite strain");
+            const std::string setting = turning::name_of(run) + name_of(strain);
             slip<2>(slipping_discs(strain, size_2), run, setting, disc_velocity, options, sink);
             slip<3>(slipping_cylinders(strain, size_3), run, setting, cylinder_velocity, options, sink);
         }
@@ -79,10 +81,11 @@ void run_long(const Options& options, const Sink& sink) {
     ImpactOptions run = options.impact;
     run.frames = 0;
     run.steps = options.quick ? std::min<std::int64_t>(options.long_steps, 20'000) : options.long_steps;
-    for (const bool filter : run.scheme == Scheme::memm ? std::vector{false, true} : std::vector{false}) {
-        run.filter = filter;
-        sink(row_of<2>(disc_between_walls(0.4), run, name_of(run), options));
-    }
+    for (const Strain strain : {Strain::small, Strain::finite})
+        for (const bool filter : run.scheme == Scheme::memm ? std::vector{false, true} : std::vector{false}) {
+            run.filter = filter;
+            sink(row_of<2>(disc_between_walls(strain, 0.4), run, turning::name_of(run) + name_of(strain), options));
+        }
 }
 
 }  // namespace abut::studies::turning

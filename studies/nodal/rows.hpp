@@ -11,6 +11,8 @@
 /// The table of the study `turning`.
 namespace abut::studies::turning {
 
+using namespace nodal;
+
 struct Options {
     std::vector<std::string> only;
     ImpactOptions impact{.frames = 21};

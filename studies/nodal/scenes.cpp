@@ -7,7 +7,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "studies/nodal/shapes.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 namespace {
 
 /// Where the right one of two round bodies of radius 1 is, seen from the left one: 0.8 aside, and 0.02 apart.
@@ -169,8 +169,8 @@ Impact<3> cube_on_corner(int cells) {
     return impact;
 }
 
-Impact<2> disc_between_walls(double size) {
-    auto impact = impact_of<2>("disc between walls", {mesh::disc({.size = size})}, Strain::small);
+Impact<2> disc_between_walls(Strain strain, double size) {
+    auto impact = impact_of<2>("disc between walls", {mesh::disc({.size = size})}, strain);
     for (const double side : {-1.0, 1.0})
         impact.scene.obstacles.push_back(
             {contact::plane_obstacle<2>(side * 1.05 * Vector<2>::UnitX(), -side * Vector<2>::UnitX(), 100.0)});
@@ -180,4 +180,4 @@ Impact<2> disc_between_walls(double size) {
     return impact;
 }
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

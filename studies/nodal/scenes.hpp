@@ -2,7 +2,7 @@
 #include "studies/nodal/impact.hpp"
 
 /// Scenes of bodies that turn, E = rho = 1 and nu = 0.3 throughout. `size`: of a cell [m]; `cells`: along a side.
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 /// Two discs of radius 1 (cylinders of length 1) that meet off-centre at 0.05 each, and slip.
 [[nodiscard]] Impact<2> slipping_discs(Strain strain, double size);
@@ -22,6 +22,6 @@ namespace abut::studies {
 [[nodiscard]] Impact<3> cube_on_corner(int cells);
 
 /// A disc that flies to and fro between two rigid walls.
-[[nodiscard]] Impact<2> disc_between_walls(double size);
+[[nodiscard]] Impact<2> disc_between_walls(Strain strain, double size);
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

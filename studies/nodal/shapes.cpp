@@ -5,7 +5,7 @@
 
 #include "abut/mesh/shapes/shapes.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 template <int Dim>
 mesh::Mesh<Dim> mapped(const mesh::Mesh<Dim>& mesh, const std::string& name,
@@ -78,4 +78,4 @@ template mesh::Mesh<3> mapped<3>(const mesh::Mesh<3>&, const std::string&,
 template mesh::Mesh<2> turned_box<2>(const TurnedBox<2>&);
 template mesh::Mesh<3> turned_box<3>(const TurnedBox<3>&);
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

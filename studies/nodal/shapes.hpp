@@ -6,7 +6,7 @@
 #include "abut/mesh/mesh.hpp"
 
 /// Bodies and obstacles that the scenes of nodal contact are made of.
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 /// The same cells with their vertices elsewhere; groups are dropped. Throws MeshError where a cell is turned inside out.
 template <int Dim>
@@ -44,4 +44,4 @@ struct Gear {
 /// The outline of a rectangle about the origin.
 [[nodiscard]] contact::RigidObstacle<2> rectangle_obstacle(const Vector<2>& half_sides);
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

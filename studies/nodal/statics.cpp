@@ -9,7 +9,7 @@
 #include "abut/dynamics/mass.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
-namespace abut::studies {
+namespace abut::studies::nodal {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -177,13 +177,16 @@ StaticState solve_at_rest(P1Bodies<Dim>& bodies, const StaticLoad& load, std::ve
     StaticState state{.q = std::move(q)};
     state.residual = newton.go(state.q, state.q);
     double energy = newton.energy(state.q);
+    StaticState best = state;  // a fall of energy may be bought with a worse balance
     bool goes_on = true;
     for (; goes_on && state.iterations < most_iterations<Dim> && state.residual > tolerance; ++state.iterations) {
         newton.go(state.q, state.q);
         goes_on = search_line(newton, newton.direction(state.q), state, energy);
+        if (state.residual < best.residual) best = state;
     }
-    state.converged = state.residual <= tolerance;
-    return state;
+    best.iterations = state.iterations;
+    best.converged = best.residual <= tolerance;
+    return best;
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                \
@@ -193,4 +196,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

@@ -7,7 +7,7 @@
 #include "studies/nodal/p1_bodies.hpp"
 
 /// Bodies of linear finite elements at rest, with contact on their nodes.
-namespace abut::studies {
+namespace abut::studies::nodal {
 
 /// What acts on them, beside contact.
 struct StaticLoad {
@@ -32,4 +32,4 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] double pair_stiffness(const P1Bodies<Dim>& bodies, std::int32_t body_1, std::int32_t body_2);
 
-}  // namespace abut::studies
+}  // namespace abut::studies::nodal

@@ -26,7 +26,7 @@ public:
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&) override {
         const std::chrono::duration<double> waited = Clock::now() - begin_;
         if (waited.count() > limit_)
-            throw std::runtime_error(fmt::format("stopped at step {}, t = {:.4g} s: --limit of {:g} s a run is over",
+            throw std::runtime_error(fmt::format("stopped at step {}, t = {:.4g} s: --limit of {:g} s per run is over",
                                                  run.steps, run.time, limit_));
     }
 
@@ -97,6 +97,21 @@ Outcome solve_slip(const run::RunOptions& run, int cells, double reference, doub
 }
 
 template <int Dim>
+Outcome solve_slip_on_nodes(const nodal::ImpactOptions& run, int cells, double reference, double limit) {
+    const apps::CylinderOptions options = slip(Dim, cells);
+    const run::Scene<Dim> scene = apps::two_cylinders<Dim>(options);
+    std::vector<Vector<Dim>> velocity;
+    Outcome outcome = solve_on_nodes<Dim>(scene, run, options.speed[0], limit, velocity);
+    run::RunResult<Dim> motion;  // what restitution is made of
+    for (std::size_t body = 0; body < velocity.size(); ++body) {
+        motion.start.push_back({.mass = 0.0, .velocity = scene.velocity[body], .rotation = 0.0});
+        motion.end.push_back({.mass = 0.0, .velocity = velocity[body], .rotation = 0.0});
+    }
+    outcome.errors.restitution = std::abs(restitution_of(scene, motion) - reference);
+    return outcome;
+}
+
+template <int Dim>
 double slip_restitution(const run::RunOptions& run, int cells) {
     const run::Scene<Dim> scene = apps::two_cylinders<Dim>(slip(Dim, cells));
     return restitution_of<Dim>(scene, run::simulate<Dim>(scene, run));
@@ -109,6 +124,7 @@ Problem slip_problem(int dim, std::vector<int> levels, int reference_level) {
             .levels = std::move(levels),
             .reference_level = reference_level,
             .solve = dim == 2 ? solve_slip<2> : solve_slip<3>,
+            .solve_on_nodes = dim == 2 ? solve_slip_on_nodes<2> : solve_slip_on_nodes<3>,
             .restitution = dim == 2 ? slip_restitution<2> : slip_restitution<3>};
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "studies/trade/errors.hpp"
+#include "studies/trade/nodal.hpp"
 
 namespace abut::studies::trade {
 
@@ -18,8 +19,10 @@ struct Problem {
     /// Runs it. `reference` is the restitution to measure against, where there is no exact one. Throws as `simulate`, and
     /// std::runtime_error where a run in time takes longer than `limit` [s].
     std::function<Outcome(const run::RunOptions& run, int level, double reference, double limit)> solve;
+    /// The same scene with finite elements and contact on their nodes; empty: there is none.
+    std::function<Outcome(const nodal::ImpactOptions& run, int level, double reference, double limit)> solve_on_nodes = {};
     /// Restitution by itself, of problems with a reference level.
-    std::function<double(const run::RunOptions& run, int level)> restitution;
+    std::function<double(const run::RunOptions& run, int level)> restitution = {};
 };
 
 [[nodiscard]] const std::vector<Problem>& problems();

@@ -49,7 +49,7 @@ contact::Surface<Dim> random_faces(std::mt19937& random, int faces_per_body) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("overlaps of moved vertices have the bits of a surface that was made anew",
+TEMPLATE_TEST_CASE_SIG("overlaps of moved vertices have the bits of a surface that was rebuilt",
                        "[contact][overlaps][moved]", ((int Dim), Dim), 2, 3) {
     std::mt19937 random(31);
     const AreaMethod method = GENERATE(AreaMethod::fast, AreaMethod::exact);
@@ -68,7 +68,7 @@ TEMPLATE_TEST_CASE_SIG("overlaps of moved vertices have the bits of a surface th
     CHECK(found > 100);
 }
 
-TEMPLATE_TEST_CASE_SIG("patches of moved vertices have the bits of a surface that was made anew",
+TEMPLATE_TEST_CASE_SIG("patches of moved vertices have the bits of a surface that was rebuilt",
                        "[contact][overlaps][moved]", ((int Dim), Dim), 2, 3) {
     std::mt19937 random(32);
     const auto surface = random_faces<Dim>(random, 20);

@@ -55,7 +55,7 @@ Points<Dim> between(const Points<Dim>& x_0, const Points<Dim>& x_1, double t) {
     return x;
 }
 
-/// The surface with its vertices elsewhere and all measures made anew.
+/// The surface with its vertices elsewhere and all measures computed again.
 template <int Dim>
 contact::Surface<Dim> rebuilt(const contact::Surface<Dim>& surface, const Points<Dim>& x) {
     contact::Surface<Dim> moved = surface;
