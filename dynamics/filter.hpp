@@ -12,8 +12,9 @@ namespace abut::dynamics {
 /// An obstacle or a prescribed boundary does not let this position of a patch move along this direction.
 template <int Dim>
 struct Hold {
-    Vector<Dim> position;   ///< of the kind of the system's `moment_arms`: at rest, or in the middle of the last step [m]
-    Vector<Dim> direction;  ///< unit
+    Vector<Dim> position;  ///< of the kind of the system's `moment_arms`: at rest, or in the middle of the last step [m]
+    /// Unit; of an obstacle its own normal: with that of a pair, which is tilted, momentum along a wall would change
+    Vector<Dim> direction;
 };
 
 /// Points that touched something in the last step and so may carry the parasitic mode of the scheme.

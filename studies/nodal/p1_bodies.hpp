@@ -126,6 +126,7 @@ private:
     [[nodiscard]] Vector<Dim> pin_force(const Pin<Dim>& pin, std::span<const double> q_0, std::span<const double> q_1) const;
     void place(std::span<const double> q, double t, std::vector<Vector<Dim>>& x) const;
     [[nodiscard]] std::vector<std::int32_t> element_nodes(contact::SurfaceFace face) const;
+    [[nodiscard]] Vector<Dim> obstacle_normal(contact::SurfaceFace face) const;
     void follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, contact::TakenForce take,
                 std::span<double> f);
 

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "abut/base/disjoint_sets.hpp"
+#include "abut/geometry/polygon.hpp"
 #include "studies/nodal/p1_bodies.hpp"
 
 namespace abut::studies::nodal {
@@ -13,6 +14,20 @@ std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face
     if (index >= mesh.boundary_faces.size()) return {};
     const auto nodes = mesh.cell_vertices[mesh.face_cells[mesh.boundary_faces[index]][0]];
     return {nodes.begin(), nodes.end()};
+}
+
+/// In the middle of the last step. A wall holds what moves into it: that the faces on it are tilted, and push along it a little,
+/// must not let the filter change the momentum along it.
+template <int Dim>
+Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::SurfaceFace face) const {
+    const auto& surface = contact_.surface();
+    const std::int32_t facet = surface.facet_offsets()[static_cast<std::size_t>(face)];
+    std::array<Vector<Dim>, Dim> corners;
+    for (int i = 0; i < Dim; ++i) {
+        const std::int32_t node = surface.facets().view().vertices_of(facet)[i];
+        corners[static_cast<std::size_t>(i)] = 0.5 * (x_0_[node] + x_1_[node]);
+    }
+    return geometry::face_normal<Dim>(corners);
 }
 
 template <int Dim>
@@ -36,11 +51,11 @@ std::vector<dynamics::ContactPatch<Dim>> P1Bodies<Dim>::contact_patches() const 
     for (const auto& pair : pairs)
         for (const auto& [face, other] : {std::pair{pair.face_1, pair.face_2}, std::pair{pair.face_2, pair.face_1}}) {
             if (!element_nodes(other).empty()) continue;
+            const Vector<Dim> wall = obstacle_normal(other);
             const auto corners = scene_.mesh.face_vertices[scene_.mesh.boundary_faces[static_cast<std::size_t>(face)]];
             for (const std::int32_t node : corners)
                 patches[joined.find(node)].holds.push_back(
-                    {.position = turns ? Vector<Dim>(0.5 * (x_0_[node] + x_1_[node])) : rest_[node],
-                     .direction = pair.normal});
+                    {.position = turns ? Vector<Dim>(0.5 * (x_0_[node] + x_1_[node])) : rest_[node], .direction = wall});
         }
     std::vector<dynamics::ContactPatch<Dim>> result;
     for (auto& [root, patch] : patches) result.push_back(std::move(patch));
@@ -101,6 +116,7 @@ void P1Bodies<Dim>::append_stiffness(std::span<const double>, double factor,
 
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
     template std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace) const;                        \
+    template Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::SurfaceFace) const;                                    \
     template std::vector<dynamics::ContactPatch<Dim>> P1Bodies<Dim>::contact_patches() const;                           \
     template void P1Bodies<Dim>::end_force_on(std::span<const std::int32_t>, std::span<const double>,                   \
                                               std::span<Vector<Dim>>);                                                  \
