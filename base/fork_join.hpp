@@ -16,9 +16,9 @@ extern "C" void __tsan_release(void* address);
 
 namespace abut {
 
-/// Tells ThreadSanitizer in which order a parallel loop runs, since the libraries that run it are not compiled for it: all that
-/// comes before the loop comes before each task, and each task comes before all that follows the loop. The tasks themselves
-/// stay unordered, so a race between two of them is found. In other builds it is nothing.
+/// Tells ThreadSanitizer in which order a parallel loop runs, since the libraries that run it are not compiled for it: all
+/// that comes before the loop comes before each task, and each task comes before all that follows the loop. The tasks
+/// themselves stay unordered, so a race between two of them is found. In other builds it is nothing.
 class ForkJoin {
 public:
     ForkJoin() { release(forked_); }

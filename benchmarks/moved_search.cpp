@@ -1,11 +1,11 @@
 // What it costs that faces may turn: search_moved and find_overlaps_moved against search and find_overlaps, on surfaces that
 // only translate, so that both give the same overlaps.
 //
-// The two scenes of the benchmark of detection, cylinders in line contact ("press") and a plug in a sleeve ("plug"). One body
-// slides by 0.01 of a side of a triangle; all lists have the same skin. Lists made by vertices hold every pair whose boxes
-// overlap, whichever way its faces look; those of translating faces leave out what does not face or is out of reach. The
-// overlaps of all lists that face and are near are compared before anything is timed.
-// Expected: boxes around moved vertices cost little more; lists are longer, and so is the narrow phase.
+// The two scenes of the benchmark of detection, cylinders in line contact ("press") and a plug in a sleeve ("plug"). One
+// body slides by 0.01 of a side of a triangle; all lists have the same skin. Lists made by vertices hold every pair whose
+// boxes overlap, whichever way its faces look; those of translating faces leave out what does not face or is out of reach.
+// The overlaps of all lists that face and are near are compared before anything is timed. Expected: boxes around moved
+// vertices cost little more; lists are longer, and so is the narrow phase.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 

@@ -1,7 +1,9 @@
-// What contact on nodes costs: an active pair by itself, beside a node-to-segment penalty written plainly; an active pair of two
-// meshes that press on each other, beside the modified reconstruction; and a whole step of bodies of linear finite elements.
+// What contact on nodes costs: an active pair by itself, beside a node-to-segment penalty written plainly; an active pair of
+// two meshes that press on each other, beside the modified reconstruction; and a whole step of bodies of linear finite
+// elements.
 //
-// Expected: 0.3 (2D) and 2.5 microseconds (3D) for the mean gradient of a pair; less than 2 % of a step where nothing is near.
+// Expected: 0.3 (2D) and 2.5 microseconds (3D) for the mean gradient of a pair; less than 2 % of a step where nothing is
+// near.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -283,7 +285,8 @@ nlohmann::json time_steps(int repetitions, double size) {
         const double contact = times[1].least() - times[2].least();
         fmt::print("{}D, {} elements, {}: a step {:.3f} ms, contact {:.2f} % of the rest, {} active pairs of {}\n", Dim,
                    host.mesh().n_cells(), near ? "pressed together" : "far apart", 1e3 * times[0].least(),
-                   100.0 * contact / (times[0].least() - contact), host.contact().report().active_pairs, host.contact().report().candidates);
+                   100.0 * contact / (times[0].least() - contact), host.contact().report().active_pairs,
+                   host.contact().report().candidates);
         result[near ? "pressed together" : "far apart"] = contact / (times[0].least() - contact);
     }
     return result;

@@ -25,8 +25,8 @@ struct HostStep {
     std::span<const Vector<Dim>> displacement_0;  ///< û of all faces of the surface at the start of the step (n_faces) [m]
     std::span<const Vector<Dim>> displacement_1;  ///< the same at its end
     CouplingOf<Dim> coupling_of;
-    /// Asked at each step: y_f = dV/ddelta_f at delta = 0, less applied tractions, of the listed faces at both ends (n_listed)
-    /// [N]. It is dV/dũ_f - |f| t_f where a correction moves its own face alone.
+    /// Asked at each step: y_f = dV/ddelta_f at delta = 0, less applied tractions, of the listed faces at both ends
+    /// (n_listed) [N]. It is dV/dũ_f - |f| t_f where a correction moves its own face alone.
     std::function<void(std::span<const SurfaceFace> faces, std::span<Vector<Dim>> gradient_0,
                        std::span<Vector<Dim>> gradient_1)>
         gradients_of;
@@ -96,14 +96,14 @@ public:
     /// true (empty: all), and returns what it remembers of the others, for `take_pairs` of their new owners. Between two
     /// steps; the next one must begin with a search, which `step` sees to.
     [[nodiscard]] PairStore release_pairs(std::function<bool(FacePair)> is_own);
-    /// Takes over what another Contact released. Throws BadInput for a face that the surface does not have, Misuse for a pair
-    /// that is not this one's own, or that it knows already; it stays as it is then.
+    /// Takes over what another Contact released. Throws BadInput for a face that the surface does not have, Misuse for a
+    /// pair that is not this one's own, or that it knows already; it stays as it is then.
     void take_pairs(const PairStore& pairs);
 
-    /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After `restore` of an
-    /// object made for the same surface with the same options (and the same own pairs) the next steps have the same bits; they
-    /// begin with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or
-    /// surface.
+    /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After
+    /// `restore` of an object made for the same surface with the same options (and the same own pairs) the next steps have
+    /// the same bits; they begin with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another
+    /// version, dimension or surface.
     [[nodiscard]] std::vector<std::byte> state() const;
     void restore(std::span<const std::byte> state);
 

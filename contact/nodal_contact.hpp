@@ -40,13 +40,13 @@ struct NodalStableStep {
 };
 
 /// The contact of bodies whose surfaces are made of nodes, and whose faces may turn: finite elements and nearly all other
-/// solvers. Every pair of facing facets has a potential W of its corners (geometry::pair_mean_gradient): the spring of the half
-/// elements behind both, over their overlap. H~, momentum and angular momentum are kept to round-off by MEMM, for steps of any
-/// size; other schemes take the force at the end of the step.
+/// solvers. Every pair of facing facets has a potential W of its corners (geometry::pair_mean_gradient): the spring of the
+/// half elements behind both, over their overlap. H~, momentum and angular momentum are kept to round-off by MEMM, for steps
+/// of any size; other schemes take the force at the end of the step.
 ///
 /// A host calls `step` once per step, with its nodes at both ends, and adds the forces to its own. Obstacles are bodies with
-/// infinite stiffness, whose nodes the host places where it wants (`Placement` turns and shifts). docs/embedding.md walks through it;
-/// docs/method.md, The potential of a pair, has the equations.
+/// infinite stiffness, whose nodes the host places where it wants (`Placement` turns and shifts). docs/embedding.md walks
+/// through it; docs/method.md, The potential of a pair, has the equations.
 ///
 /// Not safe to use from two threads at once; several objects are independent of each other. After an exception the step did
 /// not happen (counters may have seen it, and `last` holds nothing of use).
@@ -59,15 +59,16 @@ public:
     NodalContact(NodalContact&&) noexcept;
     NodalContact& operator=(NodalContact&&) noexcept;
 
-    /// Contact along one step in which the nodes move from x_0 to x_1 (n_nodes) [m] on straight lines. Searches first where the
-    /// candidate list does not hold. Throws BadInput for a wrong number of nodes, Diverged for a node that is not finite or
-    /// moves too far, TooDeep naming the faces for a pair that is pressed in deeper than `compression_limit`, LimitExceeded for
-    /// a search that takes more than its limits allow.
+    /// Contact along one step in which the nodes move from x_0 to x_1 (n_nodes) [m] on straight lines. Searches first where
+    /// the candidate list does not hold. Throws BadInput for a wrong number of nodes, Diverged for a node that is not finite
+    /// or moves too far, TooDeep naming the faces for a pair that is pressed in deeper than `compression_limit`,
+    /// LimitExceeded for a search that takes more than its limits allow.
     const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
 
-    /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, at any
-    /// x. Changes nothing that the next steps depend on; only before the first step the run begins at x. Cheap where the
-    /// candidate list holds, as where the last step ended; it searches for each call elsewhere. Throws as `step`, except TooDeep.
+    /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, at
+    /// any x. Changes nothing that the next steps depend on; only before the first step the run begins at x. Cheap where the
+    /// candidate list holds, as where the last step ended; it searches for each call elsewhere. Throws as `step`, except
+    /// TooDeep.
     const NodalStep<Dim>& evaluate(PointsView<Dim> x);
 
     /// The result of the last of these calls.
@@ -77,20 +78,21 @@ public:
     /// BadInput for a mass of a node of a deformable face that is not > 0, or a frequency that is not >= 0.
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
 
-    /// Bodies whose sharpest edges have less than a quarter of the weight of flat sides where they cross (`NodalOptions::facing`;
-    /// by default edges of 70 degrees and less): they press in deeper than others, or go through each other until a step is
-    /// refused. Nothing in 2D. To be asked once, where positions are those at rest.
+    /// Bodies whose sharpest edges have less than a quarter of the weight of flat sides where they cross
+    /// (`NodalOptions::facing`; by default edges of 70 degrees and less): they press in deeper than others, or go through
+    /// each other until a step is refused. Nothing in 2D. To be asked once, where positions are those at rest.
     [[nodiscard]] std::optional<EdgePair<Dim>> unseen_edges() const;
 
-    /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After `restore`
-    /// of an object made for the same surface with the same options the next steps have the same bits. Throws BadInput, and
-    /// stays as it is, for bytes that are damaged, of another version, dimension or surface.
+    /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After
+    /// `restore` of an object made for the same surface with the same options the next steps have the same bits. Throws
+    /// BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or surface.
     [[nodiscard]] std::vector<std::byte> state() const;
     void restore(std::span<const std::byte> state);
 
-    /// Goes on with another surface of the same nodes or of others, between two steps: faces have eroded, and what was behind
-    /// them is a face now. `old_face_of`: of each new face that was there before, its old number, else -1 (n_faces). Pairs of
-    /// old faces keep what they remember. Throws BadInput, and stays as it is, for numbers out of range or given twice.
+    /// Goes on with another surface of the same nodes or of others, between two steps: faces have eroded, and what was
+    /// behind them is a face now. `old_face_of`: of each new face that was there before, its old number, else -1 (n_faces).
+    /// Pairs of old faces keep what they remember. Throws BadInput, and stays as it is, for numbers out of range or given
+    /// twice.
     void surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of);
 
     [[nodiscard]] const NodalSurface<Dim>& surface() const;

@@ -34,8 +34,8 @@ struct NodalStep {
     std::vector<std::int32_t> nodes;  ///< of the faces in the candidate list, increasing (n)
     std::vector<Vector<Dim>>
         gradient;  ///< what stands for dW/dx in the step, of each of these (n) [N]; the force is minus that
-    /// The active pairs, by face; a face with four corners may appear twice with one partner. `gap_0` and `gap_1` are the least
-    /// over the overlap, 0 where it is not pressed in.
+    /// The active pairs, by face; a face with four corners may appear twice with one partner. `gap_0` and `gap_1` are the
+    /// least over the overlap, 0 where it is not pressed in.
     std::vector<PairStep<Dim>> pairs;
     std::vector<BodyStep<Dim>> bodies;          ///< those with a face in the candidate list, increasing
     std::vector<BodyPairStep<Dim>> body_pairs;  ///< the same, by (body_1, body_2), body_1 < body_2
@@ -45,8 +45,8 @@ struct NodalStep {
     StepReport report;
 
     [[nodiscard]] bool is_active() const { return !pairs.empty(); }
-    /// Adds the forces of the step to those of a host, one per node [N]. `force` may end before the nodes do: a host that has
-    /// appended the nodes of obstacles to its own gets the forces on its own alone, `bodies` has those on the obstacles.
+    /// Adds the forces of the step to those of a host, one per node [N]. `force` may end before the nodes do: a host that
+    /// has appended the nodes of obstacles to its own gets the forces on its own alone, `bodies` has those on the obstacles.
     void add_force_to(PointsSpan<Dim> force) const {
         if (!is_active()) return;
         for (std::size_t i = 0; i < nodes.size() && nodes[i] < force.size(); ++i) force.add(nodes[i], -gradient[i]);

@@ -112,8 +112,8 @@ bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halv
     return normal[0].dot(normal[1]) > 0.0;
 }
 
-/// Two triangles of a face with four corners, along the shorter diagonal, the first one of equals; of a concave face along that
-/// inside.
+/// Two triangles of a face with four corners, along the shorter diagonal, the first one of equals; of a concave face along
+/// that inside.
 Halves halves_of(PointsView<3> rest, std::int32_t face, std::span<const std::int32_t> corners) {
     Halves shorter{Facet{0, 1, 2}, Facet{0, 2, 3}}, longer{Facet{0, 1, 3}, Facet{1, 2, 3}};
     const double first = (rest[corners[2]] - rest[corners[0]]).norm(), second = (rest[corners[3]] - rest[corners[1]]).norm();

@@ -18,32 +18,33 @@ struct NodalFaces {
     std::span<const std::int32_t> nodes;
     std::span<const std::int32_t> offsets;  ///< (n_faces + 1), into `nodes`; empty: every face has Dim corners
     std::span<const std::int32_t> body;     ///< (n_faces), from 0 on; faces of one body do not touch each other
-    /// (n_faces) [m]: half the height of the element behind the face, and 0 for a rigid face. A contact is admitted as deep as
-    /// both faces together
+    /// (n_faces) [m]: half the height of the element behind the face, and 0 for a rigid face. A contact is admitted as deep
+    /// as both faces together
     std::span<const double> depth;
-    /// (n_bodies) k [Pa/m]: `skin_stiffness` of a deformable body, infinity of a rigid one. Contact is the spring of the half
-    /// elements behind both faces in series, no penalty: a larger k costs time steps and gains nothing
+    /// (n_bodies) k [Pa/m]: `skin_stiffness` of a deformable body, infinity of a rigid one. Contact is the spring of the
+    /// half elements behind both faces in series, no penalty: a larger k costs time steps and gains nothing
     std::span<const double> stiffness;
 };
 
-/// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the given depths of its faces. A k for each face fails the
-/// patch test where depths vary. On graded meshes give the depths of the faces that will touch alone: with those of all faces,
-/// six times deeper far from the contact, the skin is too soft, and the pressure of Hertz off by 13 % (docs/turning.md).
-/// docs/method.md, The potential of a pair. Throws BadInput for a modulus or a sum of depths that is not finite and > 0.
+/// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the given depths of its faces. A k for each face fails
+/// the patch test where depths vary. On graded meshes give the depths of the faces that will touch alone: with those of all
+/// faces, six times deeper far from the contact, the skin is too soft, and the pressure of Hertz off by 13 %
+/// (docs/turning.md). docs/method.md, The potential of a pair. Throws BadInput for a modulus or a sum of depths that is not
+/// finite and > 0.
 [[nodiscard]] double skin_stiffness(double p_wave_modulus, std::span<const double> depth);
 
 /// k of two springs one behind the other [Pa/m]; infinity is that of a rigid body.
 [[nodiscard]] double series_stiffness(double k_1, double k_2);
 
-/// The boundary of a host's bodies, for laws of contact on nodes: flat facets between nodes. A face with four corners is cut in
-/// two along its shorter diagonal, or along that which lies inside it.
+/// The boundary of a host's bodies, for laws of contact on nodes: flat facets between nodes. A face with four corners is cut
+/// in two along its shorter diagonal, or along that which lies inside it.
 template <int Dim>
 class NodalSurface {
 public:
-    /// `rest`: all nodes of the host at rest (n_nodes) [m], whether they belong to a face or not. Obstacles on a given path have
-    /// nodes, too. Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an index out
-    /// of range, a number of corners that is not allowed, a corner that is not finite, a facet without area, a depth or
-    /// stiffness that is not > 0 (a rigid body has depth >= 0), four corners whose edges cross.
+    /// `rest`: all nodes of the host at rest (n_nodes) [m], whether they belong to a face or not. Obstacles on a given path
+    /// have nodes, too. Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an
+    /// index out of range, a number of corners that is not allowed, a corner that is not finite, a facet without area, a
+    /// depth or stiffness that is not > 0 (a rigid body has depth >= 0), four corners whose edges cross.
     NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& faces);
 
     [[nodiscard]] std::int32_t n_nodes() const { return static_cast<std::int32_t>(facets_.vertices.size()); }
@@ -57,8 +58,8 @@ public:
     [[nodiscard]] SurfaceFace face_of(std::int32_t facet) const { return face_of_[static_cast<std::size_t>(facet)]; }
     /// Facets of a face of the host: one, or two that follow each other.
     [[nodiscard]] std::span<const std::int32_t> facet_offsets() const { return facet_offsets_; }  ///< (n_faces + 1)
-    /// Bodies whose faces close a volume and all look into it: the walls of a cavity that is filled, or faces with their corners
-    /// the wrong way around, which nothing ever touches.
+    /// Bodies whose faces close a volume and all look into it: the walls of a cavity that is filled, or faces with their
+    /// corners the wrong way around, which nothing ever touches.
     [[nodiscard]] std::vector<std::int32_t> inward_bodies() const;
     /// Nodes that belong to a face, increasing.
     [[nodiscard]] std::span<const std::int32_t> nodes() const { return nodes_; }

@@ -69,13 +69,13 @@ template <int Dim>
 
 /// The narrow phase of faces that turn and deform: `surface` is that at rest, which `check` must have let pass, and `x`
 /// (n_vertices) [m] where its vertices are now. Centroids, normals and areas of the faces that pairs name are those of now.
-/// The same decisions and the same bits as of a surface made anew from `x`; the work is that of the pairs and of the faces
-/// they name, beside one light pass over all faces. A face that has lost its area has no
-/// normal and shares nothing: `not_facing` counts its pairs.
-/// A polygon that is no longer flat is seen as its projection along the normal of the pair, its own normal being Newell's:
-/// area and gap are then right to first order in the warp; triangles and segments stay flat. Throws BadInput as
-/// `find_overlaps`, Diverged naming the face if a vertex of one that a pair names is not finite, if its area is not, or if it
-/// is a polygon of four corners or more that is no longer convex along its normal. Other vertices may hold anything.
+/// The same decisions and the same bits as of a surface rebuilt from `x`; the work is that of the pairs and of the faces
+/// they name, beside one light pass over all faces. A face that has lost its area has no normal and shares nothing:
+/// `not_facing` counts its pairs. A polygon that is no longer flat is seen as its projection along the normal of the pair,
+/// its own normal being Newell's: area and gap are then right to first order in the warp; triangles and segments stay flat.
+/// Throws BadInput as `find_overlaps`, Diverged naming the face if a vertex of one that a pair names is not finite, if its
+/// area is not, or if it is a polygon of four corners or more that is no longer convex along its normal. Other vertices may
+/// hold anything.
 template <int Dim>
 [[nodiscard]] Overlaps<Dim> find_overlaps_moved(const SurfaceView<Dim>& surface, PointsView<Dim> x,
                                                 std::span<const geometry::IndexPair> pairs,

@@ -22,9 +22,9 @@ template <int Dim>
     return (surface.centroid[face_2] - surface.centroid[face_1]) + (u_2 - u_1);
 }
 
-/// Which face gives n_12. `both`: it is the mean, along n_1 - n_2. A rigid face gives its own normal: an obstacle's face may be
-/// far larger than its partner, and a gap read at its centroid along a tilted normal would mean nothing. Else the face that is
-/// farther from a sharp edge of its body gives its own: a corner on a flat side would be pushed along it.
+/// Which face gives n_12. `both`: it is the mean, along n_1 - n_2. A rigid face gives its own normal: an obstacle's face may
+/// be far larger than its partner, and a gap read at its centroid along a tilted normal would mean nothing. Else the face
+/// that is farther from a sharp edge of its body gives its own: a corner on a flat side would be pushed along it.
 enum class NormalOf { both, face_1, face_2 };
 
 template <int Dim>

@@ -13,11 +13,11 @@ enum class TakenForce {
     end,   ///< that at the end of the step: central differences, Bilbao. What opens and closes inside the step is not seen
 };
 
-/// How the energy gradients of a host's faces answer to corrections: y_f = y_free,f + sum_f' Q_ff' delta_f', among the listed
-/// faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary faces of
-/// its cell, those of cells that share a stabilised interior face with it. Rows of rigid faces may be empty. Q_ff' = d²V/ddelta_f
-/// ddelta_f': finite, Q_f'f the transpose of Q_ff', no eigenvalue of Q_ff below 0 (both within 1e-10 of the largest entry of
-/// these blocks; all zero is allowed). A search refuses anything else with BadInput naming the face.
+/// How the energy gradients of a host's faces answer to corrections: y_f = y_free,f + sum_f' Q_ff' delta_f', among the
+/// listed faces (`Contact::faces`). Row f holds f itself and all faces that share an energy term with it: the other boundary
+/// faces of its cell, those of cells that share a stabilised interior face with it. Rows of rigid faces may be empty. Q_ff'
+/// = d²V/ddelta_f ddelta_f': finite, Q_f'f the transpose of Q_ff', no eigenvalue of Q_ff below 0 (both within 1e-10 of the
+/// largest entry of these blocks; all zero is allowed). A search refuses anything else with BadInput naming the face.
 template <int Dim>
 struct FaceCoupling {
     std::vector<std::int32_t> offsets{0};  ///< (n + 1)
@@ -56,19 +56,19 @@ struct StepReport {
     std::int64_t events = 0;            ///< of all pairs
     double compression = 0.0;           ///< largest |g|/D of an active pair at the ends of the step
     std::int32_t most_compressed = -1;  ///< which pair it is, in `pairs` of the step; -1: none
-    /// Of the modified reconstruction, like the next two (0 on nodes): largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over
-    /// that which the whole face would carry.
+    /// Largest |g| |dA/ds| over the smaller face of an active pair, at the ends of its pieces: the force of sliding over
+    /// that which the whole face would carry. This and the next two are of the modified reconstruction; 0 on nodes.
     double sliding_ratio = 0.0;
     /// Pairs whose faces slid off each other in this step while pressed in, and neither of which (except for faces of
     /// obstacles) has another partner at its end. Seen where the overlap moves and events are looked for; not where the area
     /// comes to its end just when the step does.
     std::int64_t slipped_pairs = 0;
     double slipped_compression = 0.0;  ///< their largest |g|/D when the overlap came to its end
-    /// Active pairs whose normal is more than 20 degrees away from those of both faces: edges on edges, and coarse round bodies.
-    /// Their force has a part along the faces.
+    /// Active pairs whose normal is more than 20 degrees away from those of both faces: edges on edges, and coarse round
+    /// bodies. Their force has a part along the faces.
     std::int64_t tilted_pairs = 0;
-    /// Of the pair potential: what closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too long
-    /// to follow the pairs.
+    /// Of the pair potential: what closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too
+    /// long to follow the pairs.
     double correction = 0.0;
 };
 

@@ -32,8 +32,9 @@ struct SurfaceView {
     /// cell take off where they answer to a correction; infinity: a rigid face
     std::span<const double> stiffness;
     std::span<const std::int32_t> body;  ///< (n) faces of one body do not touch each other unless self-contact is asked for
-    /// (n), or empty: steps from face to face to a sharp convex edge of the body, at most `far_from_sharp_edge` (the function of
-    /// this name gives them). Two faces meet along the normal of that which is farther from an edge, or the mean of both
+    /// (n), or empty: steps from face to face to a sharp convex edge of the body, at most `far_from_sharp_edge` (the
+    /// function of this name gives them). Two faces meet along the normal of that which is farther from an edge, or the mean
+    /// of both
     std::span<const std::uint8_t> steps_to_sharp_edge = {};
 
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }

@@ -78,7 +78,8 @@ public:
 };
 
 /// J~ = sum x^n × p^n - dt/4 sum v^{n-1/2} × p^{n+1/2} [kg m^2/s], v = M^-1 p: the angular momentum that MEMM conserves with
-/// steps of dt, exactly, where mean forces have no moment about the positions at the middle of a step (MomentArms::mid_step).
+/// steps of dt, exactly, where mean forces have no moment about the positions at the middle of a step
+/// (MomentArms::mid_step).
 template <int Dim>
 [[nodiscard]] AngularMomentum<Dim> pseudo_angular_momentum(const RunView<Dim>& run, double dt,
                                                            std::span<const Vector<Dim>> rest_position,
@@ -93,8 +94,8 @@ void add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::span<cons
 [[nodiscard]] double largest_angle(std::span<const double> angles);
 }  // namespace detail
 
-/// Measures the present state; costs about two force evaluations. `system` is that of the integrator; `restarts` are those of
-/// the run, if it has any.
+/// Measures the present state; costs about two force evaluations. `system` is that of the integrator; `restarts` are those
+/// of the run, if it has any.
 template <class Scheme, PointSystem S>
 [[nodiscard]] LedgerEntry<S::dimension> measure(Integrator<Scheme, S>& integrator, S& system,
                                                 const RestartReport& restarts = {}) {

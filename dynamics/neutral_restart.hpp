@@ -57,9 +57,9 @@ void restart_body(std::span<const std::int32_t> points, const NodeView<Dim>& nod
 ///
 /// p = (p^{n-1/2} + p^{n+1/2})/2 is split into a rigid motion and the rest k, about the positions at rest or about the arms
 /// x + dt/4 M^-1 w', with which J~ is sum arm × p. r' is the rigid motion that carries the momentum and the angular momentum
-/// of the body; sigma makes H~ what it was: the vibration pays for e, the motion as a whole does not, whether something holds
-/// the body or not. theta = 1 takes all of e; it is halved until 1/4 <= sigma^2 <= 1.21. A body in which nothing vibrates is
-/// left as it is, and counted. One force evaluation a restart; the bits do not depend on the number of threads.
+/// of the body; sigma makes H~ what it was: the vibration pays for e, the motion as a whole does not, whether something
+/// holds the body or not. theta = 1 takes all of e; it is halved until 1/4 <= sigma^2 <= 1.21. A body in which nothing
+/// vibrates is left as it is, and counted. One force evaluation a restart; the bits do not depend on the number of threads.
 template <BodySystem S>
 class NeutralRestart {
 public:

@@ -1,8 +1,8 @@
 // Contact in a finite element code: two elastic bodies of linear elements run into each other off centre.
 //
-// Discs of triangles (cylinders of tetrahedra with the argument 3), R = E = rho = 1, nu = 0.3, at +-0.05 along x, centres 0.8
-// apart along y; small strains. Contact takes the nodes at both ends of a step and gives forces on them. Other codes of this
-// kind find that the left body leaves at (-0.0279, -0.0400), in 3D at (-0.0276, -0.0403). MEMM keeps H~ to round-off.
+// Discs of triangles (cylinders of tetrahedra with the argument 3), R = E = rho = 1, nu = 0.3, at +-0.05 along x, centres
+// 0.8 apart along y; small strains. Contact takes the nodes at both ends of a step and gives forces on them. Other codes of
+// this kind find that the left body leaves at (-0.0279, -0.0400), in 3D at (-0.0276, -0.0403). MEMM keeps H~ to round-off.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

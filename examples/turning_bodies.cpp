@@ -1,9 +1,9 @@
 // Bodies that turn, in a finite element code with finite strains: two gears on axles, and a block that tumbles on a plane.
 //
-// Triangles of St. Venant and Kirchhoff's material, whose mean force over a step, F_mid S_mean, is exact for energy. The first
-// gear spins at 0.1 rad/s and drives the second, as large, which is at rest at first: without friction and losses each has half
-// of the angular momentum in the end, on average, and their teeth never pass each other. The block falls on its corner and spins.
-// H~ is kept to round-off in both, however far the bodies turn.
+// Triangles of St. Venant and Kirchhoff's material, whose mean force over a step, F_mid S_mean, is exact for energy. The
+// first gear spins at 0.1 rad/s and drives the second, as large, which is at rest at first: without friction and losses each
+// has half of the angular momentum in the end, on average, and their teeth never pass each other. The block falls on its
+// corner and spins. H~ is kept to round-off in both, however far the bodies turn.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -151,7 +151,8 @@ mesh::Mesh<2> gear(double x, double phase) {  // 12 round teeth about r = 1, on 
     return mesh::build_mesh<2>(std::move(soup));
 }
 
-/// Runs with body 0 spinning about its centre. Whether H~ stays, bodies touch and none is missed, and gears share their spin.
+/// Runs with body 0 spinning about its centre. Whether H~ stays, bodies touch and none is missed, and gears share their
+/// spin.
 bool run(const char* name, Bodies& bodies, double spin, const V& centre, double time, double dt) {
     std::vector<double> p(bodies.size(), 0.0);
     for (std::size_t i = 0; i < bodies.mass.size(); ++i) {

@@ -19,11 +19,11 @@ enum class FreeFaceRule {
 
 /// What the free faces of a cell do when contact moves another of its boundary faces. docs/method.md, Contact.
 enum class CornerRule {
-    /// They keep the balance of their cell (`local_equilibrium` only): stresses at free sides are right. Where contact presses
-    /// on two sides of one cell, each side moves the other: off by 18 % (2D) to 39 % (3D) of the pressure
+    /// They keep the balance of their cell (`local_equilibrium` only): stresses at free sides are right. Where contact
+    /// presses on two sides of one cell, each side moves the other: off by 18 % (2D) to 39 % (3D) of the pressure
     relaxed,
-    /// They stay where they were. Where contact presses on two sides of one cell: off by 6 % (2D) to 11 % (3D); beside a free
-    /// side the cell holds 47 % (2D) to 67 % (3D) of the pressure too much
+    /// They do not answer. Where contact presses on two sides of one cell: off by 6 % (2D) to 11 % (3D); beside a
+    /// free side the cell holds 47 % (2D) to 67 % (3D) of the pressure too much
     fixed,
 };
 

@@ -119,8 +119,8 @@ public:
     /// Edges of two bodies that would cross unseen; nothing without contact. contact/unseen_edges.hpp.
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
-    /// How far each body has turned in q (n_bodies) [rad]: the angle of the nearest rotation. Strains are linear: a body that
-    /// turns grows by 1/cos of it, without a force against that. docs/limits.md.
+    /// How far each body has turned in q (n_bodies) [rad]: the angle of the nearest rotation. Strains are linear: a body
+    /// that turns grows by 1/cos of it, without a force against that. docs/limits.md.
     [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
 
 private:

@@ -1,11 +1,11 @@
 // What the energy-neutral filter and the neutral restart are worth in runs of a million steps: scenes in contact again and
 // again, each without a remedy against the alternating mode of MEMM, with the filter, with the restart, and with both.
 //
-// bar: a chain that bounces on a wall under gravity, in one dimension, at three Courant numbers; strip: the same bar of cells.
-// disc: one between two walls. blocks: two, of different meshes, on rollers between two walls. rest: a block that begins to
-// rest on a plane. rattle: a net of strings that spins inside a ring of strings; both turn, nothing acts from outside, and
-// momentum, J~ and H~ are exact. H~ is exact in every scene that does not explode; what differs is H - H~ and |e|/m.
-// docs/filter.md has the table.
+// bar: a chain that bounces on a wall under gravity, in one dimension, at three Courant numbers; strip: the same bar of
+// cells. disc: one between two walls. blocks: two, of different meshes, on rollers between two walls. rest: a block that
+// begins to rest on a plane. rattle: a net of strings that spins inside a ring of strings; both turn, nothing acts from
+// outside, and momentum, J~ and H~ are exact. H~ is exact in every scene that does not explode; what differs is H - H~ and
+// |e|/m. docs/filter.md has the table.
 #include <fmt/format.h>
 
 #include <cstdio>

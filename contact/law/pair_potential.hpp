@@ -19,8 +19,8 @@ class PairPotential {
 public:
     explicit PairPotential(bool events) : events_(events) {}
 
-    /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns how
-    /// many pairs are pressed in at x_0 without being contacts.
+    /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
+    /// how many pairs are pressed in at x_0 without being contacts.
     std::int64_t apply(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<PairMemory> memory,
                        PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
 

@@ -34,10 +34,9 @@ enum class GapOf {
 
 /// The pairs of faces that can touch: a list over any number of surfaces, that lives for many steps. docs/detection.md.
 ///
-/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches again if need
-/// be: with `search` where faces translate, with `search_moved` where they turn or deform.
-/// The faces of a body are kept in a spatial order from one search to the next, so that the packed tree is built in one
-/// sweep over them.
+/// Each step the host asks `is_valid_for` with an upper bound on the motion since the last search, and searches again if
+/// need be: with `search` where faces translate, with `search_moved` where they turn or deform. The faces of a body are kept
+/// in a spatial order from one search to the next, so that the packed tree is built in one sweep over them.
 template <int Dim>
 class CandidateSearch {
 public:
@@ -50,29 +49,29 @@ public:
 
     /// Whether the list is still a superset of all pairs in question, when no corner has moved by more than `motion` [m]
     /// from where the path of the search began. After `search` no face may have turned either: normals have decided which
-    /// faces look at each other and where a gap lies, and no skin allows for a change of them; after `search_moved` faces turn
-    /// and deform as they like. False before the first search, and after one that failed.
+    /// faces look at each other and where a gap lies, and no skin allows for a change of them; after `search_moved` faces
+    /// turn and deform as they like. False before the first search, and after one that failed.
     [[nodiscard]] bool is_valid_for(double motion) const;
 
-    /// Rebuilds the list for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every
-    /// pair of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that path and as long
-    /// as no face has moved by more than half the skin from u_0. Without a condition on facing (facing_cosine = 1) it is
-    /// every pair of faces, whatever their normals, that can come as near as `distance` in space. Rigid faces never pair.
-    /// Throws Diverged naming the face if a displacement is not finite, or a face moves farther within the step
-    /// than `largest_motion` allows: the run has diverged. geometry::SearchLimitError if there are too many pairs, or too
-    /// little memory is allowed; BadInput for arrays of the wrong size. The list is empty then.
+    /// Rebuilds the list for a step along straight lines from u_0 to u_1, the displacements of all faces (n) [m]: every pair
+    /// of facing faces (face_1 < face_2) that can be in contact, or come as near as `distance`, on that path and as long as
+    /// no face has moved by more than half the skin from u_0. Without a condition on facing (facing_cosine = 1) it is every
+    /// pair of faces, whatever their normals, that can come as near as `distance` in space. Rigid faces never pair. Throws
+    /// Diverged naming the face if a displacement is not finite, or a face moves farther within the step than
+    /// `largest_motion` allows: the run has diverged. geometry::SearchLimitError if there are too many pairs, or too little
+    /// memory is allowed; BadInput for arrays of the wrong size. The list is empty then.
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1);
 
     /// Rebuilds the list for faces that turn and deform: for a step in which the vertices (n_vertices) move along straight
     /// lines from x_0 to x_1 [m], all of them from wherever they were at rest. It holds every pair that at any time on that
     /// path, or while no vertex is farther than half the skin from x_0, is seen to overlap along any direction with a gap
     /// |g| <= distance + 2 (d_1 + d_2), 2 (d_1 + d_2) being what contact allows; g is that over points that both faces cover.
-    /// With GapOf::centroids it is every pair that faces each other (facing_cosine) and whose centroids are so far apart along
-    /// its normal. With facing_cosine = 1 it is every pair that comes as near as `distance` in space.
-    /// Boxes around the vertices at x_0 and x_1 decide, normals play no part: of pairs whose boxes overlap all are listed,
-    /// whichever way they look, and `is_valid_for` allows for turns. Surfaces are as flat as the host keeps them: a polygon
-    /// is all points between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the vertex too, and
-    /// the extent that limits its motion is that at rest. Vertices that no face names may hold anything.
+    /// With GapOf::centroids it is every pair that faces each other (facing_cosine) and whose centroids are so far apart
+    /// along its normal. With facing_cosine = 1 it is every pair that comes as near as `distance` in space. Boxes around the
+    /// vertices at x_0 and x_1 decide, normals play no part: of pairs whose boxes overlap all are listed, whichever way they
+    /// look, and `is_valid_for` allows for turns. Surfaces are as flat as the host keeps them: a polygon is all points
+    /// between its corners. Neighbours, rigid faces and errors as `search`, Diverged names the vertex too, and the extent
+    /// that limits its motion is that at rest. Vertices that no face names may hold anything.
     void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap);
 
     /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads.

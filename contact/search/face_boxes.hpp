@@ -11,8 +11,8 @@ namespace abut::contact {
 /// Whether faces pair whatever their normals.
 [[nodiscard]] inline bool by_distance_alone(const CandidateOptions& options) { return options.facing_cosine == 1.0; }
 
-/// How steeply faces lie against the planes of their pairs: where the gap of a pair is taken between the centroids, its faces
-/// can be farther apart than the gap where they overlap.
+/// How steeply faces lie against the planes of their pairs: where the gap of a pair is taken between the centroids, its
+/// faces can be farther apart than the gap where they overlap.
 template <int Dim>
 class FaceTilt {
 public:

@@ -15,18 +15,17 @@ namespace abut::contact {
 /// TranslatedFaces. Normals are those of no one time, so that the boxes alone decide.
 ///
 /// They suffice. Let the faces 1 and 2 overlap at some time, seen along any unit vector n: there are points p_1 and p_2 of
-/// them, p_2 - p_1 = g n. A point of a face is a mean of its vertices at that time, with weights >= 0, and so lies in the box
-/// B_f around its vertices at x_0 and x_1; and if no vertex is farther than skin/2 from x_0, within skin/2 of the box
+/// them, p_2 - p_1 = g n. A point of a face is a mean of its vertices at that time, with weights >= 0, and so lies in the
+/// box B_f around its vertices at x_0 and x_1; and if no vertex is farther than skin/2 from x_0, within skin/2 of the box
 /// around x_0 in every component. No component of g n is larger than |g|. So boxes grown by a_1 and a_2 overlap if
 ///
 ///     |g| + skin <= a_1 + a_2.
 ///
 /// With a_f = 2 d_f + (distance + skin)/2 that is |g| <= 2 D + distance, D = d_1 + d_2, whatever the normals are: no facing
-/// and no tilt enters, for g is a distance between two points of the faces.
-/// Where the gap is taken between centroids c_f it is none: p_2 - p_1 is then (gap + (p_2 - c_2).n - (p_1 - c_1).n) n, and
-/// these two products are up to r_f sin(tilt_f). The radius is that at the time of contact: r_f is a norm of differences that
-/// are linear on the path, and so largest at an end of it, and gains at most one skin where vertices and centroid each move by
-/// half of it.
+/// and no tilt enters, for g is a distance between two points of the faces. Where the gap is taken between centroids c_f it
+/// is none: p_2 - p_1 is then (gap + (p_2 - c_2).n - (p_1 - c_1).n) n, and these two products are up to r_f sin(tilt_f). The
+/// radius is that at the time of contact: r_f is a norm of differences that are linear on the path, and so largest at an end
+/// of it, and gains at most one skin where vertices and centroid each move by half of it.
 template <int Dim>
 class MovedFaces {
 public:

@@ -145,8 +145,8 @@ void add_mean(const PairPath<Dim>& path, const Cuts& cuts, const PairNormals<Dim
     }
 }
 
-/// Adds what closes the balance of energy along the motion; gives its size. Nothing where it is round-off of the energies or,
-/// in steps that are nothing but round-off, of the force.
+/// Adds what closes the balance of energy along the motion; gives its size. Nothing where it is round-off of the energies
+/// or, in steps that are nothing but round-off, of the force.
 template <int Dim>
 double close_balance(const PairPath<Dim>& path, double energy_0, double energy_1, PairCorners<Dim>& phi) {
     const double open = (energy_1 - energy_0) - dot<Dim>(phi, path.motion);

@@ -74,8 +74,8 @@ template <int Dim>
 /// What a pair can do in all positions in which no corner is farther than a reach from where it is now.
 template <int Dim>
 struct PairOutlook {
-    /// False only if W = 0 in all of them, where |g| is not larger than a given depth: the faces stay apart, above or beside each
-    /// other, or cannot come to look at each other.
+    /// False only if W = 0 in all of them, where |g| is not larger than a given depth: the faces stay apart, above or beside
+    /// each other, or cannot come to look at each other.
     bool may_act = true;
     Vector<Dim> normal = Vector<Dim>::Zero();  ///< n as it is now, unit; zero: n can turn too far for `rests`
     Vector<Dim> aside = Vector<Dim>::Zero();   ///< from face 1 to face 2 across n, unit
@@ -123,8 +123,8 @@ struct PairMeanGradient {
     PairCorners<Dim> gradient{};  ///< the discrete gradient: what stands for the mean of dW/dx [N]
     double area = 0.0;            ///< mean of the area where g < 0 [m^(Dim-1)]
     double active_share = 0.0;    ///< of the step, in which W > 0
-    /// The part of the gradient that closes the balance of energy, as a force [N]. Large ones say that the step is too long to
-    /// follow the pair.
+    /// The part of the gradient that closes the balance of energy, as a force [N]. Large ones say that the step is too long
+    /// to follow the pair.
     double correction = 0.0;
     int events = 0;  ///< cuts of the step
 };

@@ -35,10 +35,10 @@ struct Frame {
 /// BASENAME_surface_000000.vtp, ... with the boundary faces, and BASENAME.pvd and BASENAME_surface.pvd that list
 /// them with their times (open these two).
 ///
-/// Both carry the cell array "body". The displacement is written on cells and, averaged over the cells around a vertex, on
-/// points, unless it is known there: that is what the filter Warp By Vector takes. 2D vectors get a third component 0, tensors six components (xx, yy,
-/// zz, xy, yz, xz). Data are binary and compressed. Every file is written under another name and then moved, the lists last:
-/// a run that breaks off leaves a readable series.
+/// Both carry the cell array "body". The displacement is written on cells and on points, where the filter Warp By Vector
+/// takes it: that of the vertices if the frame has it, else the mean over the cells around each. 2D vectors get a third
+/// component 0, tensors six components (xx, yy, zz, xy, yz, xz). Data are binary and compressed. Every file is written under
+/// another name and then moved, the lists last: a run that breaks off leaves a readable series.
 template <int Dim>
 class VtuSeries {
 public:

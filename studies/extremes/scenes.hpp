@@ -48,7 +48,8 @@ template <int Dim>
 /// A triangle whose tip, of this angle [rad], comes down on the middle of a block, or on a rigid plane.
 [[nodiscard]] run::Scene<2> wedge(const Meeting<2>& meeting, double angle, bool on_plane);
 
-/// A square of side 1 that comes down with a corner on the middle of a block of sides 2 and 1 at rest; so many cells along 1.
+/// A square of side 1 that comes down with a corner on the middle of a block of sides 2 and 1 at rest; so many cells along
+/// 1.
 [[nodiscard]] run::Scene<2> square_on_corner(const Meeting<2>& meeting, int cells);
 
 /// Two beams of length 2 and sides 0.5, their sections rhombi with this angle [rad] above and below, which meet at right
@@ -64,8 +65,8 @@ struct Growth {
     double of_cell = 0.0;  ///< [-]
     double time = 0.0;     ///< when it was measured [s]
 };
-/// A bar of sides 2 and 0.5 that spins freely, this fast [rad/s], until it has turned by `angle` [rad]. `growth` becomes that of
-/// a cell halfway through the last step; it must outlive the run.
+/// A bar of sides 2 and 0.5 that spins freely, this fast [rad/s], until it has turned by `angle` [rad]. `growth` becomes
+/// that of a cell halfway through the last step; it must outlive the run.
 [[nodiscard]] run::Scene<2> spinning_bar(double rate, double angle, Growth& growth);
 
 /// n x n discs of diameter 1 - gap that all fly towards the middle, each as fast as it is far from it.

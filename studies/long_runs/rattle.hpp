@@ -39,8 +39,8 @@ private:
     }
 };
 
-/// A net that flies and spins inside a ring and hits it again and again: two bodies that turn through any angle, with nothing
-/// outside. Momentum, J~ and H~ are exact under MEMM.
+/// A net that flies and spins inside a ring and hits it again and again: two bodies that turn through any angle, with
+/// nothing outside. Momentum, J~ and H~ are exact under MEMM.
 class Rattle : public dynamics::Particles<Strut> {
 public:
     static constexpr int dimension = 2;

@@ -54,8 +54,8 @@ struct P1Scene {
     std::function<bool(const Vector<Dim>&)> touches = {};
 };
 
-/// Bodies of linear finite elements with contact on their nodes: a host as most solvers are one. q holds the displacements of
-/// all nodes. Its mean force is exact for energy, the bulk's and that of contact.
+/// Bodies of linear finite elements with contact on their nodes: a host as most solvers are one. q holds the displacements
+/// of all nodes. Its mean force is exact for energy, the bulk's and that of contact.
 template <int Dim>
 class P1Bodies {
 public:

@@ -16,8 +16,8 @@ std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face
     return {nodes.begin(), nodes.end()};
 }
 
-/// In the middle of the last step. A wall holds what moves into it: that the faces on it are tilted, and push along it a little,
-/// must not let the filter change the momentum along it.
+/// In the middle of the last step. A wall holds what moves into it: that the faces on it are tilted, and push along it a
+/// little, must not let the filter change the momentum along it.
 template <int Dim>
 Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::SurfaceFace face) const {
     const auto& surface = contact_.surface();

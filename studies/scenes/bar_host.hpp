@@ -9,7 +9,8 @@
 namespace abut::studies {
 
 /// The chain of a bar as a host of filter and restart, of one dimension. Its lowest masses are a patch after each step that
-/// begins or ends in contact; the wall holds it, so that its rigid motion stays in e and v. Of one mass a filter takes nothing.
+/// begins or ends in contact; the wall holds it, so that its rigid motion stays in e and v. Of one mass a filter takes
+/// nothing.
 class BarHost : public BarChain {
 public:
     static constexpr int dimension = 1;

@@ -1,7 +1,7 @@
 // Contact patch test: two blocks under a uniform pressure carry one uniform stress, whatever their materials and meshes.
 //
-// Exact to round-off is asked of meshes that match, with `stiffness` weights, local equilibrium and relaxed corners, where no
-// cell is pressed on two sides. Everything else is measured: the table has the largest error of each choice.
+// Exact to round-off is asked of meshes that match, with `stiffness` weights, local equilibrium and relaxed corners, where
+// no cell is pressed on two sides. Everything else is measured: the table has the largest error of each choice.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -110,7 +110,8 @@ TEMPLATE_TEST_CASE_SIG(
     std::mt19937 random(11);
     int active = 0;
     for (int trial = 0; trial < trials; ++trial) {
-        // Tilts up to 25 degrees: pair planes tilt by up to 30 against either face, up to 60 against an obstacle or a face farther from a sharp edge.
+        // Tilts up to 25 degrees: pair planes tilt by up to 30 against either face, up to 60 against an obstacle or a face
+        // farther from a sharp edge.
         auto surface = random_surface<Dim>(random, Dim == 2 ? 8 : 12, 0.45, 1.5);
         for (const double sign : {1.0, -1.0}) {
             Vector<Dim> normal = sign * up<Dim>();

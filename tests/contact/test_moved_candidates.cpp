@@ -154,8 +154,8 @@ TEMPLATE_TEST_CASE_SIG(
 
 TEST_CASE("tilted faces without a gap between centroids can be farther apart than all their depth",
           "[contact][candidates]") {
-    // Two segments, n_1 = (0, 1), n_2 = (-cos a, -sin a) with sin a = 0.25: n_1 . n_2 = -0.25. The small one lies on the line
-    // through the middle of the large one across the mean normal, and over its left end along it.
+    // Two segments, n_1 = (0, 1), n_2 = (-cos a, -sin a) with sin a = 0.25: n_1 . n_2 = -0.25. The small one lies on the
+    // line through the middle of the large one across the mean normal, and over its left end along it.
     const double sine = 0.25, cosine = std::sqrt(1.0 - sine * sine);
     const Vector<2> n_1(0.0, 1.0), n_2(-cosine, -sine), n = (n_1 - n_2).normalized(), t(-n[1], n[0]);
     const Vector<2> end(-0.99, 0.0);

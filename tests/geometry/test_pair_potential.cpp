@@ -281,7 +281,8 @@ TEST_CASE("without its correction a step loses energy, and events make the loss 
 }
 
 TEST_CASE("triangles that meet or part all at once press by the exact mean over the step", "[pair_potential]") {
-    // The force of a uniform gap is k A min(g, 0); its mean over a step from g_0 > 0 to g_1 < 0 is k A g_1^2/2 / (g_1 - g_0).
+    // The force of a uniform gap is k A min(g, 0); its mean over a step from g_0 > 0 to g_1 < 0 is k A g_1^2/2 / (g_1 -
+    // g_0).
     const double g_0 = GENERATE(1e-3, 0.02, 0.3), g_1 = GENERATE(-1e-3, -0.02, -0.1);
     const bool parts = GENERATE(false, true);
     const auto triangles = [](double gap) {

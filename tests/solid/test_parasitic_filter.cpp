@@ -18,8 +18,8 @@ std::unique_ptr<Scene<Dim>> impact(double cfl) {
         return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities, -cfl);
 }
 
-/// What the filter must not change: the kinetic part of H~ (it does not touch q), momentum, and the angular momentum about the
-/// positions at rest, which is that of linear strain.
+/// What the filter must not change: the kinetic part of H~ (it does not touch q), momentum, and the angular momentum about
+/// the positions at rest, which is that of linear strain.
 template <int Dim>
 struct Invariants {
     double kinetic = 0.0;
