@@ -4,7 +4,7 @@
 // update, force at the midpoint, momentum update of MEMM. Rival: y = K x alone, K in 3 x 3 blocks in compressed rows;
 // Eigen's scalar RowMajor matrix beside it. STREAM's triad in the same rounds says what the memory gives. One thread,
 // processor time. Expected: the answers agree to 1e-12; the step is several times faster than the product, below
-// 150 ns a cell.
+// 150 ns per cell.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -170,7 +170,7 @@ void print(const nlohmann::json& r) {
     fmt::print("{} cells, {:.1f} blocks a row, matrix {:.0f} MB, largest relative difference of the answers {:.1e}\n",
                r.at("cells").get<int>(), number("/blocks_a_row"), 1e-6 * number("/matrix_bytes"), number("/difference"));
     for (const char* name : {"step", "stiffness_product", "block_product", "eigen_product"})
-        fmt::print("  {:<18} {:8.1f} ns a cell (median {:.1f})\n", name,
+        fmt::print("  {:<18} {:8.1f} ns per cell (median {:.1f})\n", name,
                    number(fmt::format("/ns_a_cell/{}/least", name).c_str()),
                    number(fmt::format("/ns_a_cell/{}/median", name).c_str()));
     fmt::print("  block product / step: {:.2f} (median {:.2f})\n", number("/product_over_step/least"),

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <random>
 
+#include "abut/base/error.hpp"
 #include "abut/contact/contact.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
@@ -151,7 +152,7 @@ nlohmann::json time_pairs(int repetitions) {
                           {"gradient", ns(2)}, {"glance", ns(3)},        {"node-to-segment penalty, one state", ns(4)},
                           {"sink", sink}};
     fmt::print(
-        "{}D, ns a pair: mean gradient {:.0f} (faces that translate {:.0f}), gradient {:.0f}, a glance {:.0f}, "
+        "{}D, ns per pair: mean gradient {:.0f} (faces that translate {:.0f}), gradient {:.0f}, a glance {:.0f}, "
         "penalty {:.0f} for one state\n",
         Dim, ns(0), ns(1), ns(2), ns(3), ns(4));
     return result;
@@ -187,53 +188,66 @@ void append_plate(int n, double height, int body, std::vector<Vector<Dim>>& node
         }
 }
 
-/// Two plates that do not match, pressed together and slid a little: both laws on the same pairs.
+/// Two plates that do not match, pressed together and slid a little, for both laws.
 template <int Dim>
-nlohmann::json time_laws(int repetitions) {
+struct Plates {
+    explicit Plates(int n) {
+        append_plate<Dim>(n, 0.0, 0, nodes, faces, surface);
+        const std::size_t lower = nodes.size();
+        append_plate<Dim>(n * 7 / 6, 0.01 / n, 1, nodes, faces, surface);
+        faces.stiffness = {1.0, 1.0};
+        start = nodes;
+        for (std::size_t i = lower; i < nodes.size(); ++i) start[i] -= 0.05 / n * Vector<Dim>::Unit(Dim - 1);
+        end = start;
+        std::mt19937 random(2);
+        for (Vector<Dim>& x : end) x += random_vector<Dim>(random, 1e-4 / n);
+        for (std::int32_t f = 0; f < surface.size(); ++f) {
+            u_0.push_back(surface.body[f] == 0 ? 0.0 * Vector<Dim>::Unit(0) : -0.05 / n * Vector<Dim>::Unit(Dim - 1));
+            u_1.push_back(u_0.back() + random_vector<Dim>(random, 1e-4 / n));
+        }
+        rest.assign(u_0.size(), Vector<Dim>::Zero());
+    }
     std::vector<Vector<Dim>> nodes;
     contact::NodalFaceArrays<Dim> faces;
     contact::Surface<Dim> surface;
-    const int n = Dim == 2 ? 2000 : 30;
-    append_plate<Dim>(n, 0.0, 0, nodes, faces, surface);
-    const std::size_t lower = nodes.size();
-    append_plate<Dim>(n * 7 / 6, 0.01 / n, 1, nodes, faces, surface);
-    faces.stiffness = {1.0, 1.0};
+    std::vector<Vector<Dim>> start, end;      // of the nodes
+    std::vector<Vector<Dim>> rest, u_0, u_1;  // of the faces
+};
 
-    std::vector<Vector<Dim>> start = nodes, end;
-    for (std::size_t i = lower; i < nodes.size(); ++i) start[i] -= 0.05 / n * Vector<Dim>::Unit(Dim - 1);
-    end = start;
-    std::mt19937 random(2);
-    for (std::size_t i = 0; i < end.size(); ++i) end[i] += random_vector<Dim>(random, 1e-4 / n);
-    std::vector<Vector<Dim>> u_0, u_1, rest(static_cast<std::size_t>(surface.size()), Vector<Dim>::Zero());
-    for (std::int32_t f = 0; f < surface.size(); ++f) {
-        u_0.push_back(surface.body[f] == 0 ? 0.0 * Vector<Dim>::Unit(0) : -0.05 / n * Vector<Dim>::Unit(Dim - 1));
-        u_1.push_back(u_0.back() + random_vector<Dim>(random, 1e-4 / n));
+/// Faces that answer to their own correction alone, and hold no gradient of their own.
+template <int Dim>
+contact::FaceCoupling<Dim> own_coupling(std::span<const contact::SurfaceFace> listed) {
+    contact::FaceCoupling<Dim> own;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        own.columns.push_back(static_cast<std::int32_t>(i));
+        own.offsets.push_back(static_cast<std::int32_t>(i) + 1);
+        own.blocks.push_back(Matrix<Dim>::Identity());
     }
-    contact::NodalContact<Dim> nodal(contact::NodalSurface<Dim>(nodes, faces.view()));
-    contact::Contact<Dim> by_faces(surface.view());
-    const auto coupling = [](std::span<const contact::SurfaceFace> listed) {
-        contact::FaceCoupling<Dim> own;
-        for (std::size_t i = 0; i < listed.size(); ++i) {
-            own.columns.push_back(static_cast<std::int32_t>(i));
-            own.offsets.push_back(static_cast<std::int32_t>(i) + 1);
-            own.blocks.push_back(Matrix<Dim>::Identity());
-        }
-        return own;
-    };
+    return own;
+}
+
+template <int Dim>
+nlohmann::json time_laws(int repetitions) {
+    const Plates<Dim> plates(Dim == 2 ? 2000 : 30);
+    contact::NodalContact<Dim> nodal(contact::NodalSurface<Dim>(plates.nodes, plates.faces.view()));
+    contact::Contact<Dim> by_faces(plates.surface.view());
+    const contact::CouplingOf<Dim> coupling = own_coupling<Dim>;
     const auto gradients = [](auto, auto y_0, auto y_1) {
         std::ranges::fill(y_0, Vector<Dim>::Zero());
         std::ranges::fill(y_1, Vector<Dim>::Zero());
     };
-    nodal.step(nodes, nodes);
-    by_faces.step({rest, rest, coupling, gradients});
-    const auto times = benchmark::time_in_turn(
-        repetitions, benchmark::Clock::processor,
-        {[&] { (void)nodal.step(start, end); }, [&] { (void)nodal.step(start, start, contact::TakenForce::end); },
-         [&] {
-             (void)by_faces.step({u_0, u_1, coupling, gradients});
-         }});
+    nodal.step(plates.nodes, plates.nodes);
+    by_faces.step({plates.rest, plates.rest, coupling, gradients});
+    const auto times =
+        benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
+                                {[&] { (void)nodal.step(plates.start, plates.end); },
+                                 [&] { (void)nodal.step(plates.start, plates.start, contact::TakenForce::end); },
+                                 [&] {
+                                     (void)by_faces.step({plates.u_0, plates.u_1, coupling, gradients});
+                                 }});
     const double nodal_pairs = static_cast<double>(nodal.report().active_pairs);
     const double face_pairs = static_cast<double>(by_faces.report().active_pairs);
+    if (!(nodal_pairs > 0.0) || !(face_pairs > 0.0)) throw Misuse("the plates do not touch under both laws");
     fmt::print(
         "{}D, two plates, ns per active pair, search left out: potential {:.0f} (end of step alone {:.0f}), "
         "{:.0f} pairs; modified reconstruction {:.0f}, {:.0f} pairs\n",
@@ -283,6 +297,8 @@ nlohmann::json time_steps(int repetitions, double size) {
                                      [&] { (void)host.contact().step(placed<Dim>(host, q), placed<Dim>(host, q)); },
                                      [&] { (void)placed<Dim>(host, q), (void)placed<Dim>(host, q); }});
         const double contact = times[1].least() - times[2].least();
+        if (near != (host.contact().report().active_pairs > 0))
+            throw Misuse("bodies touch where they should not, or do not");
         fmt::print("{}D, {} elements, {}: a step {:.3f} ms, contact {:.2f} % of the rest, {} active pairs of {}\n", Dim,
                    host.mesh().n_cells(), near ? "pressed together" : "far apart", 1e3 * times[0].least(),
                    100.0 * contact / (times[0].least() - contact), host.contact().report().active_pairs,

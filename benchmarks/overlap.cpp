@@ -2,7 +2,7 @@
 //
 // Pairs as contact meets them: triangles (3D) or segments (2D) of like size, the second one moved by up to its own size.
 // Every tenth pair is degenerate: equal faces, a shared edge, a corner on an edge.
-// Expected: areas equal to round-off of the face, derivatives too; fast well below 200 ns a pair.
+// Expected: areas equal to round-off of the face, derivatives too; fast well below 200 ns per pair.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -121,7 +121,7 @@ nlohmann::json measure(std::size_t n, std::size_t n_exact, int repetitions) {
         {"difference", {{"area", difference.area}, {"derivative", difference.derivative}}},
         {"ns_a_pair", {{"fast", nanoseconds(samples[0], n)}, {"exact", nanoseconds(samples[1], few.size())}}}};
     fmt::print(
-        "{}D, {} pairs: fast {:.1f} ns a pair, exact {:.0f}; largest difference of areas {:.1e}, of derivatives {:.1e}\n",
+        "{}D, {} pairs: fast {:.1f} ns per pair, exact {:.0f}; largest difference of areas {:.1e}, of derivatives {:.1e}\n",
         Dim, n, result["ns_a_pair"]["fast"].get<double>(), result["ns_a_pair"]["exact"].get<double>(), difference.area,
         difference.derivative);
     return result;

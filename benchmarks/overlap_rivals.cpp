@@ -293,7 +293,7 @@ nlohmann::json measure(const std::string& name, const Scene& scene, std::size_t 
         "\n{}: {} pairs, {} overlaps; decided by doubles {:.4f} %, by the scalar path {:.4f} %, by exact arithmetic "
         "{:.4f} %\n{:<34} {:>11} {:>14} {:>9} {:>9}\n",
         name, scene.pairs.size(), overlaps.report.overlaps, 100 * decided.by_doubles / n, 100 * decided.by_scalar_path / n,
-        100 * decided.by_exact_arithmetic / n, "", "ns a pair", "largest error", "wrong", "failures");
+        100 * decided.by_exact_arithmetic / n, "", "ns per pair", "largest error", "wrong", "failures");
     const double ours = 1e9 * samples[0].least() / n;
     fmt::print("{:<34} {:>11.1f}\n", "find_overlaps, projection included", ours);
     nlohmann::json result{{"name", name},

@@ -96,6 +96,7 @@ public:
     /// 0.85 * 2/omega with contact, by estimate.
     [[nodiscard]] contact::NodalStableStep stable_step();
     [[nodiscard]] const contact::NodalContact<Dim>& contact() const { return contact_; }
+    [[nodiscard]] contact::NodalContact<Dim>& contact() { return contact_; }
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return scene_.mesh; }
     /// du/dX, mean over the volume of each body (n_bodies).
     [[nodiscard]] std::vector<Matrix<Dim>> mean_gradients(std::span<const double> q) const;
