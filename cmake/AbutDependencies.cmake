@@ -1,4 +1,4 @@
-# Every package that the build needs, found here once, so that its targets are visible in all folders.
+# Every package that the wanted layers need, found here once, so that its targets are visible in all folders.
 #
 # abut_find(<package> <version> ARGS ... TARGETS ...) calls find_package and remembers which package a target comes from:
 # abut_layer() writes from that what an installed layer has to find again.
@@ -10,41 +10,66 @@ macro(abut_find package version)
   endforeach()
 endmacro()
 
+# The same for a back end that a layer can do without, unless the layer mesh is wanted, whose users get all there is.
+macro(abut_find_back_end package version without)
+  if(mesh IN_LIST abut_wanted_layers)
+    abut_find(${package} "${version}" ${ARGN})
+  else()
+    find_package(${package} ${version} QUIET CONFIG)
+    if(${package}_FOUND)
+      abut_find(${package} "${version}" ${ARGN})
+    else()
+      message(STATUS "Abut without ${package}: ${without}")
+    endif()
+  endif()
+endmacro()
+
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE ON)
 
 # base
 abut_find(Eigen3 3.4 ARGS CONFIG TARGETS Eigen3::Eigen)
 abut_find(TBB 2021 ARGS CONFIG TARGETS TBB::tbb)
 
-# geometry
-abut_find(CGAL 5.5 ARGS CONFIG TARGETS CGAL::CGAL)
-abut_find(embree "" ARGS CONFIG TARGETS embree)  # 3 or 4
-abut_find(ccd 2.0 ARGS CONFIG TARGETS ccd)  # 2.1 calls itself 2.0
-abut_find(fcl 0.7 ARGS CONFIG TARGETS fcl)
-
-# mesh
-abut_find(Gmsh 4.8 ARGS MODULE TARGETS Gmsh::Gmsh)
-abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
-  TARGETS VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
-
-# solid
-abut_find(nanoflann 1.4 ARGS CONFIG TARGETS nanoflann::nanoflann)
-abut_find(LBFGSpp "" ARGS MODULE TARGETS LBFGSpp::LBFGSpp)
-
-# run
-abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)
-abut_find(nlohmann_json 3.11 ARGS CONFIG TARGETS nlohmann_json::nlohmann_json)
-
-# programs
-if(ABUT_PROGRAMS OR ABUT_BENCHMARKS)
-  abut_find(CLI11 2.1 ARGS CONFIG TARGETS CLI11::CLI11)
-  abut_find(spdlog 1.10 ARGS CONFIG TARGETS spdlog::spdlog)
+if(geometry IN_LIST abut_wanted_layers)
+  abut_find(CGAL 5.5 ARGS CONFIG TARGETS CGAL::CGAL)
+  abut_find_back_end(embree "" "the packed tree finds the same pairs" ARGS CONFIG TARGETS embree)  # 3 or 4
+  abut_find_back_end(ccd 2.0 "no distances of convex cells" ARGS CONFIG TARGETS ccd)  # 2.1 calls itself 2.0
+  abut_find_back_end(fcl 0.7 "the packed tree finds the same pairs" ARGS CONFIG TARGETS fcl)
 endif()
 
-# benchmarks
-if(ABUT_BENCHMARKS)
-  abut_find(Polyclipping 6.4 ARGS MODULE TARGETS Polyclipping::Polyclipping)
-  abut_find(Boost 1.74 TARGETS Boost::headers)
+if(mesh IN_LIST abut_wanted_layers)
+  abut_find(Gmsh 4.8 ARGS MODULE TARGETS Gmsh::Gmsh)
+  abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
+    TARGETS VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+endif()
+
+if(solid IN_LIST abut_wanted_layers)
+  abut_find(nanoflann 1.4 ARGS CONFIG TARGETS nanoflann::nanoflann)
+  abut_find(LBFGSpp "" ARGS MODULE TARGETS LBFGSpp::LBFGSpp)
+endif()
+
+if(run IN_LIST abut_wanted_layers)
+  abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)
+  abut_find(nlohmann_json 3.11 ARGS CONFIG TARGETS nlohmann_json::nlohmann_json)
+  if(ABUT_PROGRAMS OR ABUT_BENCHMARKS)
+    abut_find(CLI11 2.1 ARGS CONFIG TARGETS CLI11::CLI11)
+    abut_find(spdlog 1.10 ARGS CONFIG TARGETS spdlog::spdlog)
+  endif()
+  if(ABUT_BENCHMARKS)
+    abut_find(Polyclipping 6.4 ARGS MODULE TARGETS Polyclipping::Polyclipping)
+    abut_find(Boost 1.74 TARGETS Boost::headers)
+  endif()
+endif()
+
+# bindings: the module for Python is made where pybind11 is
+if(contact IN_LIST abut_wanted_layers AND BUILD_SHARED_LIBS AND NOT ABUT_SANITIZE)
+  if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)  # that of the system, to which the packages pybind11 and numpy belong
+  endif()
+  find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)
+  if(Python_FOUND)
+    find_package(pybind11 2.10 QUIET CONFIG)
+  endif()
 endif()
 
 # tests

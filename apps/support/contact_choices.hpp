@@ -7,7 +7,7 @@ namespace abut::apps {
 /// What `--broad-phase` and `--area` may be in every program.
 inline const Choices<geometry::BroadPhase> broad_phases = [] {
     Choices<geometry::BroadPhase> choices;
-    for (const geometry::BroadPhase method : geometry::broad_phases) choices.emplace_back(geometry::name(method), method);
+    for (const geometry::BroadPhase method : geometry::broad_phases()) choices.emplace_back(geometry::name(method), method);
     return choices;
 }();
 inline const Choices<geometry::AreaMethod> areas = choices_of(run::area_words);

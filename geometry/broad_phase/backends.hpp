@@ -9,6 +9,8 @@ namespace abut::geometry::backend {
 /// In 2D the boxes are lifted to 3D with z = 0.
 using Boxes = std::span<const Box<3>>;
 
+extern const bool has_embree, has_fcl;  ///< false: they throw BadInput, since the build had no such library
+
 void find_by_brute_force(Boxes boxes_1, Boxes boxes_2, FoundPairs& found);
 void find_by_brute_force(Boxes boxes, FoundPairs& found);
 void find_by_embree(Boxes boxes_1, Boxes boxes_2, FoundPairs& found);

@@ -248,6 +248,17 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
     return in_numbers_of_caller(found.sorted(n), selection, selection);
 }
 
+std::span<const BroadPhase> broad_phases() {
+    static const std::vector<BroadPhase> all = [] {
+        std::vector<BroadPhase> methods{BroadPhase::automatic, BroadPhase::packed_tree};
+        if (backend::has_embree) methods.push_back(BroadPhase::embree);
+        if (backend::has_fcl) methods.push_back(BroadPhase::fcl);
+        methods.push_back(BroadPhase::brute_force);
+        return methods;
+    }();
+    return all;
+}
+
 std::string_view name(BroadPhase method) {
     switch (method) {
         case BroadPhase::automatic:

@@ -24,8 +24,9 @@ enum class BroadPhase {
     brute_force,  ///< every box against every box: the oracle
 };
 
-inline constexpr std::array broad_phases{BroadPhase::automatic, BroadPhase::packed_tree, BroadPhase::embree, BroadPhase::fcl,
-                                         BroadPhase::brute_force};
+/// Those that this build has: Embree and FCL may be left out where `geometry` is built without `mesh`. A search by another one
+/// throws BadInput.
+[[nodiscard]] std::span<const BroadPhase> broad_phases();
 
 struct IndexPair {
     std::int32_t first;

@@ -169,6 +169,8 @@ void collide(RTCScene scene_1, RTCScene scene_2, Collector& collector) {
 
 }  // namespace
 
+const bool has_embree = true;
+
 void find_by_embree(Boxes boxes_1, Boxes boxes_2, FoundPairs& found) {
     const std::vector<FloatBoxes> images = float_boxes(std::array{boxes_1, boxes_2});
     const Scene scene_1 = scene_of(images[0]), scene_2 = scene_of(images[1]);

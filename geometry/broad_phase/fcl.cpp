@@ -77,6 +77,8 @@ void for_each_overlap(const NodePair& roots, const FoundPairs::Local& found, con
 
 }  // namespace
 
+const bool has_fcl = true;
+
 void find_by_fcl(Boxes boxes_1, Boxes boxes_2, FoundPairs& found) {
     Tree tree_1(leaves_joined_bottom_up), tree_2(leaves_joined_bottom_up);
     build(boxes_1, tree_1);

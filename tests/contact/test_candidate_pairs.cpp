@@ -85,7 +85,7 @@ std::vector<std::vector<bool>> within_rings(const contact::Surface<3>& surface, 
 
 TEMPLATE_TEST_CASE_SIG("flat faces pressed into each other, whose own boxes are disjoint, are found by every broad phase",
                        "[contact][candidates]", ((int Dim), Dim), 2, 3) {
-    const BroadPhase method = GENERATE(from_range(geometry::broad_phases));
+    const BroadPhase method = GENERATE(from_range(geometry::broad_phases()));
     const double face_size = 1.0 / 7.0;
     const double depth = face_size * GENERATE(0.001, 0.002, 0.005, 0.01, 0.02, 0.04);
     const auto surface = pressed_grids<Dim>(depth);
@@ -178,7 +178,7 @@ TEMPLATE_TEST_CASE_SIG("every broad phase gives the same list", "[contact][candi
         contact::CandidateOptions options;
         options.self_contact = trial % 2 == 1;
         std::vector<std::vector<IndexPair>> lists;
-        for (const BroadPhase method : geometry::broad_phases) {
+        for (const BroadPhase method : geometry::broad_phases()) {
             options.broad_phase = method;
             lists.push_back(candidates_of<Dim>(surface, u_0, u_1, options, 0.05));
         }
@@ -257,7 +257,7 @@ TEST_CASE("many bodies: each pair of them that is near is found, none within a b
             surface.append(tile<3>(middle + 0.5 * out, out, 0.4), 0.001, 1.0, cube);
         }
     }
-    for (const BroadPhase method : geometry::broad_phases) {
+    for (const BroadPhase method : geometry::broad_phases()) {
         const auto found = candidates_of<3>(surface, at_rest(surface), at_rest(surface),
                                             {.broad_phase = method, .facing_cosine = -0.9, .distance = 0.011}, 0.0);
         std::ptrdiff_t opposite = 0;

@@ -214,7 +214,7 @@ TEMPLATE_TEST_CASE_SIG("every broad phase and any number of threads give the sam
         contact::CandidateOptions options;
         options.self_contact = trial % 2 == 1;
         std::vector<List> lists;
-        for (const BroadPhase method : geometry::broad_phases) {
+        for (const BroadPhase method : geometry::broad_phases()) {
             options.broad_phase = method;
             lists.push_back(candidates_of<Dim>(surface, x_0, x_1, options, 0.05));
         }

@@ -175,7 +175,7 @@ TEMPLATE_TEST_CASE_SIG("forces have the same bits for any number of threads and 
     const auto scene = two_boxes<Dim>(Dim == 2 ? 300 : 12, Dim == 2 ? 350 : 13, 0.002);
     std::vector<std::vector<Vector<Dim>>> results;
     for (const int threads : {1, 4})
-        for (const auto method : geometry::broad_phases) {
+        for (const auto method : geometry::broad_phases()) {
             const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
             contact::NodalOptions options;
             options.search.broad_phase = method;

@@ -70,7 +70,7 @@ TEST_CASE("no broad phase misses a pair of faces of any surface, at any scale an
         CAPTURE(scene.name, scale, offset);
         CHECK(expected.empty() == (scene.name == "sphere in a far larger one"));
         CHECK(expected_within.size() > boxes_1.size());  // neighbours
-        for (const BroadPhase method : geometry::broad_phases) {
+        for (const BroadPhase method : geometry::broad_phases()) {
             CAPTURE(std::string(geometry::name(method)));
             CHECK((geometry::overlapping_pairs<3>({method}, boxes_1, boxes_2) == expected));
             CHECK((geometry::overlapping_pairs<3>({method}, boxes_1) == expected_within));

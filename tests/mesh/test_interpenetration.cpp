@@ -101,7 +101,7 @@ Mesh<3> tetrahedron(const std::vector<Vector<3>>& corners, const std::string& na
 
 TEMPLATE_TEST_CASE_SIG("overlapping cells are listed deepest first, one of each body, whatever the broad phase",
                        "[mesh][interpenetration]", ((int Dim), Dim), 2, 3) {
-    const auto broad_phase = GENERATE(from_range(geometry::broad_phases));
+    const auto broad_phase = GENERATE(from_range(geometry::broad_phases()));
     Vector<Dim> corner = Vector<Dim>::Constant(0.3);  // so that cells of different sizes lie in each other
     corner[0] = 0.7;
     const auto mesh =
@@ -132,7 +132,7 @@ TEMPLATE_TEST_CASE_SIG("the cells that are found are those that no axis separate
                     expected.push_back({a, b});
                     depths.push_back(depth);
                 }
-    for (const auto broad_phase : geometry::broad_phases) {
+    for (const auto broad_phase : geometry::broad_phases()) {
         auto found = find_interpenetrations<Dim>(mesh, broad_phase);
         std::ranges::sort(found, {}, &Interpenetration::cells);
         REQUIRE(found.size() == expected.size());

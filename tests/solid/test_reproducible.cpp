@@ -81,7 +81,7 @@ TEMPLATE_TEST_CASE_SIG("every broad phase gives the same bits", "[solid][reprodu
     const int steps = Dim == 2 ? 400 : 150;
     const State brute = after_impact<Dim>(mesh, velocities<Dim>(), BroadPhase::brute_force, steps);
     CHECK(brute.events > 10);
-    for (const BroadPhase method : geometry::broad_phases) {
+    for (const BroadPhase method : geometry::broad_phases()) {
         CAPTURE(std::string(geometry::name(method)));
         CHECK(after_impact<Dim>(mesh, velocities<Dim>(), method, steps) == brute);
     }

@@ -1,0 +1,241 @@
+/* Contact between deformable solids whose surfaces are made of nodes, for C99 and for all that calls C.
+
+   A host makes an `abut_contact` of its boundary faces once, calls `abut_step` once per step with the positions of its nodes at
+   both ends, and adds the forces. docs/embedding.md and docs/languages.md walk through it, docs/method.md has the equations.
+
+   Rules that hold for all functions:
+   - They return a status, ABUT_OK or what went wrong; then the call did nothing else, and `error` (may be NULL) says where,
+     how much, how much is allowed and what to do. No exception, no abort and no exit crosses this border.
+   - Structs that may grow begin with `struct_size`: set it to sizeof the struct. The ABUT_..._INIT macros do.
+   - Arrays are the caller's, are read while the call lasts, and are not kept. NULL is refused by name where data are needed.
+   - Handles are independent of each other: two threads may use two of them at once, but not one.
+   Lengths are in m, forces in N, energies in J, or in any consistent set of units. */
+#ifndef ABUT_H
+#define ABUT_H
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(ABUT_C_STATIC)
+#define ABUT_API
+#else
+#define ABUT_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    ABUT_OK = 0,
+    ABUT_BAD_INPUT = 1,      /* a surface, an option or an array that cannot be used: correct it */
+    ABUT_MISUSE = 2,         /* a call out of order, or without a handle: correct the program */
+    ABUT_DIVERGED = 3,       /* a position is not finite, or moves too far in a step: take a smaller step */
+    ABUT_TOO_DEEP = 4,       /* faces are pressed in deeper than allowed: smaller step, finer mesh, or a higher limit */
+    ABUT_LIMIT_EXCEEDED = 5, /* a search would take more pairs or memory than allowed */
+    ABUT_CANCELLED = 6,      /* `cancel` asked for it */
+    ABUT_CALLBACK = 7,       /* an exception came out of a callback */
+    ABUT_OUT_OF_MEMORY = 8,
+    ABUT_INTERNAL = 9        /* a fault of Abut: please report it */
+};
+
+/* What went wrong. face_1 and face_2 count from the caller's `index_base`, the message from 0; what does not apply is -1 or NaN. */
+typedef struct abut_error {
+    size_t struct_size;
+    int32_t status;
+    int64_t face_1;
+    int64_t face_2;
+    double value;   /* found */
+    double allowed; /* the limit */
+    char message[1024];
+} abut_error;
+#define ABUT_ERROR_INIT {sizeof(abut_error), 0, -1, -1, 0.0, 0.0, {0}}
+
+/* One vector per node in an array of the host's own: component d of node i is data[i * item + d * component]. u[n][3] has item 3 and
+   component 1, as has Fortran's u(3, n); one array per component has item 1. Strides count doubles and may be negative. */
+typedef struct abut_array {
+    double* data;
+    int64_t count; /* nodes */
+    int64_t item;
+    int64_t component;
+} abut_array;
+
+/* The boundary faces of all bodies. */
+typedef struct abut_faces {
+    size_t struct_size;
+    int64_t n_faces;
+    /* Corners, one face after the other: two, with the outside on the right of the line from the first to the second (2D); three or
+       four, counter-clockwise seen from outside (3D). */
+    const int32_t* nodes;
+    int64_t n_nodes;         /* entries of `nodes` */
+    const int32_t* offsets;  /* (n_faces + 1) where each face begins in `nodes`; NULL: all have as many corners as dimensions */
+    const int32_t* body;     /* (n_faces); faces of one body do not touch each other */
+    const double* depth;     /* (n_faces) half the height of the element behind a face; 0 for a rigid one */
+    const double* stiffness; /* (n_bodies) from `abut_skin_stiffness`; infinity: a rigid body */
+    int64_t n_bodies;
+    int32_t index_base; /* 0 or 1: from where nodes, offsets, bodies and faces are counted, here and in all results */
+} abut_faces;
+#define ABUT_FACES_INIT {sizeof(abut_faces), 0, 0, 0, 0, 0, 0, 0, 0, 0}
+
+enum { ABUT_NOTE = 0, ABUT_WARNING = 1 };
+
+/* All choices; `abut_options_init` fills in the defaults. */
+typedef struct abut_options {
+    size_t struct_size;
+    double skin;                /* how far two faces may move together before the list is rebuilt; 0: chosen as the run goes */
+    double largest_motion;      /* a face that moves farther in a step than this times the extent of all has diverged */
+    int64_t max_pairs;          /* of a search */
+    double compression_warning; /* |g|/D above which a step counts as strongly compressed */
+    double compression_limit;   /* |g|/D above which a step is refused */
+    double facing_full;         /* n_1 . n_2 up to which a pair acts with all its stiffness, */
+    double facing_none;         /* and from which on not at all */
+    int32_t events;             /* not 0: follow what begins and ends inside a step */
+    /* Whether two faces may touch; NULL: all. Asked at searches, by the thread that calls. */
+    int (*wanted)(int32_t face_1, int32_t face_2, void* user);
+    /* Asked at the begin of each step; not 0: the step is cancelled. NULL: never. */
+    int (*cancel)(void* user);
+    /* Told what a user of the host ought to know and that is no error; NULL: nobody. */
+    void (*log)(int severity, const char* text, void* user);
+    void* user; /* handed to the three */
+} abut_options;
+ABUT_API void abut_options_init(abut_options* options);
+
+typedef struct abut_contact abut_contact;
+
+enum {
+    ABUT_MEAN = 0, /* the exact mean of the force along the step: MEMM */
+    ABUT_END = 1   /* the force at its end: central differences */
+};
+
+/* What contact did in a step. */
+typedef struct abut_step_result {
+    size_t struct_size;
+    double energy_0; /* W at the start */
+    double energy;   /* W at the end */
+    double work;     /* of rigid bodies on their paths on the rest */
+    int64_t active_pairs;
+    int64_t events;
+    double compression; /* largest |g|/D */
+    double correction;  /* what closes the balance of energy, over all forces: beyond 1e-3 the step is too long */
+} abut_step_result;
+#define ABUT_STEP_RESULT_INIT {sizeof(abut_step_result), 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0}
+
+/* Vectors have three components everywhere, the last one 0 in 2D; moments of 2D are in the last one. */
+typedef struct abut_pair {
+    int32_t face_1;
+    int32_t face_2;
+    double normal[3]; /* unit, from face 1 into face 2 */
+    double gap_0;     /* the least over the overlap at the start, 0 where it is not pressed in */
+    double gap_1;     /* the same at the end */
+    double area;      /* mean over the step */
+    double normal_force;
+    double force[3]; /* on face 2, mean over the step; face 1 feels the opposite */
+    int32_t events;
+    double active_share; /* of the step */
+    double compression;  /* |g|/D */
+} abut_pair;
+
+typedef struct abut_body {
+    int32_t body;
+    double force[3];
+    double moment[3]; /* about the origin, at the middle of the step */
+    double work;      /* what it does by its own motion on what it touches */
+} abut_body;
+
+typedef struct abut_body_pair {
+    int32_t body_1;
+    int32_t body_2;
+    int64_t active_pairs;
+    double force[3]; /* on body 2 */
+    double normal_force;
+} abut_body_pair;
+
+/* Counters since the start. */
+typedef struct abut_report {
+    size_t struct_size;
+    int64_t candidates;
+    int64_t candidates_max;
+    int64_t active_pairs;
+    int64_t active_pairs_max;
+    int64_t events;
+    int64_t rebuilds;
+    int64_t missed_contacts; /* must stay 0 */
+    int64_t inadmissible_overlaps;
+    int64_t compressed_steps;
+    int64_t tilted_pairs_max;
+    double compression_max;
+    double correction_max;
+} abut_report;
+#define ABUT_REPORT_INIT {sizeof(abut_report), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0}
+
+typedef struct abut_stable {
+    size_t struct_size;
+    double dt; /* 0.85 * 2/omega, by estimate */
+    double omega;
+    double omega_free;
+    int64_t node; /* whose contact raises omega most; -1: nothing can touch */
+    char reason[256];
+} abut_stable;
+#define ABUT_STABLE_INIT {sizeof(abut_stable), 0.0, 0.0, 0.0, -1, {0}}
+
+typedef struct abut_overlap {
+    int32_t face_1;
+    int32_t face_2;
+    double area;
+    double normal[3]; /* unit, from face 1 into face 2 */
+    double gap;       /* between the centroids, > 0 apart */
+} abut_overlap;
+
+/* "0.1.0" */
+ABUT_API const char* abut_version(void);
+/* Threads that all handles together use from now on; 0: as many as there are cores. */
+ABUT_API int abut_limit_threads(int32_t n, abut_error* error);
+
+/* One k per body: (lambda + 2 mu) over the mean depth of those of its faces that will touch. */
+ABUT_API int abut_skin_stiffness(double p_wave_modulus, const double* depth, int64_t n, double* stiffness, abut_error* error);
+
+/* `rest`: all nodes of the host at rest. Obstacles are rigid bodies, whose nodes the host places. `options` may be NULL. */
+ABUT_API int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, const abut_options* options,
+                         abut_contact** contact, abut_error* error);
+/* NULL is no error. */
+ABUT_API void abut_destroy(abut_contact* contact);
+
+/* From x_0 to x_1; adds the forces to `force` (data NULL: does not), which may end before the nodes of obstacles do. `result` may
+   be NULL. */
+ABUT_API int abut_step(abut_contact* contact, abut_array x_0, abut_array x_1, int32_t take, abut_array force,
+                       abut_step_result* result, abut_error* error);
+/* W and forces at any x, without a step: changes nothing that the next steps depend on. */
+ABUT_API int abut_evaluate(abut_contact* contact, abut_array x, abut_array force, double* energy, abut_error* error);
+
+/* Of the last of these two. They write the number of entries to `n`, and at most `capacity` of them; NULL and 0 ask for the number
+   alone. `entry_size` is sizeof an entry. */
+ABUT_API int abut_pairs(const abut_contact* contact, abut_pair* pairs, size_t entry_size, int64_t capacity, int64_t* n,
+                        abut_error* error);
+ABUT_API int abut_bodies(const abut_contact* contact, abut_body* bodies, size_t entry_size, int64_t capacity, int64_t* n,
+                         abut_error* error);
+ABUT_API int abut_body_pairs(const abut_contact* contact, abut_body_pair* pairs, size_t entry_size, int64_t capacity, int64_t* n,
+                             abut_error* error);
+ABUT_API int abut_get_report(const abut_contact* contact, abut_report* report, abut_error* error);
+
+/* `mass`: of each node; `omega_free`: the highest frequency of the host without contact [rad/s]. */
+ABUT_API int abut_stable_step(const abut_contact* contact, const double* mass, int64_t n, double omega_free, abut_stable* stable,
+                              abut_error* error);
+
+/* All that the next steps depend on, as bytes: after `abut_restore` into a contact of the same surface and options they have the
+   same bits. `n` gets the size, also where `capacity` is too small; then nothing is written. */
+ABUT_API int abut_save(const abut_contact* contact, void* bytes, int64_t capacity, int64_t* n, abut_error* error);
+ABUT_API int abut_restore(abut_contact* contact, const void* bytes, int64_t n, abut_error* error);
+
+/* Goes on with other faces, between two steps, as after an erosion. `old_face_of` (n_faces): the old number of each face that was
+   there before; below `index_base`: a face that was not. The index base stays that of the first faces. */
+ABUT_API int abut_replace_surface(abut_contact* contact, abut_array rest, const abut_faces* faces, const int32_t* old_face_of,
+                                  abut_error* error);
+
+/* Every pair of faces of two bodies that look at each other, share an area, and have a gap of at most `distance`, apart or
+   pressed in, at x; each call searches from the beginning. Depths and stiffnesses are not looked at. Faces with four corners appear by halves. */
+ABUT_API int abut_find_overlaps(int32_t dim, abut_array x, const abut_faces* faces, double distance, abut_overlap* overlaps,
+                                size_t entry_size, int64_t capacity, int64_t* n, abut_error* error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,311 @@
+! Contact between deformable solids whose surfaces are made of nodes, for Fortran 2003: the functions of abut.h under their own
+! names, with arrays u(dim, n) as they lie. docs/languages.md walks through it; abut.h says what each function does.
+!
+! Indices count from 1 if `index_base` of the faces is 1, as `abut_faces_of` sets it.
+module abut
+  use, intrinsic :: iso_c_binding
+  implicit none
+  private
+
+  integer(c_int), parameter, public :: abut_ok = 0, abut_bad_input = 1, abut_misuse = 2, abut_diverged = 3, &
+    abut_too_deep = 4, abut_limit_exceeded = 5, abut_cancelled = 6, abut_callback = 7, abut_out_of_memory = 8, abut_internal = 9
+  integer(c_int32_t), parameter, public :: abut_mean = 0, abut_end = 1
+
+  type, bind(c), public :: abut_error
+    integer(c_size_t) :: struct_size
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: face_1, face_2
+    real(c_double) :: value, allowed
+    character(kind=c_char) :: message(1024)
+  end type
+
+  type, bind(c), public :: abut_array
+    type(c_ptr) :: data
+    integer(c_int64_t) :: count, item, component
+  end type
+
+  type, bind(c), public :: abut_faces
+    integer(c_size_t) :: struct_size
+    integer(c_int64_t) :: n_faces
+    type(c_ptr) :: nodes
+    integer(c_int64_t) :: n_nodes
+    type(c_ptr) :: offsets, body, depth, stiffness
+    integer(c_int64_t) :: n_bodies
+    integer(c_int32_t) :: index_base
+  end type
+
+  type, bind(c), public :: abut_options
+    integer(c_size_t) :: struct_size
+    real(c_double) :: skin, largest_motion
+    integer(c_int64_t) :: max_pairs
+    real(c_double) :: compression_warning, compression_limit, facing_full, facing_none
+    integer(c_int32_t) :: events
+    type(c_funptr) :: wanted, cancel, log
+    type(c_ptr) :: user
+  end type
+
+  type, bind(c), public :: abut_step_result
+    integer(c_size_t) :: struct_size
+    real(c_double) :: energy_0, energy, work
+    integer(c_int64_t) :: active_pairs, events
+    real(c_double) :: compression, correction
+  end type
+
+  type, bind(c), public :: abut_pair
+    integer(c_int32_t) :: face_1, face_2
+    real(c_double) :: normal(3), gap_0, gap_1, area, normal_force, force(3)
+    integer(c_int32_t) :: events
+    real(c_double) :: active_share, compression
+  end type
+
+  type, bind(c), public :: abut_body
+    integer(c_int32_t) :: body
+    real(c_double) :: force(3), moment(3), work
+  end type
+
+  type, bind(c), public :: abut_body_pair
+    integer(c_int32_t) :: body_1, body_2
+    integer(c_int64_t) :: active_pairs
+    real(c_double) :: force(3), normal_force
+  end type
+
+  type, bind(c), public :: abut_report
+    integer(c_size_t) :: struct_size
+    integer(c_int64_t) :: candidates, candidates_max, active_pairs, active_pairs_max, events, rebuilds, missed_contacts, &
+      inadmissible_overlaps, compressed_steps, tilted_pairs_max
+    real(c_double) :: compression_max, correction_max
+  end type
+
+  type, bind(c), public :: abut_stable
+    integer(c_size_t) :: struct_size
+    real(c_double) :: dt, omega, omega_free
+    integer(c_int64_t) :: node
+    character(kind=c_char) :: reason(256)
+  end type
+
+  type, bind(c), public :: abut_overlap
+    integer(c_int32_t) :: face_1, face_2
+    real(c_double) :: area, normal(3), gap
+  end type
+
+  public :: abut_options_init, abut_limit_threads, abut_skin_stiffness, abut_create, abut_destroy, abut_step, abut_evaluate, &
+    abut_pairs, abut_bodies, abut_body_pairs, abut_get_report, abut_stable_step, abut_save, abut_restore, &
+    abut_replace_surface, abut_find_overlaps
+  public :: abut_points, abut_nothing, abut_faces_of, abut_new_error, abut_new_result, abut_new_report, abut_new_stable, &
+    abut_message
+
+  interface
+    subroutine abut_options_init(options) bind(c)
+      import
+      type(abut_options), intent(out) :: options
+    end subroutine
+    integer(c_int) function abut_limit_threads(n, error) bind(c)
+      import
+      integer(c_int32_t), value :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_skin_stiffness(p_wave_modulus, depth, n, stiffness, error) bind(c)
+      import
+      real(c_double), value :: p_wave_modulus
+      real(c_double), intent(in) :: depth(*)
+      integer(c_int64_t), value :: n
+      real(c_double), intent(out) :: stiffness
+      type(abut_error), intent(inout) :: error
+    end function
+    ! options: c_loc of abut_options, or c_null_ptr
+    integer(c_int) function abut_create(dim, rest, faces, options, contact, error) bind(c)
+      import
+      integer(c_int32_t), value :: dim
+      type(abut_array), value :: rest
+      type(abut_faces), intent(in) :: faces
+      type(c_ptr), value :: options
+      type(c_ptr), intent(out) :: contact
+      type(abut_error), intent(inout) :: error
+    end function
+    subroutine abut_destroy(contact) bind(c)
+      import
+      type(c_ptr), value :: contact
+    end subroutine
+    integer(c_int) function abut_step(contact, x_0, x_1, take, force, result, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_array), value :: x_0, x_1, force
+      integer(c_int32_t), value :: take
+      type(abut_step_result), intent(inout) :: result
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_evaluate(contact, x, force, energy, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_array), value :: x, force
+      real(c_double), intent(out) :: energy
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_pairs(contact, pairs, entry_size, capacity, n, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_pair), intent(inout) :: pairs(*)
+      integer(c_size_t), value :: entry_size
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_bodies(contact, bodies, entry_size, capacity, n, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_body), intent(inout) :: bodies(*)
+      integer(c_size_t), value :: entry_size
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_body_pairs(contact, pairs, entry_size, capacity, n, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_body_pair), intent(inout) :: pairs(*)
+      integer(c_size_t), value :: entry_size
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_get_report(contact, report, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_report), intent(inout) :: report
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_stable_step(contact, mass, n, omega_free, stable, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      real(c_double), intent(in) :: mass(*)
+      integer(c_int64_t), value :: n
+      real(c_double), value :: omega_free
+      type(abut_stable), intent(inout) :: stable
+      type(abut_error), intent(inout) :: error
+    end function
+    ! bytes: of any kind; capacity 0 asks for the size alone
+    integer(c_int) function abut_save(contact, bytes, capacity, n, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(inout) :: bytes(*)
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_restore(contact, bytes, n, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      character(kind=c_char), intent(in) :: bytes(*)
+      integer(c_int64_t), value :: n
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_replace_surface(contact, rest, faces, old_face_of, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_array), value :: rest
+      type(abut_faces), intent(in) :: faces
+      integer(c_int32_t), intent(in) :: old_face_of(*)
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_find_overlaps(dim, x, faces, distance, overlaps, entry_size, capacity, n, error) bind(c)
+      import
+      integer(c_int32_t), value :: dim
+      type(abut_array), value :: x
+      type(abut_faces), intent(in) :: faces
+      real(c_double), value :: distance
+      type(abut_overlap), intent(inout) :: overlaps(*)
+      integer(c_size_t), value :: entry_size
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(out) :: n
+      type(abut_error), intent(inout) :: error
+    end function
+  end interface
+
+contains
+
+  ! A view of u(dim, n), whatever its strides: nothing is copied.
+  function abut_points(u) result(points)
+    real(c_double), target, intent(in) :: u(:, :)
+    type(abut_array) :: points
+    points%data = c_null_ptr
+    points%count = size(u, 2, c_int64_t)
+    points%item = size(u, 1)
+    points%component = 1
+    if (size(u) == 0) return
+    points%data = c_loc(u(1, 1))
+    if (size(u, 2) > 1) points%item = apart(c_loc(u(1, 1)), c_loc(u(1, 2)))
+    if (size(u, 1) > 1) points%component = apart(c_loc(u(1, 1)), c_loc(u(2, 1)))
+  contains
+    integer(c_int64_t) function apart(from, to)
+      type(c_ptr), intent(in) :: from, to
+      apart = (transfer(to, 0_c_intptr_t) - transfer(from, 0_c_intptr_t)) / 8
+    end function
+  end function
+
+  ! For a force that is not asked for.
+  function abut_nothing() result(points)
+    type(abut_array) :: points
+    points = abut_array(c_null_ptr, 0_c_int64_t, 0_c_int64_t, 0_c_int64_t)
+  end function
+
+  ! Faces of as many corners as dimensions, nodes(corner, face); all counts from 1. The arrays must stay while it is used.
+  function abut_faces_of(nodes, body, depth, stiffness) result(faces)
+    integer(c_int32_t), target, contiguous, intent(in) :: nodes(:, :), body(:)
+    real(c_double), target, contiguous, intent(in) :: depth(:), stiffness(:)
+    type(abut_faces) :: faces
+    faces%struct_size = c_sizeof(faces)
+    faces%n_faces = size(body, kind=c_int64_t)
+    faces%nodes = c_loc(nodes)
+    faces%n_nodes = size(nodes, kind=c_int64_t)
+    faces%offsets = c_null_ptr
+    faces%body = c_loc(body)
+    faces%depth = c_loc(depth)
+    faces%stiffness = c_loc(stiffness)
+    faces%n_bodies = size(stiffness, kind=c_int64_t)
+    faces%index_base = 1
+  end function
+
+  function abut_new_error() result(error)
+    type(abut_error) :: error
+    error%struct_size = c_sizeof(error)
+    error%status = abut_ok
+    error%face_1 = -1
+    error%face_2 = -1
+    error%value = 0
+    error%allowed = 0
+    error%message = c_null_char
+  end function
+
+  function abut_new_result() result(empty)
+    type(abut_step_result) :: empty
+    empty = abut_step_result(c_sizeof(empty), 0d0, 0d0, 0d0, 0_c_int64_t, 0_c_int64_t, 0d0, 0d0)
+  end function
+
+  function abut_new_report() result(report)
+    type(abut_report) :: report
+    integer(c_int64_t), parameter :: zero = 0
+    report = abut_report(c_sizeof(report), zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, 0d0, 0d0)
+  end function
+
+  function abut_new_stable() result(stable)
+    type(abut_stable) :: stable
+    stable%struct_size = c_sizeof(stable)
+    stable%dt = 0
+    stable%omega = 0
+    stable%omega_free = 0
+    stable%node = -1
+    stable%reason = c_null_char
+  end function
+
+  ! The text of an error.
+  function abut_message(error) result(text)
+    type(abut_error), intent(in) :: error
+    character(:), allocatable :: text
+    integer :: i
+    text = ''
+    do i = 1, size(error%message)
+      if (error%message(i) == c_null_char) exit
+      text = text // error%message(i)
+    end do
+  end function
+end module

@@ -1,0 +1,389 @@
+// The Python module `abut`: contact on nodes for numpy, over the C layer. Arrays of float64 are read and written where they lie,
+// whatever their strides; the interpreter's lock is released while contact computes.
+#include "abut.h"
+
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace {
+
+using Doubles = py::array_t<double>;
+using Integers = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+using PackedDoubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// One class of exceptions per status; all carry the facts as attributes.
+struct Exceptions {
+    py::object base, bad_input, misuse, diverged, too_deep, limit_exceeded, cancelled, internal;
+    [[nodiscard]] const py::object& of(int status) const {
+        switch (status) {
+            case ABUT_BAD_INPUT:
+                return bad_input;
+            case ABUT_MISUSE:
+                return misuse;
+            case ABUT_DIVERGED:
+                return diverged;
+            case ABUT_TOO_DEEP:
+                return too_deep;
+            case ABUT_LIMIT_EXCEEDED:
+                return limit_exceeded;
+            case ABUT_CANCELLED:
+                return cancelled;
+            default:
+                return internal;
+        }
+    }
+};
+Exceptions* exceptions = nullptr;  // made with the module, kept until the interpreter ends
+
+/// Throws what went wrong as an exception of Python.
+void require_ok(int status, const abut_error& error) {
+    if (status == ABUT_OK) return;
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();  // of a callback
+    const py::object instance = exceptions->of(status)(py::str(error.message));
+    instance.attr("status") = status;
+    instance.attr("face_1") = error.face_1;
+    instance.attr("face_2") = error.face_2;
+    instance.attr("value") = error.value;
+    instance.attr("allowed") = error.allowed;
+    PyErr_SetObject(exceptions->of(status).ptr(), instance.ptr());
+    throw py::error_already_set();
+}
+
+/// Calls without the interpreter's lock.
+template <class Call>
+void call_unlocked(const Call& call) {
+    abut_error error = ABUT_ERROR_INIT;
+    int status;
+    {
+        const py::gil_scoped_release release;
+        status = call(&error);
+    }
+    require_ok(status, error);
+}
+
+/// A view of an array (n, dim) of float64, not a copy.
+abut_array view_of(const py::array& array, int dim, const char* name) {
+    if (!py::isinstance<Doubles>(array))
+        throw py::type_error(std::string(name) + " must be an array of float64; it is one of " +
+                             std::string(py::str(array.dtype())) + ". Convert it: a copy would hide what contact writes.");
+    if (array.ndim() != 2 || array.shape(1) != dim)
+        throw py::value_error(std::string(name) + " must have the shape (n_nodes, " + std::to_string(dim) + ")");
+    for (int axis = 0; axis < 2; ++axis)
+        if (array.strides(axis) % static_cast<py::ssize_t>(sizeof(double)) != 0)
+            throw py::value_error(std::string(name) + ": its strides are no whole numbers of float64");
+    const auto size = static_cast<py::ssize_t>(sizeof(double));
+    return {const_cast<double*>(static_cast<const double*>(array.data())), array.shape(0), array.strides(0) / size,
+            array.strides(1) / size};
+}
+
+abut_array writable_view_of(const py::object& array, int dim, const char* name) {
+    if (array.is_none()) return {nullptr, 0, 0, 0};
+    const auto doubles = py::cast<py::array>(array);
+    if (!doubles.writeable()) throw py::value_error(std::string(name) + " is read-only");
+    return view_of(doubles, dim, name);
+}
+
+/// Copies of the arrays of the faces, packed: they are read once.
+struct Faces {
+    Faces(const py::array& corners, const Integers& of_body, const PackedDoubles& depths, const PackedDoubles& stiffnesses,
+          const py::object& of_offsets, int dim)
+        : nodes(Integers::ensure(corners)), body(of_body), depth(depths), stiffness(stiffnesses) {
+        if (!nodes) throw py::type_error("faces must be an array of integers");
+        if (depth.size() != body.size())
+            throw py::value_error("depth has " + std::to_string(depth.size()) + " entries for " +
+                                  std::to_string(body.size()) + " faces in body; give one each");
+        view.n_faces = body.size();
+        if (!of_offsets.is_none()) {
+            offsets = py::cast<Integers>(of_offsets);
+            if (offsets.size() != body.size() + 1)
+                throw py::value_error("offsets must have one entry per face and one more");
+            view.offsets = offsets.data();
+        } else if (nodes.ndim() == 2 && nodes.shape(1) != dim) {
+            std::vector<std::int32_t> regular;
+            for (py::ssize_t i = 0; i <= nodes.shape(0); ++i)
+                regular.push_back(static_cast<std::int32_t>(i * nodes.shape(1)));
+            offsets = Integers(static_cast<py::ssize_t>(regular.size()), regular.data());
+            view.offsets = offsets.data();
+        }
+        if (nodes.ndim() == 2 && nodes.shape(0) != body.size())
+            throw py::value_error("body has " + std::to_string(body.size()) + " entries for " +
+                                  std::to_string(nodes.shape(0)) + " faces; give one each");
+        view.nodes = nodes.data();
+        view.n_nodes = nodes.size();
+        view.body = body.data();
+        view.depth = depth.data();
+        view.stiffness = stiffness.data();
+        view.n_bodies = stiffness.size();
+    }
+
+    Integers nodes, body, offsets;
+    PackedDoubles depth, stiffness;
+    abut_faces view = ABUT_FACES_INIT;
+};
+
+using Wanted = std::function<bool(int, int)>;
+using Log = std::function<void(int, std::string)>;
+
+/// Functions of Python behind callbacks of C: an exception of theirs ends the call, and is raised by it.
+struct Callbacks {
+    Wanted wanted;
+    Log log;
+
+    static int ask(std::int32_t face_1, std::int32_t face_2, void* user) {
+        const py::gil_scoped_acquire acquire;
+        try {
+            return static_cast<Callbacks*>(user)->wanted(face_1, face_2) ? 1 : 0;
+        } catch (py::error_already_set& error) {
+            error.restore();
+            throw std::exception();
+        }
+    }
+    static void tell(int severity, const char* text, void* user) {
+        const py::gil_scoped_acquire acquire;
+        static_cast<Callbacks*>(user)->log(severity, text);
+    }
+};
+
+int dimension_of(const py::array& nodes) {
+    if (nodes.ndim() != 2 || (nodes.shape(1) != 2 && nodes.shape(1) != 3))
+        throw py::value_error("nodes must have the shape (n_nodes, 2) or (n_nodes, 3)");
+    return static_cast<int>(nodes.shape(1));
+}
+
+template <class Entry, class Ask>
+py::array_t<Entry> entries_of(const Ask& ask) {
+    std::int64_t n = 0;
+    abut_error error = ABUT_ERROR_INIT;
+    require_ok(ask(nullptr, 0, &n, &error), error);
+    py::array_t<Entry> entries(static_cast<py::ssize_t>(n));
+    require_ok(ask(n > 0 ? entries.mutable_data() : nullptr, n, &n, &error), error);
+    return entries;
+}
+
+class NodalContact {
+public:
+    NodalContact(const py::array& nodes, const py::array& faces, const Integers& body, const PackedDoubles& depth,
+                 const PackedDoubles& stiffness, const py::object& offsets, double skin, double largest_motion,
+                 double compression_warning, double compression_limit, std::pair<double, double> facing, bool events,
+                 Wanted wanted, Log log)
+        : dim_(dimension_of(nodes)), callbacks_(new Callbacks{std::move(wanted), std::move(log)}) {
+        const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
+        abut_options options;
+        abut_options_init(&options);
+        options.skin = skin;
+        options.largest_motion = largest_motion;
+        options.compression_warning = compression_warning;
+        options.compression_limit = compression_limit;
+        options.facing_full = facing.first;
+        options.facing_none = facing.second;
+        options.events = events ? 1 : 0;
+        options.user = callbacks_.get();
+        if (callbacks_->wanted) options.wanted = Callbacks::ask;
+        if (callbacks_->log) options.log = Callbacks::tell;
+        const abut_array rest = view_of(nodes, dim_, "nodes");
+        abut_contact* handle = nullptr;
+        call_unlocked([&](abut_error* error) { return abut_create(dim_, rest, &of_host.view, &options, &handle, error); });
+        handle_.reset(handle);
+    }
+
+    py::dict step(const py::array& x_0, const py::array& x_1, const py::object& out, const std::string& mode) {
+        if (mode != "mean" && mode != "end") throw py::value_error("mode is '" + mode + "'; 'mean' and 'end' are allowed");
+        const abut_array from = view_of(x_0, dim_, "x_0"), to = view_of(x_1, dim_, "x_1");
+        const abut_array force = writable_view_of(out, dim_, "out");
+        abut_step_result result = ABUT_STEP_RESULT_INIT;
+        call_unlocked([&](abut_error* error) {
+            return abut_step(handle_.get(), from, to, mode == "mean" ? ABUT_MEAN : ABUT_END, force, &result, error);
+        });
+        using namespace py::literals;
+        return py::dict("energy_0"_a = result.energy_0, "energy"_a = result.energy, "work"_a = result.work,
+                        "active_pairs"_a = result.active_pairs, "events"_a = result.events,
+                        "compression"_a = result.compression, "correction"_a = result.correction);
+    }
+
+    double evaluate(const py::array& x, const py::object& out) {
+        const abut_array at = view_of(x, dim_, "x"), force = writable_view_of(out, dim_, "out");
+        double energy = 0.0;
+        call_unlocked([&](abut_error* error) { return abut_evaluate(handle_.get(), at, force, &energy, error); });
+        return energy;
+    }
+
+    [[nodiscard]] py::array_t<abut_pair> pairs() const {
+        return entries_of<abut_pair>([&](abut_pair* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
+            return abut_pairs(handle_.get(), entries, sizeof(abut_pair), capacity, n, error);
+        });
+    }
+    [[nodiscard]] py::array_t<abut_body> bodies() const {
+        return entries_of<abut_body>([&](abut_body* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
+            return abut_bodies(handle_.get(), entries, sizeof(abut_body), capacity, n, error);
+        });
+    }
+    [[nodiscard]] py::array_t<abut_body_pair> body_pairs() const {
+        return entries_of<abut_body_pair>(
+            [&](abut_body_pair* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
+                return abut_body_pairs(handle_.get(), entries, sizeof(abut_body_pair), capacity, n, error);
+            });
+    }
+
+    [[nodiscard]] py::dict report() const {
+        abut_report report = ABUT_REPORT_INIT;
+        abut_error error = ABUT_ERROR_INIT;
+        require_ok(abut_get_report(handle_.get(), &report, &error), error);
+        using namespace py::literals;
+        return py::dict("candidates"_a = report.candidates, "candidates_max"_a = report.candidates_max,
+                        "active_pairs"_a = report.active_pairs, "active_pairs_max"_a = report.active_pairs_max,
+                        "events"_a = report.events, "rebuilds"_a = report.rebuilds,
+                        "missed_contacts"_a = report.missed_contacts,
+                        "inadmissible_overlaps"_a = report.inadmissible_overlaps,
+                        "compressed_steps"_a = report.compressed_steps, "tilted_pairs_max"_a = report.tilted_pairs_max,
+                        "compression_max"_a = report.compression_max, "correction_max"_a = report.correction_max);
+    }
+
+    [[nodiscard]] py::dict stable_step(const PackedDoubles& mass, double omega_free) const {
+        abut_stable stable = ABUT_STABLE_INIT;
+        abut_error error = ABUT_ERROR_INIT;
+        require_ok(abut_stable_step(handle_.get(), mass.data(), mass.size(), omega_free, &stable, &error), error);
+        using namespace py::literals;
+        return py::dict("dt"_a = stable.dt, "omega"_a = stable.omega, "omega_free"_a = stable.omega_free,
+                        "node"_a = stable.node, "reason"_a = std::string(stable.reason));
+    }
+
+    [[nodiscard]] py::bytes state() const {
+        std::int64_t n = 0;
+        abut_error error = ABUT_ERROR_INIT;
+        require_ok(abut_save(handle_.get(), nullptr, 0, &n, &error), error);
+        std::string bytes(static_cast<std::size_t>(n), '\0');
+        require_ok(abut_save(handle_.get(), bytes.data(), n, &n, &error), error);
+        return py::bytes(bytes);
+    }
+    void restore(const py::bytes& state) {
+        const std::string bytes = state;
+        abut_error error = ABUT_ERROR_INIT;
+        require_ok(abut_restore(handle_.get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), &error), error);
+    }
+
+    void surface_replaced(const py::array& nodes, const py::array& faces, const Integers& body, const PackedDoubles& depth,
+                          const PackedDoubles& stiffness, const Integers& old_face_of, const py::object& offsets) {
+        const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
+        if (old_face_of.size() != body.size()) throw py::value_error("old_face_of must have one entry per face");
+        const abut_array rest = view_of(nodes, dim_, "nodes");
+        abut_error error = ABUT_ERROR_INIT;
+        require_ok(abut_replace_surface(handle_.get(), rest, &of_host.view, old_face_of.data(), &error), error);
+    }
+
+private:
+    struct Destroy {
+        void operator()(abut_contact* contact) const { abut_destroy(contact); }
+    };
+    int dim_;
+    std::unique_ptr<Callbacks> callbacks_;  // outlives the handle
+    std::unique_ptr<abut_contact, Destroy> handle_;
+};
+
+py::array_t<abut_overlap> find_overlaps(const py::array& nodes, const py::array& faces, const Integers& body,
+                                        double distance, const py::object& offsets) {
+    const int dim = dimension_of(nodes);
+    std::int32_t last = -1;
+    for (py::ssize_t i = 0; i < body.size(); ++i) last = std::max(last, body.data()[i]);
+    // Neither depths nor stiffnesses are looked at.
+    const PackedDoubles depth(std::vector<py::ssize_t>{body.size()}, std::vector<double>(body.size(), 1.0).data());
+    const PackedDoubles stiffness(std::vector<py::ssize_t>{last + 1}, std::vector<double>(last + 1, 1.0).data());
+    const Faces of_host(faces, body, depth, stiffness, offsets, dim);
+    const abut_array x = view_of(nodes, dim, "nodes");
+    return entries_of<abut_overlap>([&](abut_overlap* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
+        return abut_find_overlaps(dim, x, &of_host.view, distance, entries, sizeof(abut_overlap), capacity, n, error);
+    });
+}
+
+double skin_stiffness(double p_wave_modulus, const PackedDoubles& depth) {
+    double stiffness = 0.0;
+    abut_error error = ABUT_ERROR_INIT;
+    require_ok(abut_skin_stiffness(p_wave_modulus, depth.data(), depth.size(), &stiffness, &error), error);
+    return stiffness;
+}
+
+void limit_threads(int n) {
+    abut_error error = ABUT_ERROR_INIT;
+    require_ok(abut_limit_threads(n, &error), error);
+}
+
+py::object exception(py::module_& module, const char* name, const py::object& base, const char* text) {
+    const std::string full = std::string("abut.") + name;
+    py::object made = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(full.c_str(), text, base.ptr(), nullptr));
+    module.attr(name) = made;
+    return made;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(abut, module) {
+    module.doc() = "Contact between deformable solids whose surfaces are made of nodes. docs/languages.md walks through it.";
+    module.attr("__version__") = abut_version();
+    PYBIND11_NUMPY_DTYPE(abut_pair, face_1, face_2, normal, gap_0, gap_1, area, normal_force, force, events, active_share,
+                         compression);
+    PYBIND11_NUMPY_DTYPE(abut_body, body, force, moment, work);
+    PYBIND11_NUMPY_DTYPE(abut_body_pair, body_1, body_2, active_pairs, force, normal_force);
+    PYBIND11_NUMPY_DTYPE(abut_overlap, face_1, face_2, area, normal, gap);
+
+    exceptions = new Exceptions;
+    const py::object plain = py::reinterpret_borrow<py::object>(PyExc_Exception);
+    exceptions->base = exception(module, "Error", plain,
+                                 "Base of all errors of Abut: status, face_1, face_2, value and allowed beside the text.");
+    const py::object& base = exceptions->base;
+    exceptions->bad_input = exception(module, "BadInput", base, "A surface, an option or an array that cannot be used.");
+    exceptions->misuse = exception(module, "Misuse", base, "A call out of order.");
+    exceptions->diverged = exception(module, "Diverged", base, "A position is not finite, or moves too far in a step.");
+    exceptions->too_deep = exception(module, "TooDeep", base, "Faces are pressed in deeper than allowed.");
+    exceptions->limit_exceeded = exception(module, "LimitExceeded", base, "A search would take more than its limits allow.");
+    exceptions->cancelled = exception(module, "Cancelled", base, "The host has cancelled a step.");
+    exceptions->internal = exception(module, "InternalError", base, "A fault of Abut, or of a callback.");
+
+    using namespace py::literals;
+    abut_options defaults;
+    abut_options_init(&defaults);
+    py::class_<NodalContact>(
+        module, "NodalContact",
+        "Contact of bodies whose surfaces are made of nodes, and whose faces may turn.\n\n"
+        "nodes: (n_nodes, dim) at rest; faces: (n_faces, corners), two, three or four of them, or flat with "
+        "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
+        "(n_bodies), skin_stiffness or inf for a rigid body; wanted(face_1, face_2): whether they may touch; "
+        "log(severity, text): told what ought to be known and is no error.")
+        .def(py::init<const py::array&, const py::array&, const Integers&, const PackedDoubles&, const PackedDoubles&,
+                      const py::object&, double, double, double, double, std::pair<double, double>, bool, Wanted, Log>(),
+             "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a, "offsets"_a = py::none(), py::kw_only(),
+             "skin"_a = defaults.skin, "largest_motion"_a = defaults.largest_motion,
+             "compression_warning"_a = defaults.compression_warning, "compression_limit"_a = defaults.compression_limit,
+             "facing"_a = std::pair(defaults.facing_full, defaults.facing_none), "events"_a = defaults.events != 0,
+             "wanted"_a = Wanted(), "log"_a = Log())
+        .def("step", &NodalContact::step, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
+             "From x_0 to x_1; adds the forces to out, which may end before the nodes of obstacles do. mode: 'mean' of the "
+             "step, "
+             "exact for energy, or 'end', for central differences. Returns the figures of the step.")
+        .def("evaluate", &NodalContact::evaluate, "x"_a, "out"_a = py::none(),
+             "W at x, without a step; adds its forces to out.")
+        .def_property_readonly("pairs", &NodalContact::pairs, "Active pairs of the last call, as a structured array.")
+        .def_property_readonly("bodies", &NodalContact::bodies, "Force, moment and work by body, as a structured array.")
+        .def_property_readonly("body_pairs", &NodalContact::body_pairs, "Forces by pair of bodies, as a structured array.")
+        .def_property_readonly("report", &NodalContact::report, "Counters since the start; missed_contacts must stay 0.")
+        .def("stable_step", &NodalContact::stable_step, "mass"_a, "omega_free"_a,
+             "How long a step may be, by estimate: mass of each node, highest frequency without contact [rad/s].")
+        .def("state", &NodalContact::state, "All that the next steps depend on, as bytes.")
+        .def("restore", &NodalContact::restore, "state"_a)
+        .def("surface_replaced", &NodalContact::surface_replaced, "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a,
+             "old_face_of"_a, "offsets"_a = py::none(),
+             "Goes on with other faces, between two steps: the old number of each that was there before, else -1.");
+    module.def(
+        "find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
+        "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance.");
+    module.def("skin_stiffness", &skin_stiffness, "p_wave_modulus"_a, "depth"_a,
+               "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch.");
+    module.def("limit_threads", &limit_threads, "n"_a, "Threads that all contacts use together; 0: all cores.");
+}

@@ -1,0 +1,330 @@
+/* Every function of abut.h, called from C99. Two unit squares one over the other: the expected values follow from their geometry. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "abut.h"
+
+static int failures = 0;
+#define CHECK(condition)                                                     \
+    do {                                                                     \
+        if (!(condition)) {                                                  \
+            printf("%s:%d: failed: %s\n", __FILE__, __LINE__, #condition);   \
+            ++failures;                                                      \
+        }                                                                    \
+    } while (0)
+
+enum { n_nodes = 8, n_faces = 8 };
+/* Counter-clockwise: the outside is on the right of each segment. */
+static const double rest[2 * n_nodes] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.2, 1.1, 1.2, 1.1, 1.2, 2.1, 0.2, 2.1};
+static const int32_t corners[2 * n_faces] = {0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4};
+static const int32_t body[n_faces] = {0, 0, 0, 0, 1, 1, 1, 1};
+static const double depth[n_faces] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
+static const double stiffness[2] = {3.0, 6.0}; /* in series: 2 */
+
+static abut_faces faces_from(int32_t base, const int32_t* nodes, const int32_t* of_body) {
+    abut_faces faces = ABUT_FACES_INIT;
+    faces.n_faces = n_faces;
+    faces.nodes = nodes;
+    faces.n_nodes = 2 * n_faces;
+    faces.body = of_body;
+    faces.depth = depth;
+    faces.stiffness = stiffness;
+    faces.n_bodies = 2;
+    faces.index_base = base;
+    return faces;
+}
+
+static abut_array packed(double* data) {
+    abut_array array = {data, n_nodes, 2, 1};
+    return array;
+}
+static const abut_array nothing = {NULL, 0, 0, 0};
+
+/* The upper square moved down by so much. */
+static void lowered(double by, double* x) {
+    memcpy(x, rest, sizeof(rest));
+    for (int i = 4; i < n_nodes; ++i) x[2 * i + 1] -= by;
+}
+
+static abut_contact* made(const abut_options* options) {
+    abut_error error = ABUT_ERROR_INIT;
+    const abut_faces faces = faces_from(0, corners, body);
+    abut_contact* contact = NULL;
+    double x[2 * n_nodes];
+    lowered(0.0, x);
+    CHECK(abut_create(2, packed(x), &faces, options, &contact, &error) == ABUT_OK);
+    CHECK(contact != NULL && error.status == ABUT_OK);
+    return contact;
+}
+
+/* Pressed in by d over a width of 0.8: W = k/2 d^2 0.8, and the force is k d 0.8. */
+static void presses_by_the_spring_in_series(void) {
+    abut_contact* contact = made(NULL);
+    abut_error error = ABUT_ERROR_INIT;
+    abut_step_result result = ABUT_STEP_RESULT_INIT;
+    double x_0[2 * n_nodes], x_1[2 * n_nodes], force[2 * n_nodes] = {0.0};
+    const double d = 0.05, k = 2.0;
+    lowered(0.0, x_0);
+    lowered(0.1 + d, x_1);
+    CHECK(abut_step(contact, packed(x_0), packed(x_0), ABUT_END, nothing, NULL, NULL) == ABUT_OK);
+    CHECK(abut_step(contact, packed(x_0), packed(x_1), ABUT_END, packed(force), &result, &error) == ABUT_OK);
+    CHECK(result.active_pairs == 1 && fabs(result.energy - 0.5 * k * d * d * 0.8) < 1e-15);
+    double up = 0.0, down = 0.0;
+    for (int i = 0; i < 4; ++i) down += force[2 * i + 1], up += force[2 * (i + 4) + 1];
+    CHECK(fabs(up - k * d * 0.8) < 1e-14 && fabs(up + down) < 1e-15);
+
+    abut_pair pair;
+    int64_t n = 0;
+    CHECK(abut_pairs(contact, NULL, sizeof(abut_pair), 0, &n, &error) == ABUT_OK && n == 1);
+    CHECK(abut_pairs(contact, &pair, sizeof(abut_pair), 1, &n, &error) == ABUT_OK);
+    CHECK(pair.face_1 == 2 && pair.face_2 == 4 && fabs(pair.normal[1] - 1.0) < 1e-15 && pair.normal[2] == 0.0);
+    CHECK(fabs(pair.gap_1 + d) < 1e-15 && fabs(pair.area - 0.8) < 1e-15 && fabs(pair.force[1] - up) < 1e-15);
+    CHECK(fabs(pair.compression - d / 0.2) < 1e-14);
+    CHECK(abut_pairs(contact, &pair, sizeof(abut_pair) - 8, 1, &n, &error) == ABUT_MISUSE);
+
+    abut_body bodies[2];
+    CHECK(abut_bodies(contact, bodies, sizeof(abut_body), 2, &n, &error) == ABUT_OK && n == 2);
+    CHECK(bodies[0].body == 0 && fabs(bodies[0].force[1] - down) < 1e-15 && fabs(bodies[1].force[1] - up) < 1e-15);
+    /* In the middle of the overlap, from 0.2 to 1; and what pushes its end aside, k d^2/2, halfway between the faces: at
+       1.025 + d/2, the face itself being at 1.025 in the middle of the step. */
+    CHECK(fabs(fabs(bodies[1].force[0]) - 0.5 * k * d * d) < 1e-15);
+    CHECK(fabs(bodies[1].moment[2] - 0.6 * up + (1.025 + 0.5 * d) * bodies[1].force[0]) < 1e-14);
+    abut_body_pair of_bodies;
+    CHECK(abut_body_pairs(contact, &of_bodies, sizeof(abut_body_pair), 1, &n, &error) == ABUT_OK && n == 1);
+    CHECK(of_bodies.body_1 == 0 && of_bodies.body_2 == 1 && fabs(of_bodies.normal_force - up) < 1e-15);
+
+    abut_report report = ABUT_REPORT_INIT;
+    CHECK(abut_get_report(contact, &report, &error) == ABUT_OK);
+    CHECK(report.missed_contacts == 0 && report.active_pairs == 1 && report.rebuilds >= 1);
+
+    double energy = 0.0;
+    lowered(0.1 + 2.0 * d, x_1);
+    CHECK(abut_evaluate(contact, packed(x_1), nothing, &energy, &error) == ABUT_OK);
+    CHECK(fabs(energy - 4.0 * 0.5 * k * d * d * 0.8) < 1e-14);
+    abut_destroy(contact);
+}
+
+/* The mean of the force times the motion is the energy, whatever the step. */
+static void mean_force_is_exact_for_energy(void) {
+    abut_contact* contact = made(NULL);
+    abut_step_result result = ABUT_STEP_RESULT_INIT;
+    double x_0[2 * n_nodes], x_1[2 * n_nodes], force[2 * n_nodes] = {0.0}, work = 0.0;
+    lowered(0.0, x_0);
+    CHECK(abut_step(contact, packed(x_0), packed(x_0), ABUT_MEAN, nothing, NULL, NULL) == ABUT_OK);
+    lowered(0.17, x_1);
+    x_1[9] += 0.02; /* one corner less: it turns, too */
+    CHECK(abut_step(contact, packed(x_0), packed(x_1), ABUT_MEAN, packed(force), &result, NULL) == ABUT_OK);
+    for (int i = 0; i < 2 * n_nodes; ++i) work += force[i] * (x_1[i] - x_0[i]);
+    CHECK(result.energy > 1e-4 && fabs(work + result.energy - result.energy_0) < 1e-16);
+    abut_destroy(contact);
+}
+
+/* u(3, n), u[n][3] and one array per component are the same points; indices from 1 are the same faces. */
+static void any_strides_and_bases(void) {
+    abut_contact *by_one = NULL, *contact = made(NULL);
+    abut_error error = ABUT_ERROR_INIT;
+    double x[2 * n_nodes], y[2 * n_nodes], columns_x[2 * n_nodes], columns_y[2 * n_nodes];
+    double force[2 * n_nodes] = {0.0}, columns[2 * n_nodes] = {0.0};
+    int32_t corners_from_1[2 * n_faces], body_from_1[n_faces];
+    for (int i = 0; i < 2 * n_faces; ++i) corners_from_1[i] = corners[i] + 1;
+    for (int i = 0; i < n_faces; ++i) body_from_1[i] = body[i] + 1;
+    const abut_faces faces = faces_from(1, corners_from_1, body_from_1);
+    lowered(0.0, x);
+    lowered(0.14, y);
+    for (int i = 0; i < n_nodes; ++i)
+        for (int d = 0; d < 2; ++d) columns_x[d * n_nodes + i] = x[2 * i + d], columns_y[d * n_nodes + i] = y[2 * i + d];
+    const abut_array from_x = {columns_x, n_nodes, 1, n_nodes}, from_y = {columns_y, n_nodes, 1, n_nodes};
+    const abut_array to = {columns, n_nodes, 1, n_nodes};
+    CHECK(abut_create(2, from_x, &faces, NULL, &by_one, &error) == ABUT_OK);
+    CHECK(abut_step(by_one, from_x, from_x, ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(by_one, from_x, from_y, ABUT_MEAN, to, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
+    for (int i = 0; i < n_nodes; ++i)
+        for (int d = 0; d < 2; ++d) CHECK(columns[d * n_nodes + i] == force[2 * i + d]);
+    abut_pair pair;
+    int64_t n = 0;
+    CHECK(abut_pairs(by_one, &pair, sizeof(pair), 1, &n, &error) == ABUT_OK && pair.face_1 == 3 && pair.face_2 == 5);
+    abut_stable stable = ABUT_STABLE_INIT;
+    const double mass[n_nodes] = {1, 1, 1, 1, 1, 1, 1, 1};
+    CHECK(abut_stable_step(by_one, mass, n_nodes, 1.0, &stable, &error) == ABUT_OK);
+    /* omega^2 = 1 + twice 2 times the share of two faces, 1/2 each, over 1 kg */
+    CHECK(fabs(stable.omega - sqrt(5.0)) < 1e-14 && fabs(stable.dt - 1.7 / sqrt(5.0)) < 1e-14 && stable.node >= 1);
+    CHECK(strstr(stable.reason, "estimate") != NULL);
+    abut_destroy(by_one);
+    abut_destroy(contact);
+}
+
+static void state_goes_on_with_the_same_bits(void) {
+    abut_contact *contact = made(NULL), *again = made(NULL);
+    abut_error error = ABUT_ERROR_INIT;
+    double x[2 * n_nodes], y[2 * n_nodes], z[2 * n_nodes], force[2 * n_nodes] = {0.0}, other[2 * n_nodes] = {0.0};
+    lowered(0.0, x);
+    lowered(0.15, y);
+    lowered(0.16, z);
+    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    int64_t n = 0;
+    CHECK(abut_save(contact, NULL, 0, &n, &error) == ABUT_OK && n > 0);
+    unsigned char* bytes = malloc((size_t)n);
+    CHECK(abut_save(contact, bytes, n, &n, &error) == ABUT_OK);
+    CHECK(abut_restore(again, bytes, n, &error) == ABUT_OK);
+    CHECK(abut_step(contact, packed(y), packed(z), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
+    CHECK(abut_step(again, packed(y), packed(z), ABUT_MEAN, packed(other), NULL, &error) == ABUT_OK);
+    CHECK(memcmp(force, other, sizeof(force)) == 0 && force[9] > 0.0);
+    bytes[n / 2] ^= 1;
+    CHECK(abut_restore(again, bytes, n, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_restore(again, bytes, 3, &error) == ABUT_BAD_INPUT);
+    free(bytes);
+
+    /* The upper body's lower face erodes; what was its left side stays. */
+    int32_t fewer[2 * (n_faces - 1)], of_body[n_faces - 1], old[n_faces - 1];
+    int m = 0;
+    for (int face = 0; face < n_faces; ++face) {
+        if (face == 4) continue;
+        fewer[2 * m] = corners[2 * face], fewer[2 * m + 1] = corners[2 * face + 1];
+        of_body[m] = body[face], old[m++] = face;
+    }
+    abut_faces faces = faces_from(0, fewer, of_body);
+    faces.n_faces = m, faces.n_nodes = 2 * m;
+    CHECK(abut_replace_surface(contact, packed(x), &faces, old, &error) == ABUT_OK);
+    abut_step_result result = ABUT_STEP_RESULT_INIT;
+    CHECK(abut_step(contact, packed(z), packed(z), ABUT_MEAN, nothing, &result, &error) == ABUT_OK && result.active_pairs == 0);
+    old[0] = old[1];
+    CHECK(abut_replace_surface(contact, packed(x), &faces, old, &error) == ABUT_BAD_INPUT);
+    abut_destroy(contact);
+    abut_destroy(again);
+}
+
+typedef struct {
+    int wanted, cancelled, told;
+    char text[512];
+} Host;
+static int never(int32_t face_1, int32_t face_2, void* user) {
+    (void)face_1, (void)face_2;
+    ++((Host*)user)->wanted;
+    return 0;
+}
+static int cancels(void* user) { return ++((Host*)user)->cancelled > 1; }
+static void listens(int severity, const char* text, void* user) {
+    Host* host = user;
+    host->told += severity == ABUT_WARNING;
+    strncpy(host->text, text, sizeof(host->text) - 1);
+}
+
+static void callbacks_are_called(void) {
+    Host host = {0, 0, 0, {0}};
+    abut_error error = ABUT_ERROR_INIT;
+    abut_options options;
+    abut_options_init(&options);
+    CHECK(options.struct_size == sizeof(options) && options.facing_none == -0.2 && options.events == 1);
+    options.wanted = never, options.cancel = cancels, options.user = &host;
+    abut_contact* contact = made(&options);
+    double x[2 * n_nodes], y[2 * n_nodes];
+    lowered(0.0, x);
+    lowered(0.15, y);
+    abut_step_result result = ABUT_STEP_RESULT_INIT;
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, &result, &error) == ABUT_OK);
+    CHECK(host.wanted > 0 && result.active_pairs == 0);
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, &result, &error) == ABUT_CANCELLED);
+    CHECK(strstr(error.message, "cancelled") != NULL);
+    abut_destroy(contact);
+
+    abut_options_init(&options);
+    options.log = listens, options.user = &host;
+    contact = made(&options);
+    CHECK(host.told == 0);
+    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    lowered(0.19, y); /* 0.09 of D = 0.2: above the warning of 0.3 */
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(host.told == 1 && strstr(host.text, "pressed") != NULL);
+    abut_destroy(contact);
+
+    int32_t inward[2 * n_faces];
+    for (int i = 0; i < n_faces; ++i) inward[2 * i] = corners[2 * i + 1], inward[2 * i + 1] = corners[2 * i];
+    const abut_faces faces = faces_from(0, inward, body);
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_OK);
+    CHECK(host.told == 3 && strstr(host.text, "body 1") != NULL);
+    abut_destroy(contact);
+}
+
+static void what_is_wrong_is_refused_by_name(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_contact* contact = NULL;
+    double x[2 * n_nodes], y[2 * n_nodes];
+    lowered(0.0, x);
+    abut_faces faces = faces_from(0, corners, body);
+    CHECK(abut_create(4, packed(x), &faces, NULL, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "dim is 4"));
+    CHECK(abut_create(2, packed(x), NULL, NULL, &contact, &error) == ABUT_MISUSE && strstr(error.message, "NULL"));
+    faces.struct_size = 4;
+    CHECK(abut_create(2, packed(x), &faces, NULL, &contact, &error) == ABUT_MISUSE && strstr(error.message, "struct_size"));
+    faces = faces_from(0, NULL, body);
+    CHECK(abut_create(2, packed(x), &faces, NULL, &contact, &error) == ABUT_MISUSE && strstr(error.message, "nodes is NULL"));
+    faces = faces_from(1, corners, body); /* node 0 does not exist then */
+    CHECK(abut_create(2, packed(x), &faces, NULL, &contact, &error) == ABUT_BAD_INPUT && error.face_1 == 1);
+    faces = faces_from(7, corners, body);
+    CHECK(abut_create(2, packed(x), &faces, NULL, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "index_base is 7"));
+    CHECK(contact == NULL);
+    CHECK(abut_step(NULL, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_MISUSE);
+    CHECK(abut_step(NULL, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL) == ABUT_MISUSE); /* nobody asks why */
+
+    contact = made(NULL);
+    CHECK(abut_step(contact, packed(x), packed(x), 7, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    lowered(0.0, y);
+    y[11] = (double)NAN;
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_DIVERGED && error.face_1 >= 4);
+    lowered(0.8, y);
+    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_TOO_DEEP);
+    CHECK(error.value > 2.0 && error.allowed == 2.0);
+    abut_array fewer = packed(x);
+    fewer.count = 5;
+    CHECK(abut_step(contact, fewer, fewer, ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    fewer.count = -1;
+    CHECK(abut_step(contact, fewer, fewer, ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    abut_error of_another_version = ABUT_ERROR_INIT;
+    of_another_version.struct_size = 8;
+    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &of_another_version) == ABUT_MISUSE);
+    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK); /* and goes on */
+    abut_destroy(contact);
+    abut_destroy(NULL);
+}
+
+static void overlaps_alone(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    const abut_faces faces = faces_from(0, corners, body);
+    double x[2 * n_nodes];
+    abut_overlap overlap;
+    int64_t n = -1;
+    lowered(0.0, x);
+    CHECK(abut_find_overlaps(2, packed(x), &faces, 0.05, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 0);
+    CHECK(abut_find_overlaps(2, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 1);
+    CHECK(overlap.face_1 == 2 && overlap.face_2 == 4 && fabs(overlap.area - 0.8) < 1e-15 && fabs(overlap.gap - 0.1) < 1e-15);
+    CHECK(abut_find_overlaps(5, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_BAD_INPUT);
+}
+
+static void small_things(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    double k = 0.0;
+    const double depths[2] = {1.0, 2.0};
+    CHECK(abut_skin_stiffness(6.0, depths, 2, &k, &error) == ABUT_OK && fabs(k - 4.0) < 1e-15);
+    CHECK(abut_skin_stiffness(-1.0, depths, 2, &k, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_limit_threads(1, &error) == ABUT_OK && abut_limit_threads(0, &error) == ABUT_OK);
+    CHECK(abut_limit_threads(-1, &error) == ABUT_BAD_INPUT);
+    CHECK(strcmp(abut_version(), ABUT_VERSION) == 0);
+}
+
+int main(void) {
+    presses_by_the_spring_in_series();
+    mean_force_is_exact_for_energy();
+    any_strides_and_bases();
+    state_goes_on_with_the_same_bits();
+    callbacks_are_called();
+    what_is_wrong_is_refused_by_name();
+    overlaps_alone();
+    small_things();
+    printf("%d failures\n", failures);
+    return failures == 0 ? 0 : 1;
+}

@@ -1,0 +1,191 @@
+"""Every function of the module, called from Python. Two unit squares one over the other, as in test_abut.c."""
+import gc
+import math
+import threading
+import unittest
+
+import numpy as np
+
+import abut
+
+REST = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.2, 1.1], [1.2, 1.1], [1.2, 2.1], [0.2, 2.1]], dtype=float)
+FACES = np.array([[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]])
+BODY = np.repeat([0, 1], 4)
+DEPTH = np.full(8, 0.1)
+
+
+def lowered(by):
+    x = REST.copy()
+    x[4:, 1] -= by
+    return x
+
+
+def made(**options):
+    return abut.NodalContact(REST, FACES, BODY, DEPTH, [3.0, 6.0], **options)
+
+
+class Contact(unittest.TestCase):
+    def test_presses_by_the_spring_in_series(self):
+        contact, d, k = made(), 0.05, 2.0
+        contact.step(REST, REST)
+        force = np.zeros((8, 2))
+        step = contact.step(REST, lowered(0.1 + d), out=force, mode="end")
+        self.assertAlmostEqual(step["energy"], 0.5 * k * d**2 * 0.8, delta=1e-15)
+        self.assertAlmostEqual(force[4:, 1].sum(), k * d * 0.8, delta=1e-14)
+        np.testing.assert_allclose(force.sum(axis=0), 0.0, atol=1e-15)
+        pairs = contact.pairs
+        self.assertEqual((len(pairs), pairs["face_1"][0], pairs["face_2"][0]), (1, 2, 4))
+        np.testing.assert_allclose(pairs["normal"][0], [0, 1, 0], atol=1e-15)
+        self.assertAlmostEqual(pairs["gap_1"][0], -d, delta=1e-15)
+        np.testing.assert_allclose(contact.bodies["force"].sum(axis=0), 0.0, atol=1e-15)
+        self.assertEqual(contact.body_pairs["active_pairs"][0], 1)
+        self.assertEqual(contact.report["missed_contacts"], 0)
+        twice = np.zeros((8, 2))
+        self.assertAlmostEqual(contact.evaluate(lowered(0.1 + 2 * d), out=twice), 4 * 0.5 * k * d**2 * 0.8, delta=1e-14)
+        self.assertAlmostEqual(twice[4:, 1].sum(), 2 * k * d * 0.8, delta=1e-14)
+
+    def test_the_mean_force_is_exact_for_energy(self):
+        contact = made()
+        contact.step(REST, REST)
+        force, x = np.zeros((8, 2)), lowered(0.17)
+        x[4, 1] += 0.02
+        step = contact.step(REST, x, out=force)
+        self.assertGreater(step["energy"], 1e-4)
+        self.assertAlmostEqual((force * (x - REST)).sum(), step["energy_0"] - step["energy"], delta=1e-16)
+
+    def test_any_strides_are_read_and_written_in_place(self):
+        packed, x = np.zeros((8, 2)), lowered(0.14)
+        plain = made()
+        plain.step(REST, REST)
+        plain.step(REST, x, out=packed)
+        for view in (lambda a: np.asfortranarray(a), lambda a: np.repeat(a, 3, axis=0)[::3],
+                     lambda a: np.hstack([a, a])[:, :2], lambda a: a[::-1].copy()[::-1]):
+            contact, force = made(), view(np.zeros((8, 2)))
+            contact.step(view(REST), view(REST))
+            contact.step(view(REST), view(x), out=force)
+            np.testing.assert_array_equal(force, packed)
+
+    def test_state_goes_on_with_the_same_bits(self):
+        contact, again = made(), made()
+        contact.step(REST, REST)
+        contact.step(REST, lowered(0.15))
+        again.restore(contact.state())
+        forces = []
+        for one in (contact, again):
+            forces.append(np.zeros((8, 2)))
+            one.step(lowered(0.15), lowered(0.16), out=forces[-1])
+        np.testing.assert_array_equal(*forces)
+        with self.assertRaises(abut.BadInput):
+            again.restore(contact.state()[:-1])
+        keep = [0, 1, 2, 3, 5, 6, 7]
+        contact.surface_replaced(REST, FACES[keep], BODY[keep], DEPTH[keep], [3.0, 6.0], keep)
+        self.assertEqual(contact.step(lowered(0.16), lowered(0.16))["active_pairs"], 0)
+        with self.assertRaises(abut.BadInput):
+            contact.surface_replaced(REST, FACES[keep], BODY[keep], DEPTH[keep], [3.0, 6.0], [0, 0, 2, 3, 5, 6, 7])
+
+    def test_callbacks(self):
+        asked = []
+        contact = made(wanted=lambda a, b: asked.append((a, b)) or False)
+        self.assertEqual(contact.step(REST, lowered(0.15))["active_pairs"], 0)
+        self.assertIn((2, 4), asked)
+
+        def fails(a, b):
+            raise KeyError("of the callback")
+
+        contact = made(wanted=fails)
+        with self.assertRaises(KeyError):
+            contact.step(REST, lowered(0.15))
+        told = []
+        contact = made(log=lambda severity, text: told.append(text))
+        contact.step(REST, REST)
+        contact.step(REST, lowered(0.19))
+        self.assertEqual(len(told), 1)
+        self.assertIn("pressed", told[0])
+        abut.NodalContact(REST, FACES[:, ::-1], BODY, DEPTH, [3.0, 6.0], log=lambda severity, text: told.append(text))
+        self.assertIn("body 1", told[-1])
+
+    def test_what_is_wrong_is_refused_by_name(self):
+        contact = made()
+        contact.step(REST, REST)
+        with self.assertRaisesRegex(TypeError, "float64"):
+            contact.step(REST.astype(np.float32), REST)
+        with self.assertRaisesRegex(ValueError, "shape"):
+            contact.step(REST[:, :1], REST)
+        with self.assertRaisesRegex(ValueError, "mode"):
+            contact.step(REST, REST, mode="middle")
+        frozen = np.zeros((8, 2))
+        frozen.flags.writeable = False
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            contact.step(REST, REST, out=frozen)
+        with self.assertRaises(abut.BadInput):
+            contact.step(REST[:5], REST[:5])
+        broken = lowered(0.0)
+        broken[5, 1] = math.nan
+        with self.assertRaises(abut.Diverged) as raised:
+            contact.step(REST, broken)
+        self.assertGreaterEqual(raised.exception.face_1, 4)
+        with self.assertRaises(abut.TooDeep) as raised:
+            contact.step(REST, lowered(0.8))
+        self.assertEqual(raised.exception.allowed, 2.0)
+        self.assertGreater(raised.exception.value, 2.0)
+        with self.assertRaisesRegex(abut.BadInput, "face 0 names node 8"):
+            abut.NodalContact(REST, FACES + (np.arange(8) == 0)[:, None] * [8, 0], BODY, DEPTH, [3.0, 6.0])
+        with self.assertRaisesRegex(ValueError, "depth has 3"):
+            abut.NodalContact(REST, FACES, BODY, DEPTH[:3], [3.0, 6.0])
+        self.assertTrue(issubclass(abut.TooDeep, abut.Error))
+
+    def test_overlaps_and_small_things(self):
+        self.assertEqual(len(abut.find_overlaps(REST, FACES, BODY, 0.05)), 0)
+        overlap = abut.find_overlaps(REST, FACES, BODY, 0.2)
+        self.assertEqual((overlap["face_1"][0], overlap["face_2"][0]), (2, 4))
+        self.assertAlmostEqual(overlap["area"][0], 0.8, delta=1e-15)
+        self.assertAlmostEqual(overlap["gap"][0], 0.1, delta=1e-15)
+        self.assertAlmostEqual(abut.skin_stiffness(6.0, [1.0, 2.0]), 4.0)
+        step = made().stable_step(np.ones(8), 1.0)
+        self.assertAlmostEqual(step["omega"], math.sqrt(5.0))
+        abut.limit_threads(1)
+        abut.limit_threads(0)
+        with self.assertRaises(abut.BadInput):
+            abut.limit_threads(-1)
+        self.assertRegex(abut.__version__, r"^\d+\.\d+\.\d+$")
+
+    def test_quadrangles_triangles_and_offsets(self):
+        cube = np.array([[x, y, z] for z in (0.0, 1.0) for y in (0.0, 1.0) for x in (0.0, 1.0)])
+        quads = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]])
+        nodes = np.vstack([cube, cube + [0.1, 0.05, 1.02]])
+        faces = np.vstack([quads, quads + 8])
+        body, depth = np.repeat([0, 1], 6), np.full(12, 0.1)
+        flat = dict(faces=faces.ravel(), offsets=np.arange(0, 49, 4))
+        energies = []
+        for given in (dict(faces=faces), flat):
+            contact = abut.NodalContact(nodes, body=body, depth=depth, stiffness=[3.0, 6.0], **given)
+            pressed = nodes.copy()
+            pressed[8:, 2] -= 0.05
+            contact.step(nodes, nodes)
+            energies.append(contact.step(nodes, pressed)["energy"])
+        self.assertAlmostEqual(energies[0], 0.5 * 2.0 * 0.03**2 * 0.9 * 0.95, delta=1e-15)
+        self.assertEqual(*energies)
+
+    def test_two_threads_and_any_order_of_destruction(self):
+        def work(results):
+            contact, force = made(), np.zeros((8, 2))
+            contact.step(REST, REST)
+            for _ in range(200):
+                contact.step(REST, lowered(0.15), out=force)
+            results.append(force)
+        results = []
+        threads = [threading.Thread(target=work, args=(results,)) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        np.testing.assert_array_equal(*results)
+        several = [made(wanted=lambda a, b: True) for _ in range(3)]
+        pairs = several[1].pairs
+        del several[1], several[0]
+        gc.collect()
+        self.assertEqual(len(pairs), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

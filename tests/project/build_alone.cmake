@@ -1,0 +1,12 @@
+# cmake -D ROOT=<source tree> -D LAYERS=<layer> -D BUILD=<folder> -D PREFIX=<folder> -D GENERATOR=<name> -D "OPTIONS=-D...,-D..." -P build_alone.cmake
+#
+# Configures, builds and installs these layers where no package of the others can be found.
+string(REPLACE "," ";" OPTIONS "${OPTIONS}")
+foreach(package embree fcl ccd Gmsh VTK nanoflann LBFGSpp fmt nlohmann_json CLI11 spdlog Polyclipping Catch2 pybind11)
+  list(APPEND OPTIONS -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+file(REMOVE_RECURSE ${BUILD} ${PREFIX})
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${ROOT} -B ${BUILD} -G ${GENERATOR} -DABUT_LAYERS=${LAYERS} -DABUT_TESTS=OFF ${OPTIONS}
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build ${BUILD} COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} COMMAND_ERROR_IS_FATAL ANY)
