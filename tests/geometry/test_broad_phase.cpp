@@ -346,7 +346,7 @@ TEST_CASE("more pairs than allowed are an error that gives both numbers", "[broa
     using Catch::Matchers::Contains;
     const Boxes<3> boxes(600, Box<3>{Vector<3>(0, 0, 0), Vector<3>(1, 1, 1)});
     const std::int64_t all = 600 * 600;
-    const BroadPhase method = GENERATE(from_range(broad_phases));
+    const BroadPhase method = GENERATE(from_range(broad_phases()));
     CAPTURE(std::string(name(method)));
     CHECK(between<3>({method, {.pairs = all}}, boxes, boxes).size() == all);
     CHECK(overlapping_pairs<3>({method, {.pairs = 600 * 599 / 2}}, boxes).size() == 600 * 599 / 2);
@@ -365,7 +365,7 @@ TEST_CASE("more pairs than allowed are an error that gives both numbers", "[broa
 TEST_CASE("a search that would take more memory than allowed is refused", "[broad_phase][errors]") {
     using Catch::Matchers::Contains;
     const Boxes<3> boxes(2000, Box<3>{Vector<3>(0, 0, 0), Vector<3>(1, 1, 1)});
-    const BroadPhase method = GENERATE(from_range(broad_phases));
+    const BroadPhase method = GENERATE(from_range(broad_phases()));
     CAPTURE(std::string(name(method)));
     const auto allowing = [&](std::size_t bytes) { return SearchOptions{method, {.bytes = bytes}}; };
     // Not even the boxes fit; the boxes and their trees fit, four million pairs do not; all does.
