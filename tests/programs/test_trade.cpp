@@ -110,7 +110,7 @@ TEST_CASE("a setting that no program would take is refused before anything is ru
 
 TEST_CASE("a run that takes longer than its limit is stopped and says so", "[programs][trade]") {
     for (const auto& row : rows_of(run_well("trade", "--only bar --levels 1 --limit 1e-9", "trade_limit")))
-        CHECK(row["message"].get<std::string>().find("--limit of 1e-09 s a run is over") != std::string::npos);
+        CHECK(row["message"].get<std::string>().find("--limit of 1e-09 s per run is over") != std::string::npos);
 }
 
 TEST_CASE("a preset is the options that it names, and options beside it win wherever they stand", "[programs][trade]") {

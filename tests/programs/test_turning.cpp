@@ -45,9 +45,10 @@ TEST_CASE("filter and restart leave pseudo-energy, momentum and angular momentum
           "[programs][turning]") {
     const auto outcome =
         run_well("turning", "--quick --frames 0 --only turning --filter --restart 50", "turning_with_remedies");
-    CHECK(check_targets(outcome) >= 30);
+    CHECK(check_targets(outcome) >= 29);
     int asked = 0;
-    for (const auto& row : read_summary(outcome)["levels"])
+    const auto summary = read_summary(outcome);
+    for (const auto& row : summary["levels"])
         for (const auto& quantity : row["quantities"])
             if (quantity["name"] == "J~ drift") ++asked;
     CHECK(asked == 2);  // of the free ones: discs and cubes

@@ -4,7 +4,7 @@
 execute_process(COMMAND nm -D --defined-only ${LIBRARY} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n]+" lines "${symbols}")
 list(LENGTH lines n)
-list(FILTER lines EXCLUDE REGEX " (_ZNK?4abut|_ZT[ISV]N4abut|_ZThn[0-9]+_NK?4abut|_ZGVN4abut)")
+list(FILTER lines EXCLUDE REGEX " (_ZNK?[RO]?4abut|_ZT[ISV]N4abut|_ZThn[0-9]+_NK?4abut|_ZGVN4abut)")
 list(LENGTH lines n_others)
 if(n EQUAL 0 OR n_others GREATER 0)
   list(SUBLIST lines 0 5 some)
