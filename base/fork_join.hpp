@@ -21,10 +21,21 @@ namespace abut {
 /// themselves stay unordered, so a race between two of them is found. In other builds it is nothing.
 class ForkJoin {
 public:
-    ForkJoin() { release(forked_); }
+    ForkJoin() = default;
     ~ForkJoin() { acquire(joined_); }
     ForkJoin(const ForkJoin&) = delete;
     ForkJoin& operator=(const ForkJoin&) = delete;
+
+    /// All that is written before comes before each task; `body` is what they read first. Its address has to be known to have
+    /// left: stores to an object that nobody else can see yet may be moved past the release.
+    void begin(const void* body) {
+#if defined(ABUT_THREAD_SANITIZER)
+        asm volatile("" : : "r"(body) : "memory");
+#else
+        static_cast<void>(body);
+#endif
+        release(forked_);
+    }
 
     /// Lives as long as a task.
     class Task {
@@ -54,7 +65,7 @@ private:
 template <class Body>
 class OrderedBody {
 public:
-    OrderedBody(ForkJoin& loop, const Body& body) : loop_(loop), body_(body) {}
+    OrderedBody(ForkJoin& loop, const Body& body) : loop_(loop), body_(body) { loop.begin(&body); }
 
     template <class... Arguments>
     [[gnu::no_sanitize_thread]] decltype(auto) operator()(const Arguments&... arguments) const {

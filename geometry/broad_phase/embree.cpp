@@ -136,6 +136,7 @@ Scene scene_of(const FloatBoxes& boxes) {
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
     rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);  // half the build time for the same query time
+    source.loop.begin(&source);
     rtcCommitScene(scene.get());
     rtcSetGeometryUserData(geometry.get(), nullptr);  // `source` ends here, and the scene lives on
     check_device();
@@ -163,6 +164,7 @@ struct Collector {
 };
 
 void collide(RTCScene scene_1, RTCScene scene_2, Collector& collector) {
+    collector.loop.begin(&collector);
     rtcCollide(scene_1, scene_2, Collector::report, &collector);
     check_device();
 }
