@@ -21,7 +21,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 3;
+constexpr std::uint32_t state_version = 4;
 
 }  // namespace
 
@@ -145,7 +145,7 @@ public:
     }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        return saved(state_key(), has_searched_, candidates_.next_skin(), report_, store_);
+        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, store_, {}});
     }
 
     void restore(std::span<const std::byte> bytes) {

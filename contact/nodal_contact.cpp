@@ -21,7 +21,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::uint32_t state_version = 1;
+constexpr std::uint32_t state_version = 2;
 
 /// n_1 . n_2 where the weight y^2 (3 - 2 y) is a quarter: y = 1/2 - sin(10 degrees).
 double quarter_weight_cosine(const geometry::FacingFade& facing) {
@@ -38,7 +38,9 @@ public:
           options_(checked(std::move(options))),
           candidates_(surface_.facets().view(), options_.search),
           pairs_(options_.facing),
-          law_(options_.events) {}
+          law_(options_.events) {
+        count_deformable_nodes();
+    }
     Implementation(const Implementation&) = delete;  // the search has a view of the surface
 
     const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
@@ -73,7 +75,7 @@ public:
     }
 
     [[nodiscard]] std::vector<std::byte> state() const {
-        return saved(state_key(), has_searched_, candidates_.next_skin(), report_, store_);
+        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, store_, new_facets_});
     }
 
     void restore(std::span<const std::byte> bytes) {
@@ -82,17 +84,21 @@ public:
         store_ = std::move(from.store);
         report_ = from.report;
         has_searched_ = from.has_searched;
+        new_facets_ = std::move(from.new_faces);
         drop_list();
     }
 
     void surface_replaced(NodalSurface<Dim>&& surface, std::span<const std::int32_t> old_face_of) {
         PairStore store = carried_over(store_, surface_, surface, old_face_of);
+        std::vector<std::int32_t> new_facets = facets_that_come(new_facets_, surface_, surface, old_face_of);
         CandidateSearch<Dim> candidates(surface.facets().view(), options_.search);
         candidates.restore_skin(candidates_.next_skin());
         // The views of the new search are of arrays that stay where they are when the surface is moved.
         surface_ = std::move(surface);
         candidates_ = std::move(candidates);
         store_ = std::move(store);
+        new_facets_ = std::move(new_facets);
+        count_deformable_nodes();
         drop_list();
     }
 
@@ -155,6 +161,7 @@ private:
         for (const std::int32_t node : surface_.nodes()) searched_at_.push_back(x_0[node]);
         step_.nodes = pairs_.nodes();
         clear_step(pairs_, step_);
+        new_facets_.clear();
         list_holds_ = has_searched_ = true;
         ++report_.rebuilds;
         report_.candidates = static_cast<std::int64_t>(found_.size());
@@ -167,9 +174,11 @@ private:
         const PairStore store = store_;
         const ContactReport report = report_;
         const double next_skin = candidates_.next_skin();
+        const std::vector<std::int32_t> new_facets = new_facets_;
         const auto take_back = [&] {
             list_holds_ = false;
             store_ = store;
+            new_facets_ = new_facets;
             report_ = report;
             candidates_.restore_skin(next_skin);
         };
@@ -200,9 +209,20 @@ private:
     }
 
     [[nodiscard]] bool is_admitted_at_first(const NodalPair<Dim>& pair, PointsView<Dim> x_0) {
-        const FirstAdmission first = decide_first<Dim>(pair, x_0, !has_searched_);
+        const auto is_new = [&](std::int32_t facet) { return std::ranges::binary_search(new_facets_, facet); };
+        const FirstAdmission first =
+            decide_first<Dim>(pair, x_0, !has_searched_ || is_new(pair.facet_1) || is_new(pair.facet_2));
         if (first == FirstAdmission::missed) ++report_.missed_contacts;
         return first == FirstAdmission::admitted;
+    }
+
+    void count_deformable_nodes() {
+        step_.n_deformable_nodes = 0;
+        const Surface<Dim>& facets = surface_.facets();
+        for (std::int32_t facet = 0; facet < facets.size(); ++facet)
+            if (!surface_.is_rigid(facets.body[facet]))
+                for (std::int32_t v = Dim * facet; v < Dim * (facet + 1); ++v)
+                    step_.n_deformable_nodes = std::max(step_.n_deformable_nodes, facets.face_vertices[v] + 1);
     }
 
     void drop_list() {
@@ -246,12 +266,21 @@ private:
     NodalPairs<Dim> pairs_;
     PairStore store_;  // in the order of the pairs
     PairPotential<Dim> law_;
+    std::vector<std::int32_t> new_facets_;  // that no search has seen yet, increasing: the run begins for them
     NodalStep<Dim> step_;
     ContactReport report_;
     std::vector<FacePair> found_;  // work arrays of `search`
     std::vector<FacePair> in_contact_;
     std::vector<Vector<Dim>> searched_at_;  // nodes of the surface where the last search began
 };
+
+void detail::check_force_size(std::int64_t given, std::int32_t needed) {
+    if (given < needed)
+        throw BadInput("nodal contact: forces of " + std::to_string(given) +
+                           " nodes are given, and contact pushes nodes up to " + std::to_string(needed - 1) +
+                           "; give one for each node of the deformable bodies.",
+                       {.value = static_cast<double>(given), .allowed = static_cast<double>(needed)});
+}
 
 template <int Dim>
 NodalContact<Dim>::NodalContact(NodalSurface<Dim> surface, NodalOptions options)

@@ -71,9 +71,26 @@ PairStore carried_over(const PairStore& store, const NodalSurface<Dim>& before, 
     return carried;
 }
 
-template PairStore carried_over(const PairStore&, const NodalSurface<2>&, const NodalSurface<2>&,
-                                std::span<const std::int32_t>);
-template PairStore carried_over(const PairStore&, const NodalSurface<3>&, const NodalSurface<3>&,
-                                std::span<const std::int32_t>);
+template <int Dim>
+std::vector<std::int32_t> facets_that_come(std::span<const std::int32_t> new_facets, const NodalSurface<Dim>& before,
+                                           const NodalSurface<Dim>& after, std::span<const std::int32_t> old_face_of) {
+    std::vector<std::int32_t> coming;
+    for (std::size_t face = 0; face < old_face_of.size(); ++face) {
+        const std::int32_t old = old_face_of[face], first = after.facet_offsets()[face];
+        for (std::int32_t facet = first; facet < after.facet_offsets()[face + 1]; ++facet)
+            if (old == gone || std::ranges::binary_search(new_facets, before.facet_offsets()[old] + facet - first))
+                coming.push_back(facet);
+    }
+    return coming;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                    \
+    template PairStore carried_over(const PairStore&, const NodalSurface<Dim>&, const NodalSurface<Dim>&,        \
+                                    std::span<const std::int32_t>);                                              \
+    template std::vector<std::int32_t> facets_that_come(std::span<const std::int32_t>, const NodalSurface<Dim>&, \
+                                                        const NodalSurface<Dim>&, std::span<const std::int32_t>);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::contact

@@ -2,6 +2,7 @@
 // Private to the layer.
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
@@ -14,5 +15,11 @@ namespace abut::contact {
 template <int Dim>
 [[nodiscard]] PairStore carried_over(const PairStore& store, const NodalSurface<Dim>& before, const NodalSurface<Dim>& after,
                                      std::span<const std::int32_t> old_face_of);
+
+/// Facets of the new surface that were not there before, or that were still `new_facets` there; both increasing.
+template <int Dim>
+[[nodiscard]] std::vector<std::int32_t> facets_that_come(std::span<const std::int32_t> new_facets,
+                                                         const NodalSurface<Dim>& before, const NodalSurface<Dim>& after,
+                                                         std::span<const std::int32_t> old_face_of);
 
 }  // namespace abut::contact

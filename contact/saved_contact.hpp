@@ -25,10 +25,10 @@ struct SavedContact {
     double next_skin = 0.0;  ///< [m]
     ContactReport report;
     PairStore store;
+    std::vector<std::int32_t> new_faces;  ///< that no search has seen yet, increasing
 };
 
-[[nodiscard]] std::vector<std::byte> saved(const StateKey& key, bool has_searched, double next_skin,
-                                           const ContactReport& report, const PairStore& store);
+[[nodiscard]] std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact);
 /// Throws BadInput for bytes that are damaged, or of another kind, version or surface.
 [[nodiscard]] SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes);
 

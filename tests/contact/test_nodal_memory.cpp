@@ -199,6 +199,47 @@ TEST_CASE("faces of bodies that have become one, or rigid, press on each other n
     CHECK(has(refused({0}), "give one each"));
 }
 
+TEST_CASE("for a face that comes anew the run begins: it is in contact where its nodes are pressed in", "[contact][nodal]") {
+    // The lower face erodes; two that lie in its place have a node between them, which was there before.
+    TwoFaces faces;
+    faces.scene.rest.push_back({0.5, 0.0});
+    NodalScene<2> next = faces.scene;
+    next.faces.nodes = {0, 4, 4, 1, 2, 3};
+    next.faces.offsets = {0, 2, 4, 6};
+    next.faces.body = {0, 0, 1};
+    next.faces.depth.assign(3, 0.1);
+    const std::vector<std::int32_t> old_face_of{-1, -1, 1};
+    const auto at = [&](double y) { return faces.at(0.0, y); };
+
+    NodalContact<2> contact(faces.scene.surface());
+    contact.step(at(0.01), at(0.01));
+    const double before = contact.step(at(0.01), at(-0.05)).energy;
+    CHECK(before == Approx(0.5 * 1.5 * 0.05 * 0.05));
+    contact.surface_replaced(next.surface(), old_face_of);
+    NodalContact<2> restarted(next.surface());
+    restarted.restore(contact.state());  // before anybody has looked at the new faces
+    CHECK(contact.evaluate(at(0.01)).energy == 0.0);
+    CHECK(contact.evaluate(at(-0.05)).energy == Approx(before));
+    CHECK(contact.step(at(-0.05), at(-0.05)).energy == Approx(before));
+    CHECK(contact.report().missed_contacts == 0);
+    CHECK(restarted.step(at(-0.05), at(-0.05)).energy == contact.last().energy);
+
+    // A second time, before a step: what was new stays new.
+    NodalContact<2> twice(faces.scene.surface());
+    twice.step(at(0.01), at(0.01));
+    twice.step(at(0.01), at(-0.05));
+    twice.surface_replaced(next.surface(), old_face_of);
+    twice.surface_replaced(next.surface(), std::vector<std::int32_t>{0, 1, 2});
+    CHECK(twice.step(at(-0.05), at(-0.05)).energy == Approx(before));
+    CHECK(twice.report().missed_contacts == 0);
+
+    // A face that turns up deeper than D is a far side, as at a start.
+    NodalContact<2> deep(faces.scene.surface());
+    deep.step(at(1.0), at(1.0));
+    deep.surface_replaced(next.surface(), old_face_of);
+    CHECK_FALSE(deep.step(at(-0.25), at(-0.25)).is_active());
+}
+
 TEST_CASE("forces on obstacles that a host has appended to its nodes are left out of its own", "[contact][nodal]") {
     TwoFaces faces;
     auto scene = faces.scene;
@@ -226,6 +267,8 @@ TEST_CASE("forces on obstacles that a host has appended to its nodes are left ou
     CHECK(on->force.y() == Approx(-(own[5] + own[7])));
     CHECK(on->moment[0] == Approx(2.5 * on->force.y()));  // about the origin
     CHECK_THROWS_AS(step.add_force_to(std::span(guard)), BadInput);
+    CHECK(step.n_deformable_nodes == 4);
+    CHECK_THROWS_AS(step.add_force_to(std::span(own).first(6)), BadInput);  // a force would be lost
 }
 
 TEST_CASE("faces with four corners are cut inside, and refused where their edges cross", "[contact][nodal]") {
