@@ -46,6 +46,18 @@ std::int64_t steps_until(double time, double dt) {
     return static_cast<std::int64_t>(steps);
 }
 
+double choose_step(const RunOptions& options, double stable_dt) {
+    const bool by_cfl = std::isnan(options.dt);
+    const double dt = by_cfl ? options.cfl * stable_dt : options.dt;
+    if (!(dt <= stable_dt) && !options.allow_unstable)
+        throw BadInput(
+            fmt::format("{}: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl of at most "
+                        "1; --allow-unstable takes it all the same.",
+                        by_cfl ? "--cfl" : "--dt", dt, stable_dt),
+            {.value = dt, .allowed = stable_dt});
+    return dt;
+}
+
 void check(const RunOptions& options) {
     if (options.filter && options.integrator != SolidIntegrator::memm)
         throw BadInput(fmt::format("--filter neutral: the filter is made for memm, and {} was chosen. Take --filter none.",

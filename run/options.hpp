@@ -76,6 +76,9 @@ template <int Dim>
 /// BadInput if there are none, or too many to count.
 [[nodiscard]] std::int64_t steps_until(double time, double dt);
 
+/// The time step [s] where the stable one is `stable_dt`. Throws BadInput for one above it, unless that is allowed.
+[[nodiscard]] double choose_step(const RunOptions& options, double stable_dt);
+
 /// Throws BadInput if options do not go together: a filter, restarts, levels or a gauge for a scheme that has none.
 void check(const RunOptions& options);
 

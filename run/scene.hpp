@@ -80,4 +80,14 @@ struct RunResult {
     std::vector<Finding> findings;  ///< of the scene
 };
 
+/// What the solid of a scene is made with.
+template <int Dim>
+[[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
+/// Of the cells, (n_cells, Dim) [m].
+template <int Dim>
+[[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene);
+/// Of the cells of the scene's solid, (n_cells, Dim) [kg m/s]. Throws BadInput for another number of velocities than bodies.
+template <int Dim>
+[[nodiscard]] std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
+
 }  // namespace abut::run

@@ -30,27 +30,6 @@ using oneapi::tbb::global_control;
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
 
-template <int Dim>
-solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
-    solid::SolidOptions<Dim> solid = scene.solid;
-    solid.boundary.free_face_rule = options.neumann;
-    solid.boundary.corner_rule = options.corners;
-    solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
-    return solid;
-}
-
-double choose_step(const RunOptions& options, const dynamics::StableStep& stable) {
-    const bool by_cfl = std::isnan(options.dt);
-    const double dt = by_cfl ? options.cfl * stable.dt : options.dt;
-    if (!(dt <= stable.dt) && !options.allow_unstable)
-        throw BadInput(
-            fmt::format("{}: {:.6g} s is above the stable step of {:.6g} s. Take at most that, or --cfl of at most "
-                        "1; --allow-unstable takes it all the same.",
-                        by_cfl ? "--cfl" : "--dt", dt, stable.dt),
-            {.value = dt, .allowed = stable.dt});
-    return dt;
-}
-
 std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
     if (std::isnan(options.time) && options.steps > 0) return options.steps;
     return steps_until(std::isnan(options.time) ? time_of_scene : options.time, dt);
@@ -77,7 +56,7 @@ template <int Dim>
 struct Start {
     Start(const Scene<Dim>& scene, const RunOptions& options) : solid(scene.mesh, solid_options(scene, options)) {
         result.stable = dynamics::stable_step(solid);
-        result.finest_dt = result.dt = choose_step(options, result.stable);
+        result.finest_dt = result.dt = choose_step(options, result.stable.dt);
         if (options.integrator == SolidIntegrator::memm_async) set_local_steps(options);
         result.steps = choose_steps(options, scene.time, result.dt);
         result.stencils = solid.ccg().stencil_report();
@@ -85,17 +64,8 @@ struct Start {
         result.contact_faces_left_out = solid.contact_faces_left_out();
         result.blind_corners = solid.blind_corners();
         result.unseen_edges = solid.unseen_edges();
-        q.assign(solid.size(), 0.0);
-        if (scene.displacement) {
-            const auto u = as_vectors<Dim>(std::span<double>(q));
-            for (std::size_t c = 0; c < u.size(); ++c) u[c] = scene.displacement(scene.mesh.cell_centroid[c]);
-        }
-        momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
-        if (scene.added_velocity) {
-            const auto p = as_vectors<Dim>(std::span<double>(momentum));
-            for (std::size_t c = 0; c < p.size(); ++c)
-                p[c] += solid.masses()[c] * scene.added_velocity(scene.mesh.cell_centroid[c]);
-        }
+        q = displacement_at_start(scene);
+        momentum = momentum_at_start(scene, solid);
     }
 
     solid::Solid<Dim> solid;
