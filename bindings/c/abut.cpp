@@ -3,6 +3,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <exception>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
@@ -191,6 +193,7 @@ struct abut_contact {
     std::int32_t index_base;
     bool told_of_compression = false;
     std::int64_t told_of_missed = 0;
+    mutable std::atomic_flag in_use{};  // by a call; another one meanwhile is refused
 
     /// What the host's own log throws is dropped: what is told has happened already.
     void tell(int severity, const std::string& text) const noexcept {
@@ -224,7 +227,7 @@ contact::NodalOptions nodal_options(const abut_options& given, std::int32_t inde
 }
 
 template <int Dim>
-void tell_at_start(const abut_contact& handle, const contact::NodalContact<Dim>& contact) {
+void tell_of_surface(const abut_contact& handle, const contact::NodalContact<Dim>& contact) {
     if (handle.options.log == nullptr) return;
     for (const std::int32_t body : contact.surface().inward_bodies())
         handle.tell(ABUT_WARNING,
@@ -249,36 +252,83 @@ void tell_after_step(abut_contact& handle, const contact::NodalContact<Dim>& con
                         " times the depth of their elements into each other; finer elements or a lower speed make it less.");
     }
     if (report.missed_contacts > handle.told_of_missed) {
-        handle.tell(ABUT_WARNING,
-                    std::to_string(report.missed_contacts - handle.told_of_missed) +
-                        " pairs were first seen pressed in: they are no contacts, and the energy is not exact.");
+        handle.tell(
+            ABUT_WARNING,
+            std::to_string(report.missed_contacts - handle.told_of_missed) +
+                " pairs were first seen pressed in: they are no contacts until they have parted. Where no faces have come "
+                "anew, steps were too long for the list, and the energy is not exact.");
         handle.told_of_missed = report.missed_contacts;
     }
 }
 
+/// Where forces go, checked before anything happens; nothing if they are not asked for.
 template <int Dim>
-void add_forces(const contact::NodalStep<Dim>& step, const abut_array& force) {
-    if (force.data == nullptr) return;
-    step.add_force_to({force.data, checked_count(force.count, "force"), static_cast<std::ptrdiff_t>(force.item),
-                       static_cast<std::ptrdiff_t>(force.component)});
+std::optional<PointsSpan<Dim>> force_of(const abut_array& force, const contact::NodalContact<Dim>& contact) {
+    if (force.data == nullptr) return std::nullopt;
+    const std::int32_t count = checked_count(force.count, "force");
+    contact::detail::check_force_size(count, contact.last().n_deformable_nodes);
+    return PointsSpan<Dim>{force.data, count, static_cast<std::ptrdiff_t>(force.item),
+                           static_cast<std::ptrdiff_t>(force.component)};
 }
 
 template <class Contact>
 constexpr int dimension_of = std::is_same_v<std::remove_cvref_t<Contact>, contact::NodalContact<2>> ? 2 : 3;
 
+/// A handle while a call has it to itself.
+class Use {
+public:
+    explicit Use(std::atomic_flag& in_use) : in_use_(in_use) {
+        if (in_use_.test_and_set(std::memory_order_acquire))
+            throw Misuse(
+                "this contact is in use: by a callback's own caller, or by another thread. Use one thread at a time, and "
+                "call nothing of it from its callbacks.");
+    }
+    ~Use() { in_use_.clear(std::memory_order_release); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+
+private:
+    std::atomic_flag& in_use_;
+};
+
 /// Calls with the contact of the right dimension.
 template <class Handle, class Call>
 void with_contact(Handle* handle, const Call& call) {
     check_pointer(handle, "the handle `contact`");
+    const Use use(handle->in_use);
     std::visit([&](auto& contact) { call(contact); }, handle->contact);
 }
 
 int index_base_of(const abut_contact* handle) { return handle == nullptr ? 0 : handle->index_base; }
 
+/// Faces whose bodies are numbered without gaps, with depths and stiffnesses that nobody looks at.
+struct SurfaceForOverlaps {
+    explicit SurfaceForOverlaps(const abut_faces& given) : faces(given) {
+        const auto of_host = span_of(given.body, given.n_faces, "abut_faces.body");
+        std::vector<std::int32_t> numbers(of_host.begin(), of_host.end());
+        sort_unique(numbers);
+        for (const std::int32_t number : of_host)
+            body.push_back(static_cast<std::int32_t>(std::ranges::lower_bound(numbers, number) - numbers.begin()) +
+                           given.index_base);
+        depth.assign(body.size(), 1.0);
+        stiffness.assign(numbers.size(), 1.0);
+        faces.body = body.data();
+        faces.depth = depth.data();
+        faces.stiffness = stiffness.data();
+        faces.n_bodies = static_cast<std::int64_t>(numbers.size());
+    }
+    SurfaceForOverlaps(const SurfaceForOverlaps&) = delete;
+
+    abut_faces faces;
+    std::vector<std::int32_t> body;
+    std::vector<double> depth, stiffness;
+};
+
 template <int Dim>
 void find_all_overlaps(const abut_array& x, const abut_faces& faces, double distance, abut_overlap* overlaps,
                        std::size_t entry_size, std::int64_t capacity, std::int64_t* n) {
-    const contact::NodalSurface<Dim> surface = surface_of<Dim>(x, faces);
+    const SurfaceForOverlaps of_bodies(faces);
+    const contact::NodalSurface<Dim> surface = surface_of<Dim>(x, of_bodies.faces);
     contact::CandidateOptions options;
     options.distance = distance;
     contact::CandidateSearch<Dim> search(surface.facets().view(), options);
@@ -358,7 +408,7 @@ int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, const abu
             auto handle = std::unique_ptr<abut_contact>(new abut_contact{
                 contact::NodalContact<Dim>(surface_of<Dim>(rest, *faces), nodal_options(given, faces->index_base)), given,
                 faces->index_base});
-            tell_at_start<Dim>(*handle, std::get<contact::NodalContact<Dim>>(handle->contact));
+            tell_of_surface<Dim>(*handle, std::get<contact::NodalContact<Dim>>(handle->contact));
             *contact = handle.release();
         };
         if (dim == 2)
@@ -380,9 +430,10 @@ int abut_step(abut_contact* handle, abut_array x_0, abut_array x_1, int32_t take
             if (result != nullptr) check_struct(result, "abut_step_result");
             const abut_options& options = handle->options;
             if (options.cancel != nullptr && call_host([&] { return options.cancel(options.user) != 0; })) throw Cancelled{};
+            const auto forces = force_of<Dim>(force, contact);
             const auto& step = contact.step(view_of<Dim>(x_0, "x_0"), view_of<Dim>(x_1, "x_1"),
                                             take == ABUT_MEAN ? contact::TakenForce::mean : contact::TakenForce::end);
-            add_forces<Dim>(step, force);
+            if (forces) step.add_force_to(*forces);
             if (result != nullptr)
                 *result = {sizeof(abut_step_result),
                            step.energy_0,
@@ -401,8 +452,9 @@ int abut_evaluate(abut_contact* handle, abut_array x, abut_array force, double* 
     return guarded(error, index_base_of(handle), [&] {
         with_contact(handle, [&](auto& contact) {
             constexpr int Dim = dimension_of<decltype(contact)>;
+            const auto forces = force_of<Dim>(force, contact);
             const auto& step = contact.evaluate(view_of<Dim>(x, "x"));
-            add_forces<Dim>(step, force);
+            if (forces) step.add_force_to(*forces);
             if (energy != nullptr) *energy = step.energy;
         });
     });
@@ -511,10 +563,10 @@ int abut_save(const abut_contact* handle, void* bytes, int64_t capacity, int64_t
 
 int abut_restore(abut_contact* handle, const void* bytes, int64_t n, abut_error* error) {
     return guarded(error, index_base_of(handle), [&] {
-        with_contact(handle,
-                     [&](auto& contact) { contact.restore(span_of(static_cast<const std::byte*>(bytes), n, "bytes")); });
-        handle->told_of_missed =
-            std::visit([](const auto& contact) { return contact.report().missed_contacts; }, handle->contact);
+        with_contact(handle, [&](auto& contact) {
+            contact.restore(span_of(static_cast<const std::byte*>(bytes), n, "bytes"));
+            handle->told_of_missed = contact.report().missed_contacts;
+        });
     });
 }
 
@@ -530,6 +582,7 @@ int abut_replace_surface(abut_contact* handle, abut_array rest, const abut_faces
             auto old = from_zero(span_of(old_face_of, faces->n_faces, "old_face_of"), handle->index_base);
             for (std::int32_t& face : old) face = std::max(face, -1);
             contact.surface_replaced(surface_of<Dim>(rest, *faces), old);
+            tell_of_surface<Dim>(*handle, contact);
         });
     });
 }

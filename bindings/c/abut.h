@@ -4,11 +4,13 @@
    both ends, and adds the forces. docs/embedding.md and docs/languages.md walk through it, docs/method.md has the equations.
 
    Rules that hold for all functions:
-   - They return a status, ABUT_OK or what went wrong; then the call did nothing else, and `error` (may be NULL) says where,
-     how much, how much is allowed and what to do. No exception, no abort and no exit crosses this border.
+   - They return a status, ABUT_OK or what went wrong; then nothing has changed that the next steps depend on, and `error` (may be
+     NULL) says where, how much, how much is allowed and what to do. After a refused step the tables of `abut_pairs` and so on
+     hold what was refused, and counters may have seen it. No exception, no abort and no exit crosses this border.
    - Structs that may grow begin with `struct_size`: set it to sizeof the struct. The ABUT_..._INIT macros do.
    - Arrays are the caller's, are read while the call lasts, and are not kept. NULL is refused by name where data are needed.
-   - Handles are independent of each other: two threads may use two of them at once, but not one.
+   - Handles are independent of each other: two threads may use two of them at once. A call for one that is in use, by another
+     thread or from one of its callbacks, gets ABUT_MISUSE; `abut_destroy` must not meet one.
    Lengths are in m, forces in N, energies in J, or in any consistent set of units. */
 #ifndef ABUT_H
 #define ABUT_H
@@ -199,8 +201,8 @@ ABUT_API int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, 
 /* NULL is no error. */
 ABUT_API void abut_destroy(abut_contact* contact);
 
-/* From x_0 to x_1; adds the forces to `force` (data NULL: does not), which may end before the nodes of obstacles do. `result` may
-   be NULL. */
+/* From x_0 to x_1; adds the forces to `force` (data NULL: does not), which may end before the nodes of obstacles do, but not before
+   those of other faces. `result` may be NULL. */
 ABUT_API int abut_step(abut_contact* contact, abut_array x_0, abut_array x_1, int32_t take, abut_array force,
                        abut_step_result* result, abut_error* error);
 /* W and forces at any x, without a step: changes nothing that the next steps depend on. */
@@ -226,12 +228,14 @@ ABUT_API int abut_save(const abut_contact* contact, void* bytes, int64_t capacit
 ABUT_API int abut_restore(abut_contact* contact, const void* bytes, int64_t n, abut_error* error);
 
 /* Goes on with other faces, between two steps, as after an erosion. `old_face_of` (n_faces): the old number of each face that was
-   there before; below `index_base`: a face that was not. The index base stays that of the first faces. */
+   there before; below `index_base`: a face that was not, for whose pairs the run begins: what is pressed in is a contact. The index
+   base stays that of the first faces. */
 ABUT_API int abut_replace_surface(abut_contact* contact, abut_array rest, const abut_faces* faces, const int32_t* old_face_of,
                                   abut_error* error);
 
 /* Every pair of faces of two bodies that look at each other, share an area, and have a gap of at most `distance`, apart or
-   pressed in, at x; each call searches from the beginning. Depths and stiffnesses are not looked at. Faces with four corners appear by halves. */
+   pressed in, at x; each call searches from the beginning. Depths and stiffnesses are not looked at and may be NULL.
+   Faces with four corners appear by halves. */
 ABUT_API int abut_find_overlaps(int32_t dim, abut_array x, const abut_faces* faces, double distance, abut_overlap* overlaps,
                                 size_t entry_size, int64_t capacity, int64_t* n, abut_error* error);
 

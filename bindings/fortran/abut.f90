@@ -91,8 +91,28 @@ module abut
   public :: abut_options_init, abut_limit_threads, abut_skin_stiffness, abut_create, abut_destroy, abut_step, abut_evaluate, &
     abut_pairs, abut_bodies, abut_body_pairs, abut_get_report, abut_stable_step, abut_save, abut_restore, &
     abut_replace_surface, abut_find_overlaps
+  public :: abut_version, abut_wanted, abut_cancel, abut_log, abut_columns
   public :: abut_points, abut_nothing, abut_faces_of, abut_new_error, abut_new_result, abut_new_report, abut_new_stable, &
     abut_message
+
+  ! What the callbacks of abut_options look like: options%wanted = c_funloc(mine), options%user = c_loc(my_data).
+  abstract interface
+    integer(c_int) function abut_wanted(face_1, face_2, user) bind(c)
+      import
+      integer(c_int32_t), value :: face_1, face_2
+      type(c_ptr), value :: user
+    end function
+    integer(c_int) function abut_cancel(user) bind(c)
+      import
+      type(c_ptr), value :: user
+    end function
+    subroutine abut_log(severity, text, user) bind(c)
+      import
+      integer(c_int), value :: severity
+      character(kind=c_char), intent(in) :: text(*)  ! up to c_null_char
+      type(c_ptr), value :: user
+    end subroutine
+  end interface
 
   interface
     subroutine abut_options_init(options) bind(c)
@@ -147,7 +167,7 @@ module abut
       type(abut_pair), intent(inout) :: pairs(*)
       integer(c_size_t), value :: entry_size
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: n
+      integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
       type(abut_error), intent(inout) :: error
     end function
     integer(c_int) function abut_bodies(contact, bodies, entry_size, capacity, n, error) bind(c)
@@ -156,7 +176,7 @@ module abut
       type(abut_body), intent(inout) :: bodies(*)
       integer(c_size_t), value :: entry_size
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: n
+      integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
       type(abut_error), intent(inout) :: error
     end function
     integer(c_int) function abut_body_pairs(contact, pairs, entry_size, capacity, n, error) bind(c)
@@ -165,7 +185,7 @@ module abut
       type(abut_body_pair), intent(inout) :: pairs(*)
       integer(c_size_t), value :: entry_size
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: n
+      integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
       type(abut_error), intent(inout) :: error
     end function
     integer(c_int) function abut_get_report(contact, report, error) bind(c)
@@ -189,7 +209,7 @@ module abut
       type(c_ptr), value :: contact
       character(kind=c_char), intent(inout) :: bytes(*)
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: n
+      integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
       type(abut_error), intent(inout) :: error
     end function
     integer(c_int) function abut_restore(contact, bytes, n, error) bind(c)
@@ -216,7 +236,7 @@ module abut
       type(abut_overlap), intent(inout) :: overlaps(*)
       integer(c_size_t), value :: entry_size
       integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(out) :: n
+      integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
       type(abut_error), intent(inout) :: error
     end function
   end interface
@@ -240,6 +260,39 @@ contains
       type(c_ptr), intent(in) :: from, to
       apart = (transfer(to, 0_c_intptr_t) - transfer(from, 0_c_intptr_t)) / 8
     end function
+  end function
+
+  ! A view of u(n, dim), one array per component.
+  function abut_columns(u) result(points)
+    real(c_double), target, intent(in) :: u(:, :)
+    type(abut_array) :: points
+    points = abut_points(u)
+    points%count = size(u, 1, c_int64_t)
+    points = abut_array(points%data, points%count, points%component, points%item)
+  end function
+
+  ! "0.1.0"
+  function abut_version() result(text)
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: bytes(:)
+    type(c_ptr) :: from
+    integer(c_size_t) :: n, i
+    interface
+      type(c_ptr) function c_version() bind(c, name='abut_version')
+        import
+      end function
+      integer(c_size_t) function strlen(from) bind(c)
+        import
+        type(c_ptr), value :: from
+      end function
+    end interface
+    from = c_version()
+    n = strlen(from)
+    call c_f_pointer(from, bytes, [n])
+    allocate (character(n) :: text)
+    do i = 1, n
+      text(i:i) = bytes(i)
+    end do
   end function
 
   ! For a force that is not asked for.

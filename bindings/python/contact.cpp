@@ -1,15 +1,17 @@
-// The Python module `abut`: contact on nodes for numpy, over the C layer. Arrays of float64 are read and written where they lie,
-// whatever their strides; the interpreter's lock is released while contact computes.
+// The Python package `abut`: contact on nodes for numpy, over the C layer. Arrays of float64 are read and written where they
+// lie, whatever their strides; the interpreter's lock is released while contact computes.
 #include "abut.h"
 
-#include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace py = pybind11;
@@ -87,23 +89,49 @@ abut_array view_of(const py::array& array, int dim, const char* name) {
 
 abut_array writable_view_of(const py::object& array, int dim, const char* name) {
     if (array.is_none()) return {nullptr, 0, 0, 0};
-    const auto doubles = py::cast<py::array>(array);
+    if (!py::isinstance<py::array>(array))
+        throw py::type_error(std::string(name) + " must be an array of numpy: the forces are added to it where it lies");
+    const auto doubles = py::reinterpret_borrow<py::array>(array);
     if (!doubles.writeable()) throw py::value_error(std::string(name) + " is read-only");
     return view_of(doubles, dim, name);
 }
 
+/// A packed copy; no number is rounded or wrapped.
+Integers integers_of(const py::object& given, const char* name) {
+    const py::array array = py::array::ensure(given);
+    const char kind = array ? array.dtype().kind() : '?';
+    if (kind != 'i' && kind != 'u' && !(kind == 'f' && array.size() == 0)) {  // an empty list has no type
+        PyErr_Clear();
+        throw py::type_error(std::string(name) + " must be an array of integers");
+    }
+    if (array.size() > 0) {
+        const auto largest = py::cast<double>(array.attr("max")()), least = py::cast<double>(array.attr("min")());
+        if (largest > std::numeric_limits<std::int32_t>::max() || least < std::numeric_limits<std::int32_t>::min())
+            throw py::value_error(std::string(name) + " must be within -2147483648 and 2147483647");
+    }
+    return Integers::ensure(array);
+}
+
 /// Copies of the arrays of the faces, packed: they are read once.
 struct Faces {
-    Faces(const py::array& corners, const Integers& of_body, const PackedDoubles& depths, const PackedDoubles& stiffnesses,
-          const py::object& of_offsets, int dim)
-        : nodes(Integers::ensure(corners)), body(of_body), depth(depths), stiffness(stiffnesses) {
-        if (!nodes) throw py::type_error("faces must be an array of integers");
+    Faces(const py::object& corners, const py::object& of_body, const PackedDoubles& depths,
+          const PackedDoubles& stiffnesses, const py::object& of_offsets, int dim)
+        : Faces(corners, of_body, of_offsets, dim) {
+        depth = depths;
+        stiffness = stiffnesses;
         if (depth.size() != body.size())
             throw py::value_error("depth has " + std::to_string(depth.size()) + " entries for " +
                                   std::to_string(body.size()) + " faces in body; give one each");
+        view.depth = depth.data();
+        view.stiffness = stiffness.data();
+        view.n_bodies = stiffness.size();
+    }
+    /// Without depths and stiffnesses: for overlaps.
+    Faces(const py::object& corners, const py::object& of_body, const py::object& of_offsets, int dim)
+        : nodes(integers_of(corners, "faces")), body(integers_of(of_body, "body")) {
         view.n_faces = body.size();
         if (!of_offsets.is_none()) {
-            offsets = py::cast<Integers>(of_offsets);
+            offsets = integers_of(of_offsets, "offsets");
             if (offsets.size() != body.size() + 1)
                 throw py::value_error("offsets must have one entry per face and one more");
             view.offsets = offsets.data();
@@ -120,9 +148,6 @@ struct Faces {
         view.nodes = nodes.data();
         view.n_nodes = nodes.size();
         view.body = body.data();
-        view.depth = depth.data();
-        view.stiffness = stiffness.data();
-        view.n_bodies = stiffness.size();
     }
 
     Integers nodes, body, offsets;
@@ -130,26 +155,47 @@ struct Faces {
     abut_faces view = ABUT_FACES_INIT;
 };
 
-using Wanted = std::function<bool(int, int)>;
-using Log = std::function<void(int, std::string)>;
-
-/// Functions of Python behind callbacks of C: an exception of theirs ends the call, and is raised by it.
+/// Functions of Python behind callbacks of C; None for those that there are not.
 struct Callbacks {
-    Wanted wanted;
-    Log log;
+    py::object wanted, cancel, log;
+    std::optional<py::error_already_set> of_log;  // raised once the call is over, which has happened all the same
 
-    static int ask(std::int32_t face_1, std::int32_t face_2, void* user) {
+    void put_into(abut_options& options) {
+        options.user = this;
+        if (!wanted.is_none()) options.wanted = ask_wanted;
+        if (!cancel.is_none()) options.cancel = ask_cancel;
+        if (!log.is_none()) options.log = tell;
+    }
+    void raise_what_log_raised() {
+        if (of_log) throw *std::exchange(of_log, std::nullopt);
+    }
+
+private:
+    /// Whether the answer is true; an exception ends the call, and is raised by it.
+    template <class... Arguments>
+    static int ask(const py::object& function, Arguments... arguments) {
         const py::gil_scoped_acquire acquire;
         try {
-            return static_cast<Callbacks*>(user)->wanted(face_1, face_2) ? 1 : 0;
+            const int answer = PyObject_IsTrue(function(arguments...).ptr());
+            if (answer < 0) throw py::error_already_set();
+            return answer;
         } catch (py::error_already_set& error) {
             error.restore();
             throw std::exception();
         }
     }
+    static int ask_wanted(std::int32_t face_1, std::int32_t face_2, void* user) {
+        return ask(static_cast<Callbacks*>(user)->wanted, face_1, face_2);
+    }
+    static int ask_cancel(void* user) { return ask(static_cast<Callbacks*>(user)->cancel); }
     static void tell(int severity, const char* text, void* user) {
         const py::gil_scoped_acquire acquire;
-        static_cast<Callbacks*>(user)->log(severity, text);
+        auto& callbacks = *static_cast<Callbacks*>(user);
+        try {
+            callbacks.log(severity, text);
+        } catch (py::error_already_set& error) {
+            if (!callbacks.of_log) callbacks.of_log = error;
+        }
     }
 };
 
@@ -171,11 +217,12 @@ py::array_t<Entry> entries_of(const Ask& ask) {
 
 class NodalContact {
 public:
-    NodalContact(const py::array& nodes, const py::array& faces, const Integers& body, const PackedDoubles& depth,
+    NodalContact(const py::array& nodes, const py::object& faces, const py::object& body, const PackedDoubles& depth,
                  const PackedDoubles& stiffness, const py::object& offsets, double skin, double largest_motion,
-                 double compression_warning, double compression_limit, std::pair<double, double> facing, bool events,
-                 Wanted wanted, Log log)
-        : dim_(dimension_of(nodes)), callbacks_(new Callbacks{std::move(wanted), std::move(log)}) {
+                 std::int64_t max_pairs, double compression_warning, double compression_limit,
+                 std::pair<double, double> facing, bool events, py::object wanted, py::object cancel, py::object log)
+        : dim_(dimension_of(nodes)),
+          callbacks_(new Callbacks{std::move(wanted), std::move(cancel), std::move(log), std::nullopt}) {
         const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
         abut_options options;
         abut_options_init(&options);
@@ -186,13 +233,13 @@ public:
         options.facing_full = facing.first;
         options.facing_none = facing.second;
         options.events = events ? 1 : 0;
-        options.user = callbacks_.get();
-        if (callbacks_->wanted) options.wanted = Callbacks::ask;
-        if (callbacks_->log) options.log = Callbacks::tell;
+        options.max_pairs = max_pairs;
+        callbacks_->put_into(options);
         const abut_array rest = view_of(nodes, dim_, "nodes");
         abut_contact* handle = nullptr;
         call_unlocked([&](abut_error* error) { return abut_create(dim_, rest, &of_host.view, &options, &handle, error); });
         handle_.reset(handle);
+        callbacks_->raise_what_log_raised();
     }
 
     py::dict step(const py::array& x_0, const py::array& x_1, const py::object& out, const std::string& mode) {
@@ -203,6 +250,7 @@ public:
         call_unlocked([&](abut_error* error) {
             return abut_step(handle_.get(), from, to, mode == "mean" ? ABUT_MEAN : ABUT_END, force, &result, error);
         });
+        callbacks_->raise_what_log_raised();
         using namespace py::literals;
         return py::dict("energy_0"_a = result.energy_0, "energy"_a = result.energy, "work"_a = result.work,
                         "active_pairs"_a = result.active_pairs, "events"_a = result.events,
@@ -270,13 +318,16 @@ public:
         require_ok(abut_restore(handle_.get(), bytes.data(), static_cast<std::int64_t>(bytes.size()), &error), error);
     }
 
-    void surface_replaced(const py::array& nodes, const py::array& faces, const Integers& body, const PackedDoubles& depth,
-                          const PackedDoubles& stiffness, const Integers& old_face_of, const py::object& offsets) {
+    void surface_replaced(const py::array& nodes, const py::object& faces, const py::object& body,
+                          const PackedDoubles& depth, const PackedDoubles& stiffness, const py::object& old_face_of,
+                          const py::object& offsets) {
         const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
-        if (old_face_of.size() != body.size()) throw py::value_error("old_face_of must have one entry per face");
+        const Integers old = integers_of(old_face_of, "old_face_of");
+        if (old.size() != of_host.body.size()) throw py::value_error("old_face_of must have one entry per face");
         const abut_array rest = view_of(nodes, dim_, "nodes");
-        abut_error error = ABUT_ERROR_INIT;
-        require_ok(abut_replace_surface(handle_.get(), rest, &of_host.view, old_face_of.data(), &error), error);
+        call_unlocked(
+            [&](abut_error* error) { return abut_replace_surface(handle_.get(), rest, &of_host.view, old.data(), error); });
+        callbacks_->raise_what_log_raised();
     }
 
 private:
@@ -288,15 +339,10 @@ private:
     std::unique_ptr<abut_contact, Destroy> handle_;
 };
 
-py::array_t<abut_overlap> find_overlaps(const py::array& nodes, const py::array& faces, const Integers& body,
+py::array_t<abut_overlap> find_overlaps(const py::array& nodes, const py::object& faces, const py::object& body,
                                         double distance, const py::object& offsets) {
     const int dim = dimension_of(nodes);
-    std::int32_t last = -1;
-    for (py::ssize_t i = 0; i < body.size(); ++i) last = std::max(last, body.data()[i]);
-    // Neither depths nor stiffnesses are looked at.
-    const PackedDoubles depth(std::vector<py::ssize_t>{body.size()}, std::vector<double>(body.size(), 1.0).data());
-    const PackedDoubles stiffness(std::vector<py::ssize_t>{last + 1}, std::vector<double>(last + 1, 1.0).data());
-    const Faces of_host(faces, body, depth, stiffness, offsets, dim);
+    const Faces of_host(faces, body, offsets, dim);
     const abut_array x = view_of(nodes, dim, "nodes");
     return entries_of<abut_overlap>([&](abut_overlap* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
         return abut_find_overlaps(dim, x, &of_host.view, distance, entries, sizeof(abut_overlap), capacity, n, error);
@@ -324,7 +370,7 @@ py::object exception(py::module_& module, const char* name, const py::object& ba
 
 }  // namespace
 
-PYBIND11_MODULE(abut, module) {
+PYBIND11_MODULE(_contact, module) {
     module.doc() = "Contact between deformable solids whose surfaces are made of nodes. docs/languages.md walks through it.";
     module.attr("__version__") = abut_version();
     PYBIND11_NUMPY_DTYPE(abut_pair, face_1, face_2, normal, gap_0, gap_1, area, normal_force, force, events, active_share,
@@ -355,14 +401,16 @@ PYBIND11_MODULE(abut, module) {
         "nodes: (n_nodes, dim) at rest; faces: (n_faces, corners), two, three or four of them, or flat with "
         "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
         "(n_bodies), skin_stiffness or inf for a rigid body; wanted(face_1, face_2): whether they may touch; "
-        "log(severity, text): told what ought to be known and is no error.")
-        .def(py::init<const py::array&, const py::array&, const Integers&, const PackedDoubles&, const PackedDoubles&,
-                      const py::object&, double, double, double, double, std::pair<double, double>, bool, Wanted, Log>(),
+        "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
+        "is no error. They must call nothing of the contact.")
+        .def(py::init<const py::array&, const py::object&, const py::object&, const PackedDoubles&, const PackedDoubles&,
+                      const py::object&, double, double, std::int64_t, double, double, std::pair<double, double>, bool,
+                      py::object, py::object, py::object>(),
              "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a, "offsets"_a = py::none(), py::kw_only(),
-             "skin"_a = defaults.skin, "largest_motion"_a = defaults.largest_motion,
+             "skin"_a = defaults.skin, "largest_motion"_a = defaults.largest_motion, "max_pairs"_a = defaults.max_pairs,
              "compression_warning"_a = defaults.compression_warning, "compression_limit"_a = defaults.compression_limit,
              "facing"_a = std::pair(defaults.facing_full, defaults.facing_none), "events"_a = defaults.events != 0,
-             "wanted"_a = Wanted(), "log"_a = Log())
+             "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none())
         .def("step", &NodalContact::step, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
              "From x_0 to x_1; adds the forces to out, which may end before the nodes of obstacles do. mode: 'mean' of the "
              "step, "

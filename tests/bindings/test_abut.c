@@ -250,6 +250,60 @@ static void callbacks_are_called(void) {
     abut_destroy(contact);
 }
 
+/* A callback that calls the contact that called it. */
+typedef struct Looped {
+    abut_contact* contact;
+    int status;
+} Looped;
+static int calls_back(int32_t face_1, int32_t face_2, void* user) {
+    Looped* looped = user;
+    double x[2 * n_nodes];
+    (void)face_1, (void)face_2;
+    lowered(0.0, x);
+    looped->status = abut_step(looped->contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL);
+    return 1;
+}
+
+static void a_contact_in_use_is_left_alone(void) {
+    Looped looped = {NULL, ABUT_OK};
+    abut_options options;
+    abut_options_init(&options);
+    options.wanted = calls_back;
+    options.user = &looped;
+    looped.contact = made(&options);
+    double x_0[2 * n_nodes], x_1[2 * n_nodes];
+    abut_step_result result = ABUT_STEP_RESULT_INIT;
+    lowered(0.0, x_0);
+    lowered(0.15, x_1);
+    CHECK(abut_step(looped.contact, packed(x_0), packed(x_1), ABUT_MEAN, nothing, &result, NULL) == ABUT_OK);
+    CHECK(looped.status == ABUT_MISUSE && result.active_pairs == 1);
+    CHECK(abut_step(looped.contact, packed(x_1), packed(x_1), ABUT_MEAN, nothing, &result, NULL) == ABUT_OK); /* free again */
+    abut_destroy(looped.contact);
+}
+
+/* A force that is too short would be lost: the step does not happen. */
+static void a_force_that_ends_too_early_is_refused_before_the_step(void) {
+    abut_contact* contact = made(NULL);
+    abut_error error = ABUT_ERROR_INIT;
+    double x_0[2 * n_nodes], x_1[2 * n_nodes], force[2 * n_nodes] = {0.0};
+    lowered(0.0, x_0);
+    lowered(0.15, x_1);
+    int64_t n = 7;
+    char before[4096], after[4096];
+    int64_t n_before = 0, n_after = 0;
+    CHECK(abut_step(contact, packed(x_0), packed(x_0), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
+    CHECK(abut_save(contact, before, sizeof(before), &n_before, &error) == ABUT_OK);
+    for (int64_t count = -1; count < n_nodes; ++count) {
+        const abut_array too_short = {force, count, 2, 1};
+        CHECK(abut_step(contact, packed(x_0), packed(x_1), ABUT_MEAN, too_short, NULL, &error) == ABUT_BAD_INPUT);
+    }
+    CHECK(error.value == 7.0 && error.allowed == 8.0);
+    CHECK(abut_save(contact, after, sizeof(after), &n_after, &error) == ABUT_OK);
+    CHECK(n_before == n_after && n_before < (int64_t)sizeof(before) && memcmp(before, after, (size_t)n_before) == 0);
+    CHECK(abut_pairs(contact, NULL, sizeof(abut_pair), 0, &n, &error) == ABUT_OK && n == 0);
+    abut_destroy(contact);
+}
+
 static void what_is_wrong_is_refused_by_name(void) {
     abut_error error = ABUT_ERROR_INIT;
     abut_contact* contact = NULL;
@@ -302,6 +356,13 @@ static void overlaps_alone(void) {
     CHECK(abut_find_overlaps(2, packed(x), &faces, 0.05, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 0);
     CHECK(abut_find_overlaps(2, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 1);
     CHECK(overlap.face_1 == 2 && overlap.face_2 == 4 && fabs(overlap.area - 0.8) < 1e-15 && fabs(overlap.gap - 0.1) < 1e-15);
+    /* Bodies may have any numbers, and nobody looks at depths. */
+    const int32_t far[n_faces] = {7, 7, 7, 7, 2000000000, 2000000000, 2000000000, 2000000000};
+    abut_faces bare = faces_from(0, corners, far);
+    bare.depth = bare.stiffness = NULL;
+    bare.n_bodies = 0;
+    CHECK(abut_find_overlaps(2, packed(x), &bare, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 1);
+    CHECK(overlap.face_1 == 2 && overlap.face_2 == 4);
     CHECK(abut_find_overlaps(5, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_BAD_INPUT);
 }
 
@@ -322,6 +383,8 @@ int main(void) {
     any_strides_and_bases();
     state_goes_on_with_the_same_bits();
     callbacks_are_called();
+    a_contact_in_use_is_left_alone();
+    a_force_that_ends_too_early_is_refused_before_the_step();
     what_is_wrong_is_refused_by_name();
     overlaps_alone();
     small_things();

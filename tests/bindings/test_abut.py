@@ -104,6 +104,65 @@ class Contact(unittest.TestCase):
         abut.NodalContact(REST, FACES[:, ::-1], BODY, DEPTH, [3.0, 6.0], log=lambda severity, text: told.append(text))
         self.assertIn("body 1", told[-1])
 
+    def test_exceptions_of_log_and_cancel(self):
+        def fails(*_):
+            raise KeyError("of the callback")
+
+        contact = made(log=fails)
+        contact.step(REST, REST)
+        with self.assertRaises(KeyError):
+            contact.step(REST, lowered(0.19))
+        self.assertEqual(contact.report["active_pairs"], 1)  # the step has happened
+        contact.step(lowered(0.19), REST)
+        with self.assertRaises(KeyError):
+            made(cancel=fails).step(REST, REST)
+        with self.assertRaises(abut.Cancelled):
+            made(cancel=lambda: True).step(REST, REST)
+        self.assertEqual(made(wanted=lambda a, b: "yes").step(REST, lowered(0.15))["active_pairs"], 1)
+        with self.assertRaises(abut.LimitExceeded):
+            made(max_pairs=0).step(REST, lowered(0.15))
+
+    def test_a_contact_in_use_is_left_alone(self):
+        contact = made(wanted=lambda a, b: contact.step(REST, REST) is None)
+        with self.assertRaisesRegex(abut.Misuse, "in use"):
+            contact.step(REST, lowered(0.15))
+        shared, refused = made(), []
+
+        def work():
+            for _ in range(2000):
+                try:
+                    shared.step(REST, lowered(0.15))
+                    shared.pairs
+                except abut.Misuse:
+                    refused.append(1)
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(shared.step(REST, lowered(0.15))["active_pairs"], 1)
+
+    def test_nothing_is_written_where_it_would_be_lost(self):
+        contact = made()
+        contact.step(REST, REST)
+        with self.assertRaisesRegex(TypeError, "array of numpy"):
+            contact.step(REST, lowered(0.15), out=[[0.0, 0.0]] * 8)
+        with self.assertRaisesRegex(abut.BadInput, "forces of 7 nodes"):
+            contact.step(REST, lowered(0.15), out=np.zeros((7, 2)))
+        self.assertEqual(len(contact.pairs), 0)
+
+    def test_integers_are_neither_rounded_nor_wrapped(self):
+        for wrong in (FACES + 0.7, FACES.astype(str), FACES.astype(complex)):
+            with self.assertRaisesRegex(TypeError, "faces must be an array of integers"):
+                abut.NodalContact(REST, wrong, BODY, DEPTH, [3.0, 6.0])
+        with self.assertRaisesRegex(ValueError, "faces must be within"):
+            abut.NodalContact(REST, FACES + 2**32, BODY, DEPTH, [3.0, 6.0])
+        with self.assertRaisesRegex(TypeError, "body must be"):
+            abut.find_overlaps(REST, FACES, BODY * 1.0, 0.2)
+        for kind in (np.uint8, np.int16, np.int64):
+            self.assertEqual(len(abut.find_overlaps(REST, FACES.astype(kind), BODY.astype(kind), 0.2)), 1)
+        self.assertEqual(len(abut.find_overlaps(REST, FACES, BODY * 2000000000, 0.2)), 1)
+
     def test_what_is_wrong_is_refused_by_name(self):
         contact = made()
         contact.step(REST, REST)

@@ -1,0 +1,303 @@
+#include "meshes.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "abut/mesh/io/read_mesh.hpp"
+#include "abut/mesh/io/write_vtu.hpp"
+#include "abut/mesh/mesh.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+#include "arrays.hpp"
+
+namespace abut::python {
+namespace {
+
+using mesh::CellShape;
+using mesh::Mesh;
+using mesh::MeshOptions;
+using namespace py::literals;
+
+/// The shapes by the names of meshio, whose order of vertices is the same.
+struct ShapeName {
+    const char* name;
+    CellShape shape;
+    int dim;
+    int corners;
+};
+constexpr std::array<ShapeName, 6> shape_names{{{"triangle", CellShape::triangle, 2, 3},
+                                                {"quad", CellShape::quadrangle, 2, 4},
+                                                {"tetra", CellShape::tetrahedron, 3, 4},
+                                                {"hexahedron", CellShape::hexahedron, 3, 8},
+                                                {"wedge", CellShape::prism, 3, 6},
+                                                {"pyramid", CellShape::pyramid, 3, 5}}};
+
+const ShapeName& shape_of(const std::string& name, int dim) {
+    const auto found =
+        std::ranges::find_if(shape_names, [&](const ShapeName& known) { return known.dim == dim && name == known.name; });
+    if (found != shape_names.end()) return *found;
+    std::string known;
+    for (const ShapeName& shape : shape_names)
+        if (shape.dim == dim) known += (known.empty() ? "" : ", ") + std::string(shape.name);
+    throw py::value_error("there are no cells '" + name + "' in " + std::to_string(dim) + "D; there are " + known);
+}
+
+mesh::NonPlanarFaces non_planar_of(const std::string& word) {
+    if (word == "fail") return mesh::NonPlanarFaces::fail;
+    if (word == "split") return mesh::NonPlanarFaces::split;
+    throw py::value_error("non_planar is '" + word + "'; 'fail' and 'split' are allowed");
+}
+
+Packed<std::int32_t> table_of(const py::handle& given, const std::string& name, int columns) {
+    const auto table = Packed<std::int32_t>::ensure(given);
+    if (!table || table.ndim() != 2 || (columns > 0 && table.shape(1) != columns)) {
+        PyErr_Clear();
+        throw py::value_error(name + " must be an array of integers of shape (n, " +
+                              (columns > 0 ? std::to_string(columns) : "corners") + ")");
+    }
+    return table;
+}
+
+/// Pairs of a shape and its cells, out of a dict, out of pairs, or out of blocks with `type` and `data` as meshio has them.
+std::vector<std::pair<std::string, py::object>> blocks_of(const py::object& cells) {
+    std::vector<std::pair<std::string, py::object>> blocks;
+    const py::object pairs = py::isinstance<py::dict>(cells) ? py::object(cells.attr("items")()) : cells;
+    for (const py::handle block : pairs) {
+        if (py::hasattr(block, "type") && py::hasattr(block, "data"))
+            blocks.emplace_back(py::cast<std::string>(block.attr("type")), block.attr("data"));
+        else
+            blocks.push_back(py::cast<std::pair<std::string, py::object>>(block));
+    }
+    return blocks;
+}
+
+template <int Dim>
+Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::object& body,
+                  std::vector<std::string> body_names, const std::map<std::string, py::object>& groups,
+                  const std::string& name, const std::string& non_planar) {
+    mesh::CellSoup<Dim> soup;
+    soup.name = name;
+    soup.vertices = vectors_of<Dim>(points, "points");
+    for (const auto& [type, data] : blocks_of(cells)) {
+        const ShapeName& shape = shape_of(type, Dim);
+        const auto table = table_of(data, "cells['" + type + "']", shape.corners);
+        for (py::ssize_t c = 0; c < table.shape(0); ++c) {
+            soup.cell_shape.push_back(shape.shape);
+            soup.cell_vertices.append({table.data(c, 0), static_cast<std::size_t>(shape.corners)});
+        }
+    }
+    const auto n_cells = static_cast<py::ssize_t>(soup.cell_shape.size());
+    if (body.is_none()) {
+        soup.cell_body.assign(soup.cell_shape.size(), 0);
+    } else {
+        const auto of_cells = Packed<std::int32_t>::ensure(body);
+        if (!of_cells || of_cells.ndim() != 1 || of_cells.shape(0) != n_cells) {
+            PyErr_Clear();
+            throw py::value_error("body must be one integer for each of the " + std::to_string(n_cells) + " cells");
+        }
+        soup.cell_body.assign(of_cells.data(), of_cells.data() + n_cells);
+    }
+    if (body_names.empty() && n_cells > 0)
+        for (std::int32_t b = 0; b <= std::ranges::max(soup.cell_body); ++b)
+            body_names.push_back("body" + std::to_string(b));
+    soup.body_names = std::move(body_names);
+    for (const auto& [group, faces] : groups) {
+        const auto table = table_of(faces, "groups['" + group + "']", 0);
+        const auto index = static_cast<std::int32_t>(soup.group_names.size());
+        for (py::ssize_t f = 0; f < table.shape(0); ++f)
+            soup.named_faces.push_back({{table.data(f, 0), table.data(f, 0) + table.shape(1)}, index});
+        soup.group_names.push_back(group);
+    }
+    return mesh::build_mesh<Dim>(std::move(soup), {.non_planar = non_planar_of(non_planar)});
+}
+
+py::object mesh_of_arrays(const py::object& points, const py::object& cells, const py::object& body,
+                          const std::vector<std::string>& body_names, const std::map<std::string, py::object>& groups,
+                          const std::string& name, const std::string& non_planar) {
+    const auto array = py::array::ensure(points);
+    if (array && array.ndim() == 2 && array.shape(1) == 2)
+        return py::cast(mesh_of<2>(array, cells, body, body_names, groups, name, non_planar));
+    if (array && array.ndim() == 2 && array.shape(1) == 3)
+        return py::cast(mesh_of<3>(array, cells, body, body_names, groups, name, non_planar));
+    PyErr_Clear();
+    throw py::value_error("points must have the shape (n, 2) or (n, 3)");
+}
+
+/// Blocks of consecutive cells of one shape, as meshio has them.
+template <int Dim>
+py::list cells_of(const Mesh<Dim>& mesh) {
+    py::list blocks;
+    for (std::int32_t begin = 0; begin < mesh.n_cells();) {
+        const CellShape shape = mesh.cell_shape[static_cast<std::size_t>(begin)];
+        std::int32_t end = begin;
+        while (end < mesh.n_cells() && mesh.cell_shape[static_cast<std::size_t>(end)] == shape) ++end;
+        const ShapeName& known = *std::ranges::find(shape_names, shape, &ShapeName::shape);
+        py::array_t<std::int32_t> table({py::ssize_t{end - begin}, py::ssize_t{known.corners}});
+        std::copy_n(mesh.cell_vertices[begin].data(), static_cast<std::size_t>(table.size()), table.mutable_data());
+        blocks.append(py::make_tuple(known.name, table));
+        begin = end;
+    }
+    return blocks;
+}
+
+/// The boundary faces in the words of NodalContact, and the cell behind each.
+template <int Dim>
+py::dict surface_of(const Mesh<Dim>& mesh) {
+    mesh::Rows faces;
+    std::vector<std::int32_t> body, cell;
+    for (const std::int32_t f : mesh.boundary_faces) {
+        faces.append(mesh.face_vertices[f]);
+        cell.push_back(mesh.face_cells[static_cast<std::size_t>(f)][0]);
+        body.push_back(mesh.cell_body[static_cast<std::size_t>(cell.back())]);
+    }
+    return py::dict("faces"_a = copy_of(faces.values), "offsets"_a = copy_of(faces.offsets), "body"_a = copy_of(body),
+                    "cell"_a = copy_of(cell));
+}
+
+/// Mean over the cells around each point.
+template <int Dim>
+py::array_t<double> at_points(const Mesh<Dim>& mesh, const Packed<double>& values) {
+    if (values.ndim() < 1 || values.shape(0) != mesh.n_cells())
+        throw py::value_error("values must have one row for each of the " + std::to_string(mesh.n_cells()) + " cells");
+    std::vector<py::ssize_t> shape(values.shape(), values.shape() + values.ndim());
+    shape[0] = static_cast<py::ssize_t>(mesh.vertices.size());
+    py::array_t<double> means(shape);
+    const py::ssize_t width = values.size() / std::max<py::ssize_t>(1, values.shape(0));
+    double* const mean = means.mutable_data();
+    std::fill_n(mean, means.size(), 0.0);
+    std::vector<double> cells_around(mesh.vertices.size(), 0.0);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        for (const std::int32_t v : mesh.cell_vertices[c]) {
+            ++cells_around[static_cast<std::size_t>(v)];
+            for (py::ssize_t i = 0; i < width; ++i) mean[v * width + i] += values.data()[c * width + i];
+        }
+    for (py::ssize_t i = 0; i < means.size(); ++i) mean[i] /= cells_around[static_cast<std::size_t>(i / width)];
+    return means;
+}
+
+template <int Dim>
+std::map<std::string, py::array_t<std::int32_t>> groups_of(const Mesh<Dim>& mesh) {
+    std::map<std::string, py::array_t<std::int32_t>> groups;
+    for (const mesh::BoundaryGroup& group : mesh.groups) {
+        std::vector<std::int32_t> rows;  // in `surface`
+        for (const std::int32_t f : group.faces)
+            rows.push_back(
+                static_cast<std::int32_t>(std::ranges::lower_bound(mesh.boundary_faces, f) - mesh.boundary_faces.begin()));
+        groups.emplace(group.name, copy_of(rows));
+    }
+    return groups;
+}
+
+template <int Dim>
+void add_mesh(py::module_& module, const char* name) {
+    py::class_<Mesh<Dim>>(module, name, "Bodies that share no point, cell or face; made by the functions of this module.")
+        .def_readonly("name", &Mesh<Dim>::name)
+        .def_property_readonly(
+            "points", [](const Mesh<Dim>& mesh) { return copy_of_vectors<Dim>(mesh.vertices); }, "(n_points, dim) [m]")
+        .def_property_readonly("cells", &cells_of<Dim>,
+                               "[(type, (n, corners)), ...] in the order of the cells, as in meshio.")
+        .def_property_readonly(
+            "body", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_body); }, "(n_cells)")
+        .def_property_readonly(
+            "label", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_label); },
+            "(n_cells) the number of each cell in what the mesh was made of: cells are renumbered.")
+        .def_property_readonly(
+            "centroids", [](const Mesh<Dim>& mesh) { return copy_of_vectors<Dim>(mesh.cell_centroid); },
+            "(n_cells, dim) [m]")
+        .def_property_readonly(
+            "measures", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_measure); }, "(n_cells) [m^dim]")
+        .def_readonly("body_names", &Mesh<Dim>::body_names)
+        .def_property_readonly("groups", &groups_of<Dim>, "Named parts of the boundary, as rows of surface.")
+        .def_property_readonly("surface", &surface_of<Dim>,
+                               "The boundary faces: faces (flat), offsets and body as NodalContact takes them, and cell.")
+        .def("at_points", &at_points<Dim>, "values"_a,
+             "Mean over the cells around each point: (n_cells, ...) to (n_points, ...)")
+        .def(
+            "write_vtu", [](const Mesh<Dim>& mesh, const std::filesystem::path& path) { mesh::write_vtu(mesh, path); },
+            "path"_a, "The mesh alone, with the cell array \"body\".")
+        .def("__repr__", [name](const Mesh<Dim>& mesh) {
+            return "<abut.solid." + std::string(name) + " '" + mesh.name + "': " + std::to_string(mesh.n_cells()) +
+                   " cells, " + std::to_string(mesh.n_bodies()) + " bodies>";
+        });
+    module.def(
+        "combine", [](const std::vector<Mesh<Dim>>& meshes) { return mesh::combine<Dim>(meshes); }, "meshes"_a,
+        "One mesh of several bodies. Nothing is merged.");
+    module.def(
+        "box",
+        [](const std::array<double, Dim>& lower, const std::array<double, Dim>& upper, double size, int variant,
+           const std::string& part) {
+            return mesh::box<Dim>({.lower = Vector<Dim>(lower.data()),
+                                   .upper = Vector<Dim>(upper.data()),
+                                   .size = size,
+                                   .variant = variant,
+                                   .name = part});
+        },
+        "lower"_a, "upper"_a, "size"_a = 0.1, "variant"_a = 0, "name"_a = "box",
+        "Triangles or tetrahedra. Groups \"xmin\", \"xmax\", ...");
+    module.def(
+        "structured_box",
+        [](const std::array<double, Dim>& lower, const std::array<double, Dim>& upper, const std::array<int, Dim>& counts,
+           const std::string& shape, const std::string& part) {
+            return mesh::structured_box<Dim>(Vector<Dim>(lower.data()), Vector<Dim>(upper.data()), counts,
+                                             shape_of(shape, Dim).shape, part);
+        },
+        "lower"_a, "upper"_a, "counts"_a, "shape"_a = Dim == 2 ? "quad" : "hexahedron", "name"_a = "box",
+        "Equal bricks, each cut into cells of one shape. Groups \"xmin\", \"xmax\", ...");
+}
+
+}  // namespace
+
+void add_meshes(py::module_& module) {
+    add_mesh<2>(module, "Mesh2D");
+    add_mesh<3>(module, "Mesh3D");
+    module.def(
+        "mesh", &mesh_of_arrays, "points"_a, "cells"_a, "body"_a = py::none(), "body_names"_a = std::vector<std::string>(),
+        "groups"_a = std::map<std::string, py::object>(), "name"_a = "mesh", "non_planar"_a = "fail",
+        "A mesh of arrays. cells: {\"triangle\": (n, 3), ...}, pairs, or the blocks of meshio: triangle, quad; tetra, "
+        "hexahedron, wedge, pyramid. body: one number per cell. groups: {name: points of each face (n, corners)}. "
+        "non_planar: 'fail' or 'split'.");
+    module.def(
+        "read_mesh",
+        [](const std::filesystem::path& path, int dim, const std::string& non_planar) {
+            const MeshOptions options{.non_planar = non_planar_of(non_planar)};
+            if (dim == 2) return py::cast(mesh::read_mesh<2>(path, options));
+            if (dim == 3) return py::cast(mesh::read_mesh<3>(path, options));
+            throw py::value_error("dim is " + std::to_string(dim) + "; 2 and 3 are allowed");
+        },
+        "path"_a, "dim"_a, "non_planar"_a = "fail", "A .msh or .vtu file.");
+    module.def(
+        "disc",
+        [](const std::array<double, 2>& centre, double radius, double size, int variant, const std::string& name) {
+            return mesh::disc(
+                {.centre = Vector<2>(centre.data()), .radius = radius, .size = size, .variant = variant, .name = name});
+        },
+        "centre"_a = std::array<double, 2>{}, "radius"_a = 1.0, "size"_a = 0.1, "variant"_a = 0, "name"_a = "disc",
+        "Triangles. Group \"boundary\". Equal parts in contact need different variants, or their meshes match.");
+    module.def(
+        "cylinder",
+        [](const std::array<double, 3>& centre, double radius, double length, double size, int variant,
+           const std::string& name) {
+            return mesh::cylinder({.centre = Vector<3>(centre.data()),
+                                   .radius = radius,
+                                   .length = length,
+                                   .size = size,
+                                   .variant = variant,
+                                   .name = name});
+        },
+        "centre"_a = std::array<double, 3>{}, "radius"_a = 1.0, "length"_a = 1.0, "size"_a = 0.1, "variant"_a = 0,
+        "name"_a = "cylinder", "Tetrahedra, the axis along z. Groups \"side\", \"bottom\" (low z), \"top\".");
+    module.def(
+        "sphere",
+        [](const std::array<double, 3>& centre, double radius, double size, int variant, const std::string& name) {
+            return mesh::sphere(
+                {.centre = Vector<3>(centre.data()), .radius = radius, .size = size, .variant = variant, .name = name});
+        },
+        "centre"_a = std::array<double, 3>{}, "radius"_a = 1.0, "size"_a = 0.1, "variant"_a = 0, "name"_a = "sphere",
+        "Tetrahedra. Group \"boundary\".");
+}
+
+}  // namespace abut::python

@@ -1,0 +1,320 @@
+#include "runs.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+#include "abut/dynamics/filter.hpp"
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
+#include "abut/run/frames.hpp"
+#include "abut/run/result_files.hpp"
+#include "abut/run/simulation.hpp"
+#include "abut/run/warnings.hpp"
+#include "abut/solid/body_motion.hpp"
+#include "scenes.hpp"
+
+namespace abut::python {
+namespace {
+
+using namespace py::literals;
+
+/// The columns of energy.csv, one row for each record.
+template <int Dim>
+py::object table_of(const dynamics::Ledger<Dim>& ledger) {
+    const auto columns = dynamics::ledger_columns<Dim>();
+    const auto& entries = ledger.entries();
+    py::array_t<double> numbers({static_cast<py::ssize_t>(entries.size()), static_cast<py::ssize_t>(columns.size())});
+    double* row = numbers.mutable_data();
+    for (const auto& entry : entries) row = std::ranges::copy(dynamics::ledger_values<Dim>(entry), row).out;
+    py::list fields;
+    for (const std::string& column : columns) fields.append(py::make_tuple(column, "f8"));
+    return numbers.attr("view")(py::dtype::from_args(fields)).attr("reshape")(-1);
+}
+
+/// A run at one moment.
+template <int Dim>
+class State {
+public:
+    State(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) : view_(view), solid_(solid) {}
+
+    [[nodiscard]] std::int64_t steps() const { return view_.steps; }
+    [[nodiscard]] double time() const { return view_.time; }
+    [[nodiscard]] py::array_t<double> displacement() const { return copy_of_vectors<Dim>(as_vectors<Dim>(view_.q)); }
+    [[nodiscard]] py::array_t<double> velocity() const {
+        std::vector<Vector<Dim>> velocity;
+        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c)
+            velocity.push_back(view_.momentum(c) / solid_.masses()[static_cast<std::size_t>(c)]);
+        return copy_of_vectors<Dim>(velocity);
+    }
+    [[nodiscard]] py::array_t<double> stress() const {
+        static_cast<void>(solid_.potential(view_.q));  // leaves the stresses of this state behind
+        const py::ssize_t n = solid_.mesh().n_cells();
+        py::array_t<double> stress({n, py::ssize_t{Dim}, py::ssize_t{Dim}});
+        for (py::ssize_t c = 0; c < n; ++c)  // symmetric: the order of rows and columns is free
+            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.ccg().stress(static_cast<std::int32_t>(c));
+        return stress;
+    }
+    [[nodiscard]] py::array_t<double> von_mises() const {
+        static_cast<void>(solid_.potential(view_.q));
+        std::vector<double> equivalent;
+        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) {
+            const auto body = static_cast<std::size_t>(solid_.mesh().cell_body[static_cast<std::size_t>(c)]);
+            equivalent.push_back(run::von_mises<Dim>(solid_.ccg().stress(c), solid_.options().materials[body].poisson));
+        }
+        return copy_of(equivalent);
+    }
+    [[nodiscard]] py::array_t<double> contact_pressure() const { return copy_of(solid_.contact_field(view_.q).pressure); }
+
+private:
+    const dynamics::RunView<Dim>& view_;
+    solid::Solid<Dim>& solid_;
+};
+
+/// The same properties for whatever has a state.
+template <class Class, class StateOf>
+void add_state(Class& made, StateOf state_of) {
+    using Self = typename Class::type;
+    made.def_property_readonly("steps", [=](Self& self) { return state_of(self).steps(); })
+        .def_property_readonly(
+            "time", [=](Self& self) { return state_of(self).time(); }, "[s]")
+        .def_property_readonly(
+            "displacement", [=](Self& self) { return state_of(self).displacement(); }, "of the cells, (n_cells, dim) [m]")
+        .def_property_readonly(
+            "velocity", [=](Self& self) { return state_of(self).velocity(); }, "of the cells, (n_cells, dim) [m/s]")
+        .def_property_readonly(
+            "stress", [=](Self& self) { return state_of(self).stress(); }, "(n_cells, dim, dim) [Pa]")
+        .def_property_readonly(
+            "von_mises", [=](Self& self) { return state_of(self).von_mises(); }, "(n_cells) [Pa]")
+        .def_property_readonly(
+            "contact_pressure", [=](Self& self) { return state_of(self).contact_pressure(); },
+            "of the boundary faces, in the order of surface [Pa]");
+}
+
+/// What `look` is called with; good for that call alone.
+template <int Dim>
+struct Glance {
+    std::optional<State<Dim>> state;
+    [[nodiscard]] const State<Dim>& now() const {
+        if (!state)
+            throw Misuse("the state of a run is there while look is called, and not after. Copy what you need of it.");
+        return *state;
+    }
+};
+
+/// Hands each state to Python, and ends a run that Python or Ctrl-C wants ended.
+template <int Dim>
+class Look : public run::Observer<Dim> {
+public:
+    explicit Look(py::object look) : look_(std::move(look)) {}
+
+    void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override { result_ = &result; }
+    void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
+        if (view.steps == result_->steps) final_displacement.assign(view.q.begin(), view.q.end());
+        if (!has_look_) return;
+        const py::gil_scoped_acquire lock;
+        auto glance = std::make_shared<Glance<Dim>>();
+        glance->state.emplace(view, solid);
+        struct Close {
+            Glance<Dim>& glance;
+            ~Close() { glance.state.reset(); }
+        } close{*glance};
+        const py::object answer = look_(glance);
+        if (!answer.is_none()) stops_ = py::cast<bool>(answer);
+    }
+    [[nodiscard]] bool asks_to_stop() const override {
+        const py::gil_scoped_acquire lock;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        return stops_;
+    }
+
+    std::vector<double> final_displacement;
+
+private:
+    py::object look_;
+    bool has_look_ = !look_.is_none();
+    const run::RunResult<Dim>* result_ = nullptr;
+    bool stops_ = false;
+};
+
+template <int Dim>
+py::list motions_of(const std::vector<solid::BodyMotion<Dim>>& motions) {
+    py::list bodies;
+    for (const auto& motion : motions)
+        bodies.append(py::dict("mass"_a = motion.mass,
+                               "velocity"_a = py::array_t<double>(py::ssize_t{Dim}, motion.velocity.data()),
+                               "rotation"_a = motion.rotation));
+    return bodies;
+}
+
+py::dict report_of(const contact::ContactReport& report) {
+    return py::dict("candidates_max"_a = report.candidates_max, "active_pairs_max"_a = report.active_pairs_max,
+                    "events"_a = report.events, "rebuilds"_a = report.rebuilds, "missed_contacts"_a = report.missed_contacts,
+                    "compressed_steps"_a = report.compressed_steps, "compression_max"_a = report.compression_max);
+}
+
+template <int Dim>
+py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials, const py::object& velocity,
+                  const py::object& acceleration, const std::map<std::string, py::object>& held,
+                  const std::vector<std::string>& rollers, const std::map<std::string, py::object>& traction,
+                  const typename SceneArguments<Dim>::OfPosition& displacement,
+                  const typename SceneArguments<Dim>::OfPosition& added_velocity, bool contact,
+                  std::optional<double> energy_scale, const py::object& look, const py::kwargs& given) {
+    const run::Scene<Dim> scene = scene_of<Dim>({mesh, materials, velocity, acceleration, held, rollers, traction,
+                                                 displacement, added_velocity, contact, energy_scale});
+    const run::RunOptions options = options_of(given);
+    Look<Dim> python(look);
+    std::optional<run::RunResult<Dim>> result;
+    {
+        const py::gil_scoped_release release;
+        if (options.out.empty()) {
+            result.emplace(run::simulate<Dim>(scene, options, python));
+        } else {
+            run::ResultFiles<Dim> files(options, "python", "bodies");
+            run::Observers<Dim> both{files, python};
+            result.emplace(run::simulate<Dim>(scene, options, both));
+            files.finish(scene, *result);
+        }
+    }
+    py::list warnings;
+    for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, *result)))
+        warnings.append(warning.text);
+    for (const run::Warning& warning : run::without_notes(run::warnings_after(*result))) warnings.append(warning.text);
+    return py::dict(
+        "ledger"_a = table_of(result->ledger),
+        "displacement"_a = copy_of_vectors<Dim>(as_vectors<Dim>(std::span<const double>(python.final_displacement))),
+        "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,
+        "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
+        "energy_scale"_a = result->scale.value, "contact"_a = report_of(result->contact), "warnings"_a = warnings,
+        "seconds"_a = result->seconds.total);
+}
+
+/// A solid under MEMM, taken step by step.
+template <int Dim>
+class Memm {
+public:
+    Memm(run::Scene<Dim> scene, const run::RunOptions& given)
+        : scene_(std::move(scene)),
+          options_(run::with_defaults<Dim>(given)),
+          solid_(scene_.mesh, run::solid_options(scene_, options_)),
+          stable_dt_(dynamics::stable_step(solid_).dt),
+          memm_(solid_, run::displacement_at_start(scene_), run::momentum_at_start(scene_, solid_),
+                run::choose_step(options_, stable_dt_)),
+          filter_(solid_) {
+        if (options_.filter)
+            memm_.set_after_step([this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+        if (options_.restart > 0) {
+            restart_.emplace(solid_, dynamics::RestartOptions{.period = options_.restart});
+            memm_.set_node_restart(
+                [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
+        }
+        record();
+    }
+
+    void step(std::int64_t n) {
+        const py::gil_scoped_release release;
+        for (std::int64_t i = 0; i < n; ++i) memm_.step();
+    }
+    void record() {
+        ledger_.record(dynamics::measure(memm_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
+    }
+    [[nodiscard]] py::object ledger() const { return table_of(ledger_); }
+    [[nodiscard]] double dt() const { return memm_.dt(); }
+    [[nodiscard]] double stable_dt() const { return stable_dt_; }
+    [[nodiscard]] py::array_t<double> masses() const { return copy_of(solid_.masses()); }
+    [[nodiscard]] py::list bodies() const { return motions_of(solid::body_motions<Dim>(view(), solid_)); }
+    [[nodiscard]] py::dict contact() const { return report_of(solid_.contact_report()); }
+    [[nodiscard]] State<Dim> state() {
+        view_.emplace(memm_);
+        return {*view_, solid_};
+    }
+
+private:
+    [[nodiscard]] dynamics::RunView<Dim> view() const { return memm_; }
+    run::Scene<Dim> scene_;
+    run::RunOptions options_;
+    solid::Solid<Dim> solid_;
+    double stable_dt_;  // [s]
+    dynamics::Memm<solid::Solid<Dim>> memm_;
+    dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
+    std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
+    dynamics::Ledger<Dim> ledger_;
+    std::optional<dynamics::RunView<Dim>> view_;  // of `state`
+};
+
+template <int Dim>
+std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials,
+                                     const py::object& velocity, const py::object& acceleration,
+                                     const std::map<std::string, py::object>& held, const std::vector<std::string>& rollers,
+                                     const std::map<std::string, py::object>& traction,
+                                     const typename SceneArguments<Dim>::OfPosition& displacement,
+                                     const typename SceneArguments<Dim>::OfPosition& added_velocity, bool contact,
+                                     const py::kwargs& given) {
+    run::Scene<Dim> scene = scene_of<Dim>(
+        {mesh, materials, velocity, acceleration, held, rollers, traction, displacement, added_velocity, contact, {}});
+    const run::RunOptions options = options_of(given);
+    if (options.integrator != run::SolidIntegrator::memm || !options.out.empty())
+        throw py::value_error("memm takes neither integrator nor out; simulate does");
+    const py::gil_scoped_release release;
+    return std::make_unique<Memm<Dim>>(std::move(scene), options);
+}
+
+constexpr const char* scene_text =
+    "mesh; materials: one per body; velocity: of each body at the start (n_bodies, dim) [m/s]; acceleration: of gravity, "
+    "the "
+    "same shape; held: {group: displacement [m]}; rollers: groups held along their normals; traction: {group: traction "
+    "[Pa]}; "
+    "displacement(x), added_velocity(x): at the start, by position; contact: False lets bodies pass through each other. "
+    "Options are those of the programs' command lines, with _ for -: time, steps, cfl, dt, integrator, filter, restart, ...";
+
+template <int Dim>
+void add_dimension(py::module_& module, const std::string& suffix) {
+    auto glance = py::class_<Glance<Dim>, std::shared_ptr<Glance<Dim>>>(module, ("State" + suffix).c_str(),
+                                                                        "A run at one moment; good while look is called.");
+    add_state(glance, [](const Glance<Dim>& self) -> const State<Dim>& { return self.now(); });
+
+    auto memm = py::class_<Memm<Dim>>(module, ("Memm" + suffix).c_str(), "A solid under MEMM, step by step; made by memm.");
+    add_state(memm, [](Memm<Dim>& self) { return self.state(); });
+    memm.def("step", &Memm<Dim>::step, "n"_a = 1, "Takes n steps.")
+        .def("record", &Memm<Dim>::record, "Adds a row to the ledger; costs about two forces.")
+        .def_property_readonly("ledger", &Memm<Dim>::ledger, "The columns of energy.csv, a structured array.")
+        .def_property_readonly("dt", &Memm<Dim>::dt, "[s]")
+        .def_property_readonly("stable_dt", &Memm<Dim>::stable_dt, "[s]")
+        .def_property_readonly("masses", &Memm<Dim>::masses, "of the cells [kg]")
+        .def_property_readonly("bodies", &Memm<Dim>::bodies, "mass, velocity and rotation of each")
+        .def_property_readonly("contact", &Memm<Dim>::contact, "Counters since the start; missed_contacts must stay 0.");
+
+    const std::map<std::string, py::object> none;
+    module.def(
+        "simulate", &simulate<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
+        "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
+        "added_velocity"_a = py::none(), "contact"_a = true, "energy_scale"_a = py::none(), "look"_a = py::none(),
+        (std::string(
+             "Runs a scene and returns ledger, displacement, bodies at start and end, warnings, ... as a dict. "
+             "look(state): called at the start and after each step; True makes the next one the last. energy_scale: [J], "
+             "where all is at rest at the start. out: a folder for energy.csv, pictures and the VTU series. ") +
+         scene_text)
+            .c_str());
+    module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
+               "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
+               "added_velocity"_a = py::none(), "contact"_a = true,
+               (std::string("The same, to be taken step by step. ") + scene_text).c_str());
+}
+
+}  // namespace
+
+void add_runs(py::module_& module) {
+    py::class_<solid::Material>(module, "Material", "Isotropic linear elasticity; plane strain in 2D.")
+        .def(py::init([](double young, double poisson, double density, double eta) {
+                 return solid::Material{young, poisson, density, eta};
+             }),
+             "young"_a = 1.0, "poisson"_a = 0.3, "density"_a = 1.0, "eta"_a = 0.0)
+        .def_readwrite("young", &solid::Material::young, "E [Pa]")
+        .def_readwrite("poisson", &solid::Material::poisson, "nu")
+        .def_readwrite("density", &solid::Material::density, "rho [kg/m^3]")
+        .def_readwrite("eta", &solid::Material::eta, "stabilisation of the jumps between cells [Pa]; 0 means E");
+    add_dimension<2>(module, "2D");
+    add_dimension<3>(module, "3D");
+}
+
+}  // namespace abut::python

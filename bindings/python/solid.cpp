@@ -1,0 +1,54 @@
+// The Python module `abut.solid`: meshes, solids and runs for numpy.
+#include <pybind11/pybind11.h>
+
+#include "abut/base/error.hpp"
+#include "meshes.hpp"
+#include "runs.hpp"
+
+namespace py = pybind11;
+
+namespace {
+
+const char* class_of(abut::ErrorKind kind) {
+    switch (kind) {
+        case abut::ErrorKind::bad_input:
+            return "BadInput";
+        case abut::ErrorKind::misuse:
+            return "Misuse";
+        case abut::ErrorKind::diverged:
+            return "Diverged";
+        case abut::ErrorKind::too_deep:
+            return "TooDeep";
+        case abut::ErrorKind::limit_exceeded:
+            return "LimitExceeded";
+    }
+    return "InternalError";
+}
+
+/// The exceptions of the package `abut`, with their facts.
+void raise(const abut::Error& error) {
+    const py::object kind = py::module_::import("abut").attr(class_of(error.kind()));
+    const py::object instance = kind(py::str(error.what()));
+    instance.attr("status") = 1 + static_cast<int>(error.kind());  // as in abut.h
+    instance.attr("face_1") = error.facts().face_1;
+    instance.attr("face_2") = error.facts().face_2;
+    instance.attr("cell") = error.facts().cell;
+    instance.attr("value") = error.facts().value;
+    instance.attr("allowed") = error.facts().allowed;
+    PyErr_SetObject(kind.ptr(), instance.ptr());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(solid, module) {
+    module.doc() = "Meshes, solids of linear elasticity in contact, and their runs. docs/languages.md walks through it.";
+    py::register_local_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const abut::Error& error) {
+            raise(error);
+        }
+    });
+    abut::python::add_meshes(module);
+    abut::python::add_runs(module);
+}

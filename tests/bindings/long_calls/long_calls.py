@@ -1,0 +1,55 @@
+"""long_calls.py [rounds]: as long_calls.c, from Python, where reference counts may leak as well."""
+import sys
+
+import numpy as np
+
+import abut
+
+SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+CORNERS = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
+
+
+def own_memory():
+    """[kB] without pages of libraries, from the page tables."""
+    with open("/proc/self/smaps_rollup") as rollup:
+        return next(int(line.split()[1]) for line in rollup if line.startswith("Anonymous:"))
+
+
+def placed(by):
+    return np.vstack([SQUARE, SQUARE + [0.2, 1.1 - by]])
+
+
+def made():
+    contact = abut.NodalContact(at[2], np.vstack([CORNERS, CORNERS + 4]), np.repeat([0, 1], 4), np.full(8, 0.1), [3.0, 6.0],
+                                wanted=lambda face_1, face_2: True, log=lambda severity, text: None)
+    contact.step(at[2], at[0])
+    return contact
+
+
+rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 1000000
+warm_up = min(10000, rounds // 2)
+at = [placed(by) for by in (0.13, 0.15, 0.0, -0.9)]
+broken = placed(0.0)
+broken[5, 1] = np.nan
+force = np.zeros((8, 2))
+pairs = refused = 0
+for i in range(rounds):
+    if i == warm_up:
+        warm = own_memory()
+    if i % 1000 == 0:
+        contact = made()
+    if i % 10 == 9:
+        try:
+            contact.step(at[i % 4], broken, out=force)
+        except abut.Diverged:
+            refused += 1
+    contact.step(at[i % 4], at[(i + 1) % 4], out=force)
+    pairs += len(contact.pairs)
+    state, missed = contact.state(), contact.report["missed_contacts"]
+    if missed:
+        sys.exit(f"round {i}: {missed} missed")
+    if i % 10 == 9:
+        contact.restore(state)
+growth = own_memory() - warm
+print(f"{rounds} rounds, {pairs} pairs, {refused} refused: {growth} kB more than the {warm} kB after {warm_up} rounds")
+sys.exit(refused != rounds // 10 or pairs <= rounds // 2 or (rounds >= 100000 and growth > 4))

@@ -1,0 +1,33 @@
+# cmake -D FOLDER=<folder> -D WRITE_SCENE=<program> -D "DRIVERS=<program>;..." [-D PYTHON=<python3> -D MODULES=<folder>]
+#       -P compare.cmake
+#
+# Every driver follows the same scene; what they write must be the same, byte by byte.
+set(scene ${FOLDER}/scene)
+file(MAKE_DIRECTORY ${FOLDER})
+execute_process(COMMAND ${WRITE_SCENE} ${scene} COMMAND_ERROR_IS_FATAL ANY)
+set(written "")
+macro(follow name)
+  file(REMOVE ${FOLDER}/${name})
+  execute_process(COMMAND ${ARGN} ${scene} ${FOLDER}/${name} COMMAND_ERROR_IS_FATAL ANY)
+  list(APPEND written ${name})
+endmacro()
+foreach(driver IN LISTS DRIVERS)
+  get_filename_component(name ${driver} NAME)
+  follow(${name} ${driver})
+endforeach()
+if(PYTHON)
+  follow(python ${CMAKE_COMMAND} -E env PYTHONPATH=${MODULES} ${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/forces.py)
+endif()
+
+list(POP_FRONT written first)
+file(SIZE ${FOLDER}/${first} size)
+if(NOT written OR size EQUAL 0)
+  message(FATAL_ERROR "nothing to compare: ${first} has ${size} bytes, the others are '${written}'")
+endif()
+foreach(name IN LISTS written)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${FOLDER}/${first} ${FOLDER}/${name} RESULT_VARIABLE differs)
+  if(differs)
+    message(SEND_ERROR "${first} and ${name} have not written the same bytes, in ${FOLDER}")
+  endif()
+endforeach()
+message("${size} bytes each: ${first} ${written}")

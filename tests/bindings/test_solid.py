@@ -1,0 +1,186 @@
+"""Meshes, solids and runs from Python."""
+import csv
+import os
+import pathlib
+import signal
+import tempfile
+import unittest
+
+import numpy as np
+
+import abut
+from abut import solid
+
+ROD = dict(lower=(0.0, 0.0), upper=(2.0, 1.0), counts=(6, 3))
+
+
+def two_boxes():
+    lower = solid.structured_box((0.0, 0.0), (1.0, 1.0), (4, 4), name="lower")
+    upper = solid.structured_box((0.1, 1.01), (0.9, 1.8), (3, 3), shape="triangle", name="upper")
+    return solid.combine([lower, upper])
+
+
+def falling(**options):
+    """The upper box falls on the lower one, which lies on rollers."""
+    return dict(materials=[solid.Material()] * 2, velocity=[(0.0, 0.0), (0.0, -0.1)], rollers=["lower.ymin", "lower.xmin"],
+                **options)
+
+
+class Meshes(unittest.TestCase):
+    def test_arrays_in_and_out_keep_the_mesh(self):
+        for given in (solid.structured_box(**ROD), two_boxes(), solid.sphere(size=0.5),
+                      solid.structured_box((0, 0, 0), (1, 2, 3), (2, 2, 2), shape="wedge")):
+            again = solid.mesh(given.points, given.cells, given.body, given.body_names)
+            self.assertEqual(len(again.measures), len(given.measures))
+            of_input = np.empty_like(again.measures)
+            of_input[again.label] = again.measures  # cells are renumbered, and say which they were
+            np.testing.assert_allclose(of_input, given.measures, rtol=1e-12)
+            self.assertEqual(again.body_names, given.body_names)
+
+    def test_cells_may_be_a_dict_pairs_or_blocks(self):
+        class Block:
+            type, data = "quad", np.array([[0, 1, 2, 3]])
+        points = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]])
+        for cells in ({"quad": [[0, 1, 2, 3]]}, [("quad", [[0, 1, 2, 3]])], [Block()]):
+            mesh = solid.mesh(points, cells, groups={"foot": [[0, 1]], "sides": [[1, 2], [3, 0]]})
+            np.testing.assert_array_equal(mesh.measures, [2.0])
+            self.assertEqual({name: len(rows) for name, rows in mesh.groups.items()}, {"foot": 1, "sides": 2})
+            offsets = mesh.surface["offsets"]
+            foot = mesh.surface["faces"][offsets[mesh.groups["foot"][0]]:][:2]
+            np.testing.assert_array_equal(mesh.points[foot][:, 1], [0.0, 0.0])
+
+    def test_a_file_written_is_the_mesh_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for dim, mesh in ((2, two_boxes()), (3, solid.structured_box((0, 0, 0), (1, 1, 1), (2, 3, 4)))):
+                path = pathlib.Path(folder) / f"mesh{dim}.vtu"
+                mesh.write_vtu(path)
+                again = solid.read_mesh(path, dim)
+                np.testing.assert_array_equal(again.points, mesh.points)
+                np.testing.assert_array_equal(again.body, mesh.body)
+
+    def test_a_surface_goes_to_contact_on_nodes(self):
+        mesh = two_boxes()
+        surface = mesh.surface
+        overlap = abut.find_overlaps(mesh.points, surface["faces"], surface["body"], 0.02, offsets=surface["offsets"])
+        self.assertAlmostEqual(overlap["area"].sum(), 0.8, delta=1e-14)
+        np.testing.assert_allclose(overlap["gap"], 0.01, atol=1e-14)
+
+    def test_values_of_cells_come_to_points(self):
+        mesh = solid.structured_box(**ROD)
+        np.testing.assert_allclose(mesh.at_points(np.ones(len(mesh.measures))), 1.0, rtol=1e-15)
+        inside = (np.abs(mesh.points - [1.0, 0.5]) < [0.9, 0.4]).all(axis=1)
+        np.testing.assert_allclose(mesh.at_points(mesh.centroids)[inside], mesh.points[inside], atol=1e-15)
+
+    def test_what_is_wrong_is_refused_by_name(self):
+        points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]
+        for error, text, call in (
+                (ValueError, "no cells 'tetra' in 2D; there are triangle, quad", lambda: solid.mesh(points, {"tetra": [[0, 1, 2, 0]]})),
+                (ValueError, r"shape \(n, 3\)", lambda: solid.mesh(points, {"triangle": [[0, 1]]})),
+                (ValueError, "each of the 1 cells", lambda: solid.mesh(points, {"triangle": [[0, 1, 2]]}, body=[0, 1])),
+                (ValueError, r"\(n, 2\) or \(n, 3\)", lambda: solid.mesh([1.0, 2.0], {"triangle": [[0, 1, 2]]})),
+                (abut.BadInput, "vertex 5", lambda: solid.mesh(points, {"triangle": [[0, 1, 5]]})),
+                (abut.BadInput, "no such file", lambda: solid.read_mesh("nothing.msh", 2)),
+                (ValueError, "dim is 4", lambda: solid.read_mesh("nothing.msh", 4)),
+                (abut.BadInput, "radius", lambda: solid.disc(radius=-1.0))):
+            with self.assertRaisesRegex(error, text):
+                call()
+
+
+class Runs(unittest.TestCase):
+    def test_a_thrown_body_follows_a_parabola(self):
+        for mesh, v, g in ((solid.disc(size=0.4), (1.0, 2.0), (0.0, -10.0)),
+                           (solid.sphere(size=0.6), (1.0, 2.0, 0.5), (0.0, -10.0, 1.0))):
+            memm = solid.memm(mesh, [solid.Material(young=1000.0, density=2.0)], [v], acceleration=[g])
+            memm.step(25)
+            exact = memm.time * np.array(v) + 0.5 * memm.time**2 * np.array(g)
+            np.testing.assert_allclose(memm.displacement, np.broadcast_to(exact, memm.displacement.shape), atol=1e-10)
+            self.assertAlmostEqual(memm.masses.sum(), 2.0 * mesh.measures.sum(), delta=1e-12)
+
+    def test_a_rod_under_tension_stays_in_its_equilibrium(self):
+        p, nu = 1e-3, 0.3  # plane strain, E = 1
+        stretch = p * np.array([1.0 - nu**2, -nu * (1.0 + nu)])
+        memm = solid.memm(solid.structured_box(**ROD), [solid.Material()], [(0.0, 0.0)], rollers=["xmin", "ymin"],
+                          traction={"xmax": (p, 0.0)}, displacement=lambda x: stretch * x)
+        before = memm.displacement
+        memm.step(200)
+        np.testing.assert_allclose(memm.displacement, before, atol=1e-15)
+        np.testing.assert_allclose(memm.stress, np.broadcast_to([[p, 0.0], [0.0, 0.0]], memm.stress.shape), atol=1e-15)
+
+    def test_steps_one_by_one_have_the_bits_of_a_run(self):
+        mesh = two_boxes()
+        for options in ({}, dict(filter="neutral", restart=20), dict(corners="fixed", weights="half")):
+            result = solid.simulate(mesh, **falling(), steps=120, interval=1, **options)
+            memm = solid.memm(mesh, **falling(), **options)
+            for _ in range(120):
+                memm.step()
+                memm.record()
+            np.testing.assert_array_equal(memm.displacement, result["displacement"])
+            np.testing.assert_array_equal(memm.ledger, result["ledger"])
+            self.assertGreater(result["contact"]["events"], 0)
+            ledger = result["ledger"]
+            self.assertLess(np.ptp(ledger["pseudo_energy"] - ledger["work"]), 1e-13 * ledger["energy"][0])
+
+    def test_files_and_ledger_say_the_same(self):
+        with tempfile.TemporaryDirectory() as folder:
+            result = solid.simulate(two_boxes(), **falling(), steps=40, out=folder, frames=3)
+            with open(pathlib.Path(folder) / "energy.csv", newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            self.assertEqual(len(rows), len(result["ledger"]))
+            energy = next(name for name in rows[0] if name.startswith("pseudo_energy"))
+            np.testing.assert_array_equal([float(row[energy]) for row in rows], result["ledger"]["pseudo_energy"])
+            self.assertEqual(len(list(pathlib.Path(folder).glob("bodies_0*.vtu"))), 3)
+
+    def test_look_sees_each_step_and_may_end_the_run(self):
+        seen, kept = [], []
+
+        def look(state):
+            kept.append(state)
+            seen.append((state.steps, state.velocity[:, 1].min(), state.contact_pressure.max()))
+            return state.steps == 29  # the next step is the last
+
+        mesh = two_boxes()
+        result = solid.simulate(mesh, **falling(), steps=100, look=look)
+        self.assertEqual([step for step, _, _ in seen], list(range(31)))
+        self.assertEqual((result["steps"], result["complete"]), (30, False))
+        self.assertGreater(max(pressure for _, _, pressure in seen), 0.0)
+        with self.assertRaisesRegex(abut.Misuse, "while look is called"):
+            kept[0].displacement
+
+    def test_an_exception_and_ctrl_c_end_a_run(self):
+        def fails(state):
+            raise KeyError("of look")
+
+        with self.assertRaises(KeyError):
+            solid.simulate(two_boxes(), **falling(), steps=10, look=fails)
+        steps = []
+
+        def interrupts(state):
+            steps.append(state.steps)
+            if state.steps == 5:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        with self.assertRaises(KeyboardInterrupt):
+            solid.simulate(two_boxes(), **falling(), steps=1000, look=interrupts)
+        self.assertLess(len(steps), 10)
+
+    def test_errors_carry_their_facts(self):
+        mesh = two_boxes()
+        with self.assertRaises(abut.BadInput) as raised:
+            solid.simulate(mesh, **falling(), steps=10, cfl=2.0)
+        self.assertAlmostEqual(raised.exception.value / raised.exception.allowed, 2.0)
+        with self.assertRaises(abut.Diverged):
+            solid.simulate(mesh, **falling(), steps=4000, cfl=1.4, allow_unstable=True, contact=False)
+        for error, text, options in ((TypeError, "no option 'tim'; there are .*time", dict(tim=1.0)),
+                                     (ValueError, "integrator: 'euler' is not known; there are 'memm'", dict(integrator="euler")),
+                                     (TypeError, "steps cannot be 'many'", dict(steps="many")),
+                                     (abut.BadInput, "1 materials", dict(materials=[solid.Material()]))):
+            with self.assertRaisesRegex(error, text):
+                solid.simulate(mesh, **{**falling(), **options})
+        with self.assertRaisesRegex(ValueError, r"velocity must have the shape \(n, 2\)"):
+            solid.simulate(mesh, [solid.Material()] * 2, [1.0, 2.0])
+        with self.assertRaisesRegex(ValueError, "neither integrator nor out"):
+            solid.memm(mesh, **falling(), out="somewhere")
+
+
+if __name__ == "__main__":
+    unittest.main()
