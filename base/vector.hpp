@@ -4,6 +4,13 @@
 #include <span>
 #include <type_traits>
 
+// Containers of the standard library cross the border, and those of the debug mode are laid out in another way.
+#if defined(_GLIBCXX_DEBUG) && !defined(ABUT_HAS_DEBUG_CONTAINERS)
+#error "Abut was built without _GLIBCXX_DEBUG: std::vector has another size there. Build Abut with -DCMAKE_CXX_FLAGS=-D_GLIBCXX_DEBUG as well, or take _GLIBCXX_ASSERTIONS, or the C layer."
+#elif defined(ABUT_HAS_DEBUG_CONTAINERS) && !defined(_GLIBCXX_DEBUG)
+#error "Abut was built with _GLIBCXX_DEBUG: std::vector has another size there. Build the host with -D_GLIBCXX_DEBUG as well."
+#endif
+
 namespace abut {
 
 /// Point or direction in Dim dimensions. Plain packed doubles without an alignment demand, so that a view of vectors

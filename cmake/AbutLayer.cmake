@@ -69,8 +69,12 @@ endfunction()
 # The library, its headers, its targets and a list of what has to be found before them. A shared library brings its back
 # ends along; one that links a static library has to find them.
 function(abut_install_layer name lower_layers public_targets private_targets)
-  install(TARGETS abut_${name} EXPORT abut_${name} FILE_SET HEADERS)
-  install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake)
+  install(TARGETS abut_${name} EXPORT abut_${name}
+    LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
+    ARCHIVE COMPONENT development
+    FILE_SET HEADERS COMPONENT development)
+  install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake
+    COMPONENT development)
 
   set(needed ${public_targets})
   get_target_property(type abut_${name} TYPE)
@@ -90,7 +94,7 @@ function(abut_install_layer name lower_layers public_targets private_targets)
   list(JOIN lines "" lines)
   set(file ${PROJECT_BINARY_DIR}/package/abut-${name}-dependencies.cmake)
   file(WRITE ${file} "set(abut_${name}_lower_layers ${lower_layers})\n${lines}")
-  install(FILES ${file} DESTINATION ${abut_package_dir})
+  install(FILES ${file} DESTINATION ${abut_package_dir} COMPONENT development)
 endfunction()
 
 function(abut_install_package)
@@ -101,6 +105,7 @@ function(abut_install_package)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/package/abutConfig.cmake ${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLBFGSpp.cmake
-    DESTINATION ${abut_package_dir})
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC)
+    DESTINATION ${abut_package_dir} COMPONENT development)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC
+    COMPONENT libraries)
 endfunction()
