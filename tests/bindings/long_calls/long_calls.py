@@ -52,4 +52,5 @@ for i in range(rounds):
         contact.restore(state)
 growth = own_memory() - warm
 print(f"{rounds} rounds, {pairs} pairs, {refused} refused: {growth} kB more than the {warm} kB after {warm_up} rounds")
-sys.exit(refused != rounds // 10 or pairs <= rounds // 2 or (rounds >= 100000 and growth > 4))
+# Lists of free objects of the interpreter grow by a few kB; an object lost per round would be thousands.
+sys.exit(refused != rounds // 10 or pairs <= rounds // 2 or (rounds >= 100000 and growth > 64))
