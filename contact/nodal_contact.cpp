@@ -39,7 +39,7 @@ public:
           candidates_(surface_.facets().view(), options_.search),
           pairs_(options_.facing),
           law_(options_.events) {
-        count_deformable_nodes();
+        find_least_force_size();
     }
     Implementation(const Implementation&) = delete;  // the search has a view of the surface
 
@@ -98,7 +98,7 @@ public:
         candidates_ = std::move(candidates);
         store_ = std::move(store);
         new_facets_ = std::move(new_facets);
-        count_deformable_nodes();
+        find_least_force_size();
         drop_list();
     }
 
@@ -216,13 +216,13 @@ private:
         return first == FirstAdmission::admitted;
     }
 
-    void count_deformable_nodes() {
-        step_.n_deformable_nodes = 0;
+    void find_least_force_size() {
+        step_.least_force_size = 0;
         const Surface<Dim>& facets = surface_.facets();
         for (std::int32_t facet = 0; facet < facets.size(); ++facet)
             if (!surface_.is_rigid(facets.body[facet]))
                 for (std::int32_t v = Dim * facet; v < Dim * (facet + 1); ++v)
-                    step_.n_deformable_nodes = std::max(step_.n_deformable_nodes, facets.face_vertices[v] + 1);
+                    step_.least_force_size = std::max(step_.least_force_size, facets.face_vertices[v] + 1);
     }
 
     void drop_list() {

@@ -48,14 +48,14 @@ struct NodalStep {
     double energy = 0.0;                        ///< W at its end [J]
     double work = 0.0;                          ///< what rigid bodies on their paths did on the rest [J]
     StepReport report;
-    std::int32_t n_deformable_nodes = 0;  ///< up to the last one that belongs to a face of a deformable body
+    std::int32_t least_force_size = 0;  ///< how many nodes a force must have: up to the last one of a deformable face
 
     [[nodiscard]] bool is_active() const { return !pairs.empty(); }
     /// Adds the forces of the step to those of a host, one per node [N]. `force` may end before the nodes do: a host that
     /// has appended the nodes of obstacles to its own gets the forces on its own alone, `bodies` has those on the obstacles.
-    /// Throws BadInput if it ends before `n_deformable_nodes`.
+    /// Throws BadInput if it ends before `least_force_size`.
     void add_force_to(PointsSpan<Dim> force) const {
-        if (force.size() < n_deformable_nodes) detail::check_force_size(force.size(), n_deformable_nodes);
+        if (force.size() < least_force_size) detail::check_force_size(force.size(), least_force_size);
         if (!is_active()) return;
         for (std::size_t i = 0; i < nodes.size() && nodes[i] < force.size(); ++i) force.add(nodes[i], -gradient[i]);
     }

@@ -68,8 +68,8 @@ void tell_after_step(abut_contact& handle, const contact::NodalContact<Dim>& con
         handle.tell(
             ABUT_WARNING,
             std::to_string(report.missed_contacts - handle.told_of_missed) +
-                " pairs were first seen pressed in: they are no contacts until they have parted. Where no faces have come "
-                "anew, steps were too long for the list, and the energy is not exact.");
+                " pairs were first seen pressed in and do not act until they have parted: steps were too long for the "
+                "list, and the energy is not exact.");
         handle.told_of_missed = report.missed_contacts;
     }
 }
@@ -79,7 +79,7 @@ template <int Dim>
 std::optional<PointsSpan<Dim>> force_of(const abut_array& force, const contact::NodalContact<Dim>& contact) {
     if (force.data == nullptr) return std::nullopt;
     const std::int32_t count = checked_count(force.count, "force");
-    contact::detail::check_force_size(count, contact.last().n_deformable_nodes);
+    contact::detail::check_force_size(count, contact.last().least_force_size);
     return PointsSpan<Dim>{force.data, count, static_cast<std::ptrdiff_t>(force.item),
                            static_cast<std::ptrdiff_t>(force.component)};
 }

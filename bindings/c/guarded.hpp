@@ -7,6 +7,7 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "abut.h"
 #include "abut/base/error.hpp"
@@ -35,14 +36,14 @@ inline int status_of(ErrorKind kind) {
 }
 
 template <std::size_t N>
-inline void copy_text(const std::string& text, char (&to)[N]) {
+inline void copy_text(std::string_view text, char (&to)[N]) {
     const std::size_t n = std::min(text.size(), N - 1);
     std::memcpy(to, text.data(), n);
     to[n] = '\0';
 }
 
 /// A struct of another size is of another version of the header: it is not written to.
-inline int report(int status, const std::string& what, const ErrorFacts& facts, int index_base, abut_error* error) noexcept {
+inline int report(int status, std::string_view what, const ErrorFacts& facts, int index_base, abut_error* error) noexcept {
     if (error == nullptr || error->struct_size != sizeof(abut_error)) return status;
     const auto in_base = [&](std::int64_t face) { return face == ErrorFacts::none ? face : face + index_base; };
     error->status = status;

@@ -1,14 +1,13 @@
 #pragma once
-// Arrays of numpy and of the library. Shape (n, Dim) and n vectors are the same memory.
+// Arrays of numpy as the library takes them.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "abut/base/error.hpp"
-#include "abut/base/vector.hpp"
 
 namespace abut::python {
 
@@ -16,6 +15,22 @@ namespace py = pybind11;
 
 template <class Value>
 using Packed = py::array_t<Value, py::array::c_style | py::array::forcecast>;
+
+/// A packed copy; no number is rounded or wrapped.
+inline Packed<std::int32_t> integers_of(const py::object& given, const std::string& name) {
+    const py::array array = py::array::ensure(given);
+    const char kind = array ? array.dtype().kind() : '?';
+    if (kind != 'i' && kind != 'u' && !(kind == 'f' && array.size() == 0)) {  // an empty list has no type
+        PyErr_Clear();
+        throw py::type_error(name + " must be an array of integers");
+    }
+    if (array.size() > 0) {
+        const auto largest = py::cast<double>(array.attr("max")()), least = py::cast<double>(array.attr("min")());
+        if (largest > std::numeric_limits<std::int32_t>::max() || least < std::numeric_limits<std::int32_t>::min())
+            throw py::value_error(name + " must be within -2147483648 and 2147483647");
+    }
+    return Packed<std::int32_t>::ensure(array);
+}
 
 /// A copy, of shape (n).
 template <class Value>
@@ -25,36 +40,6 @@ py::array_t<Value> copy_of(std::span<const Value> values) {
 template <class Value>
 py::array_t<Value> copy_of(const std::vector<Value>& values) {
     return copy_of(std::span<const Value>(values));
-}
-
-/// A copy, of shape (n, Dim).
-template <int Dim>
-py::array_t<double> copy_of_vectors(std::span<const Vector<Dim>> vectors) {
-    return py::array_t<double>({static_cast<py::ssize_t>(vectors.size()), py::ssize_t{Dim}},
-                               reinterpret_cast<const double*>(vectors.data()));
-}
-
-/// Anything that is Dim numbers.
-template <int Dim>
-Vector<Dim> vector_of(const py::handle& given, const char* name) {
-    const auto values = Packed<double>::ensure(given);
-    if (!values || values.ndim() != 1 || values.shape(0) != Dim) {
-        PyErr_Clear();
-        throw py::value_error(std::string(name) + " must be " + std::to_string(Dim) + " numbers");
-    }
-    return Eigen::Map<const Vector<Dim>>(values.data());
-}
-
-/// Anything of shape (n, Dim).
-template <int Dim>
-std::vector<Vector<Dim>> vectors_of(const py::handle& given, const char* name) {
-    const auto values = Packed<double>::ensure(given);
-    if (!values || values.ndim() != 2 || values.shape(1) != Dim) {
-        PyErr_Clear();
-        throw py::value_error(std::string(name) + " must have the shape (n, " + std::to_string(Dim) + ")");
-    }
-    const auto* first = reinterpret_cast<const Vector<Dim>*>(values.data());
-    return {first, first + values.shape(0)};
 }
 
 }  // namespace abut::python

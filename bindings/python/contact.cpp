@@ -16,20 +16,26 @@ using namespace abut::python;
 
 namespace {
 
+/// The entries that `ask` writes, in as many calls as it takes to find room for them.
 template <class Entry, class Ask>
-py::array_t<Entry> entries_of(const Ask& ask) {
-    std::int64_t n = 0;
-    abut_error error = ABUT_ERROR_INIT;
-    require_ok(ask(nullptr, 0, &n, &error), error);
-    py::array_t<Entry> entries(static_cast<py::ssize_t>(n));
-    require_ok(ask(n > 0 ? entries.mutable_data() : nullptr, n, &n, &error), error);
-    return entries;
+py::array_t<Entry> entries_of(const Ask& ask, std::int64_t expected = 0) {
+    for (std::int64_t capacity = expected;;) {
+        py::array_t<Entry> entries(static_cast<py::ssize_t>(capacity));
+        Entry* const first = capacity > 0 ? entries.mutable_data() : nullptr;
+        std::int64_t n = 0;
+        call_unlocked([&](abut_error* error) { return ask(first, capacity, &n, error); });
+        if (n <= capacity) {
+            entries.resize({static_cast<py::ssize_t>(n)});
+            return entries;
+        }
+        capacity = n;
+    }
 }
 
 class NodalContact {
 public:
-    NodalContact(const py::array& nodes, const py::object& faces, const py::object& body, const PackedDoubles& depth,
-                 const PackedDoubles& stiffness, const py::object& offsets, double skin, double largest_motion,
+    NodalContact(const py::array& nodes, const py::object& faces, const py::object& body, const Packed<double>& depth,
+                 const Packed<double>& stiffness, const py::object& offsets, double skin, double largest_motion,
                  std::int64_t max_pairs, double compression_warning, double compression_limit,
                  std::pair<double, double> facing, bool events, py::object wanted, py::object cancel, py::object log)
         : dim_(dimension_of(nodes)),
@@ -106,7 +112,7 @@ public:
                         "compression_max"_a = report.compression_max, "correction_max"_a = report.correction_max);
     }
 
-    [[nodiscard]] py::dict stable_step(const PackedDoubles& mass, double omega_free) const {
+    [[nodiscard]] py::dict stable_step(const Packed<double>& mass, double omega_free) const {
         abut_stable stable = ABUT_STABLE_INIT;
         abut_error error = ABUT_ERROR_INIT;
         require_ok(abut_stable_step(handle_.get(), mass.data(), mass.size(), omega_free, &stable, &error), error);
@@ -130,10 +136,10 @@ public:
     }
 
     void surface_replaced(const py::array& nodes, const py::object& faces, const py::object& body,
-                          const PackedDoubles& depth, const PackedDoubles& stiffness, const py::object& old_face_of,
+                          const Packed<double>& depth, const Packed<double>& stiffness, const py::object& old_face_of,
                           const py::object& offsets) {
         const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
-        const Integers old = integers_of(old_face_of, "old_face_of");
+        const Packed<std::int32_t> old = integers_of(old_face_of, "old_face_of");
         if (old.size() != of_host.body.size()) throw py::value_error("old_face_of must have one entry per face");
         const abut_array rest = view_of(nodes, dim_, "nodes");
         call_unlocked(
@@ -155,12 +161,14 @@ py::array_t<abut_overlap> find_overlaps(const py::array& nodes, const py::object
     const int dim = dimension_of(nodes);
     const Faces of_host(faces, body, offsets, dim);
     const abut_array x = view_of(nodes, dim, "nodes");
-    return entries_of<abut_overlap>([&](abut_overlap* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
-        return abut_find_overlaps(dim, x, &of_host.view, distance, entries, sizeof(abut_overlap), capacity, n, error);
-    });
+    return entries_of<abut_overlap>(
+        [&](abut_overlap* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
+            return abut_find_overlaps(dim, x, &of_host.view, distance, entries, sizeof(abut_overlap), capacity, n, error);
+        },
+        4 * of_host.view.n_faces);
 }
 
-double skin_stiffness(double p_wave_modulus, const PackedDoubles& depth) {
+double skin_stiffness(double p_wave_modulus, const Packed<double>& depth) {
     double stiffness = 0.0;
     abut_error error = ABUT_ERROR_INIT;
     require_ok(abut_skin_stiffness(p_wave_modulus, depth.data(), depth.size(), &stiffness, &error), error);
@@ -193,7 +201,8 @@ PYBIND11_MODULE(_contact, module) {
     exceptions = new Exceptions;
     const py::object plain = py::reinterpret_borrow<py::object>(PyExc_Exception);
     exceptions->base = exception(module, "Error", plain,
-                                 "Base of all errors of Abut: status, face_1, face_2, value and allowed beside the text.");
+                                 "Base of all errors of Abut: status, face_1, face_2, value and allowed beside the text; "
+                                 "cell in those of abut.solid.");
     const py::object& base = exceptions->base;
     exceptions->bad_input = exception(module, "BadInput", base, "A surface, an option or an array that cannot be used.");
     exceptions->misuse = exception(module, "Misuse", base, "A call out of order.");
@@ -213,8 +222,9 @@ PYBIND11_MODULE(_contact, module) {
         "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
         "(n_bodies), skin_stiffness or inf for a rigid body; wanted(face_1, face_2): whether they may touch; "
         "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
-        "is no error. They must call nothing of the contact.")
-        .def(py::init<const py::array&, const py::object&, const py::object&, const PackedDoubles&, const PackedDoubles&,
+        "is no error. They must call nothing of the contact, and nothing that holds it is ever freed while they refer to "
+        "it.")
+        .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
                       const py::object&, double, double, std::int64_t, double, double, std::pair<double, double>, bool,
                       py::object, py::object, py::object>(),
              "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a, "offsets"_a = py::none(), py::kw_only(),
@@ -224,24 +234,29 @@ PYBIND11_MODULE(_contact, module) {
              "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none())
         .def("step", &NodalContact::step, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
              "From x_0 to x_1; adds the forces to out, which may end before the nodes of obstacles do. mode: 'mean' of the "
-             "step, "
-             "exact for energy, or 'end', for central differences. Returns the figures of the step.")
+             "step, exact for energy, or 'end', for central differences. Returns energy_0, energy (W [J] at both ends), "
+             "work, active_pairs, "
+             "events, compression and correction.")
         .def("evaluate", &NodalContact::evaluate, "x"_a, "out"_a = py::none(),
              "W at x, without a step; adds its forces to out.")
-        .def_property_readonly("pairs", &NodalContact::pairs, "Active pairs of the last call, as a structured array.")
+        .def_property_readonly(
+            "pairs", &NodalContact::pairs,
+            "Active pairs of the last step or evaluate, as a structured array; vectors have three components.")
         .def_property_readonly("bodies", &NodalContact::bodies, "Force, moment and work by body, as a structured array.")
         .def_property_readonly("body_pairs", &NodalContact::body_pairs, "Forces by pair of bodies, as a structured array.")
         .def_property_readonly("report", &NodalContact::report, "Counters since the start; missed_contacts must stay 0.")
         .def("stable_step", &NodalContact::stable_step, "mass"_a, "omega_free"_a,
              "How long a step may be, by estimate: mass of each node, highest frequency without contact [rad/s].")
         .def("state", &NodalContact::state, "All that the next steps depend on, as bytes.")
-        .def("restore", &NodalContact::restore, "state"_a)
+        .def("restore", &NodalContact::restore, "state"_a,
+             "Goes on from state() of a contact of the same surface and options: the next steps have the same bits.")
         .def("surface_replaced", &NodalContact::surface_replaced, "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a,
              "old_face_of"_a, "offsets"_a = py::none(),
              "Goes on with other faces, between two steps: the old number of each that was there before, else -1.");
     module.def(
         "find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
-        "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance.");
+        "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance, as a "
+        "structured array; faces with four corners appear by halves.");
     module.def("skin_stiffness", &skin_stiffness, "p_wave_modulus"_a, "depth"_a,
                "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch.");
     module.def("limit_threads", &limit_threads, "n"_a, "Threads that all contacts use together; 0: all cores.");

@@ -1,5 +1,5 @@
 #pragma once
-// What goes into contact: arrays of numpy as abut.h sees them, callbacks, and exceptions that come out.
+// Arrays of numpy as abut.h sees them, callbacks, and the exceptions of the package.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -12,14 +12,11 @@
 #include <vector>
 
 #include "abut.h"
+#include "arrays.hpp"
 
 namespace abut::python {
 
-namespace py = pybind11;
-
 using Doubles = py::array_t<double>;
-using Integers = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
-using PackedDoubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// One class of exceptions per status; all carry the facts as attributes.
 struct Exceptions {
@@ -95,26 +92,10 @@ inline abut_array writable_view_of(const py::object& array, int dim, const char*
     return view_of(doubles, dim, name);
 }
 
-/// A packed copy; no number is rounded or wrapped.
-inline Integers integers_of(const py::object& given, const char* name) {
-    const py::array array = py::array::ensure(given);
-    const char kind = array ? array.dtype().kind() : '?';
-    if (kind != 'i' && kind != 'u' && !(kind == 'f' && array.size() == 0)) {  // an empty list has no type
-        PyErr_Clear();
-        throw py::type_error(std::string(name) + " must be an array of integers");
-    }
-    if (array.size() > 0) {
-        const auto largest = py::cast<double>(array.attr("max")()), least = py::cast<double>(array.attr("min")());
-        if (largest > std::numeric_limits<std::int32_t>::max() || least < std::numeric_limits<std::int32_t>::min())
-            throw py::value_error(std::string(name) + " must be within -2147483648 and 2147483647");
-    }
-    return Integers::ensure(array);
-}
-
 /// Copies of the arrays of the faces, packed: they are read once.
 struct Faces {
-    Faces(const py::object& corners, const py::object& of_body, const PackedDoubles& depths,
-          const PackedDoubles& stiffnesses, const py::object& of_offsets, int dim)
+    Faces(const py::object& corners, const py::object& of_body, const Packed<double>& depths,
+          const Packed<double>& stiffnesses, const py::object& of_offsets, int dim)
         : Faces(corners, of_body, of_offsets, dim) {
         depth = depths;
         stiffness = stiffnesses;
@@ -138,7 +119,7 @@ struct Faces {
             std::vector<std::int32_t> regular;
             for (py::ssize_t i = 0; i <= nodes.shape(0); ++i)
                 regular.push_back(static_cast<std::int32_t>(i * nodes.shape(1)));
-            offsets = Integers(static_cast<py::ssize_t>(regular.size()), regular.data());
+            offsets = Packed<std::int32_t>(static_cast<py::ssize_t>(regular.size()), regular.data());
             view.offsets = offsets.data();
         }
         if (nodes.ndim() == 2 && nodes.shape(0) != body.size())
@@ -149,8 +130,8 @@ struct Faces {
         view.body = body.data();
     }
 
-    Integers nodes, body, offsets;
-    PackedDoubles depth, stiffness;
+    Packed<std::int32_t> nodes, body, offsets;
+    Packed<double> depth, stiffness;
     abut_faces view = ABUT_FACES_INIT;
 };
 

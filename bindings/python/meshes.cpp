@@ -12,7 +12,7 @@
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
-#include "arrays.hpp"
+#include "vectors.hpp"
 
 namespace abut::python {
 namespace {
@@ -53,8 +53,8 @@ mesh::NonPlanarFaces non_planar_of(const std::string& word) {
 }
 
 Packed<std::int32_t> table_of(const py::handle& given, const std::string& name, int columns) {
-    const auto table = Packed<std::int32_t>::ensure(given);
-    if (!table || table.ndim() != 2 || (columns > 0 && table.shape(1) != columns)) {
+    const auto table = integers_of(py::reinterpret_borrow<py::object>(given), name);
+    if (table.ndim() != 2 || (columns > 0 && table.shape(1) != columns)) {
         PyErr_Clear();
         throw py::value_error(name + " must be an array of integers of shape (n, " +
                               (columns > 0 ? std::to_string(columns) : "corners") + ")");
@@ -94,12 +94,13 @@ Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::o
     if (body.is_none()) {
         soup.cell_body.assign(soup.cell_shape.size(), 0);
     } else {
-        const auto of_cells = Packed<std::int32_t>::ensure(body);
-        if (!of_cells || of_cells.ndim() != 1 || of_cells.shape(0) != n_cells) {
-            PyErr_Clear();
+        const auto of_cells = integers_of(body, "body");
+        if (of_cells.ndim() != 1 || of_cells.shape(0) != n_cells)
             throw py::value_error("body must be one integer for each of the " + std::to_string(n_cells) + " cells");
-        }
         soup.cell_body.assign(of_cells.data(), of_cells.data() + n_cells);
+        if (n_cells > 0 && std::ranges::max(soup.cell_body) >= n_cells)
+            throw py::value_error("body has the number " + std::to_string(std::ranges::max(soup.cell_body)) + " for " +
+                                  std::to_string(n_cells) + " cells; number bodies from 0, without gaps");
     }
     if (body_names.empty() && n_cells > 0)
         for (std::int32_t b = 0; b <= std::ranges::max(soup.cell_body); ++b)
@@ -144,18 +145,36 @@ py::list cells_of(const Mesh<Dim>& mesh) {
     return blocks;
 }
 
-/// The boundary faces in the words of NodalContact, and the cell behind each.
+/// Half the height of the cell behind a boundary face [m].
+template <int Dim>
+double depth_behind(const Mesh<Dim>& mesh, std::int32_t face) {
+    const auto cell = static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0]);
+    const CellShape shape = mesh.cell_shape[cell];
+    const bool is_simplex = shape == CellShape::triangle || shape == CellShape::tetrahedron;
+    return 0.5 * (is_simplex ? Dim : 1) * mesh.cell_measure[cell] / mesh.face_measure[static_cast<std::size_t>(face)];
+}
+
+/// The boundary faces in the words of NodalContact.
 template <int Dim>
 py::dict surface_of(const Mesh<Dim>& mesh) {
     mesh::Rows faces;
-    std::vector<std::int32_t> body, cell;
+    std::vector<std::int32_t> body;
+    std::vector<double> depth;
     for (const std::int32_t f : mesh.boundary_faces) {
         faces.append(mesh.face_vertices[f]);
-        cell.push_back(mesh.face_cells[static_cast<std::size_t>(f)][0]);
-        body.push_back(mesh.cell_body[static_cast<std::size_t>(cell.back())]);
+        const std::int32_t cell = mesh.face_cells[static_cast<std::size_t>(f)][0];
+        body.push_back(mesh.cell_body[static_cast<std::size_t>(cell)]);
+        depth.push_back(depth_behind(mesh, f));
     }
     return py::dict("faces"_a = copy_of(faces.values), "offsets"_a = copy_of(faces.offsets), "body"_a = copy_of(body),
-                    "cell"_a = copy_of(cell));
+                    "depth"_a = copy_of(depth));
+}
+
+template <int Dim>
+py::array_t<std::int32_t> cells_behind_surface(const Mesh<Dim>& mesh) {
+    std::vector<std::int32_t> cell;
+    for (const std::int32_t f : mesh.boundary_faces) cell.push_back(mesh.face_cells[static_cast<std::size_t>(f)][0]);
+    return copy_of(cell);
 }
 
 /// Mean over the cells around each point.
@@ -212,8 +231,11 @@ void add_mesh(py::module_& module, const char* name) {
             "measures", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_measure); }, "(n_cells) [m^dim]")
         .def_readonly("body_names", &Mesh<Dim>::body_names)
         .def_property_readonly("groups", &groups_of<Dim>, "Named parts of the boundary, as rows of surface.")
-        .def_property_readonly("surface", &surface_of<Dim>,
-                               "The boundary faces: faces (flat), offsets and body as NodalContact takes them, and cell.")
+        .def_property_readonly(
+            "surface", &surface_of<Dim>,
+            "The boundary faces: faces (flat), offsets, body and depth, all that NodalContact takes beside "
+            "nodes and stiffness.")
+        .def_property_readonly("surface_cells", &cells_behind_surface<Dim>, "The cell behind each boundary face.")
         .def("at_points", &at_points<Dim>, "values"_a,
              "Mean over the cells around each point: (n_cells, ...) to (n_points, ...)")
         .def(
@@ -224,8 +246,12 @@ void add_mesh(py::module_& module, const char* name) {
                    " cells, " + std::to_string(mesh.n_bodies()) + " bodies>";
         });
     module.def(
-        "combine", [](const std::vector<Mesh<Dim>>& meshes) { return mesh::combine<Dim>(meshes); }, "meshes"_a,
-        "One mesh of several bodies. Nothing is merged.");
+        "combine",
+        [](const std::vector<Mesh<Dim>>& meshes) {
+            if (meshes.empty()) throw py::value_error("combine: there are no meshes; give one or more");
+            return mesh::combine<Dim>(meshes);
+        },
+        "meshes"_a, "One mesh of several bodies. Nothing is merged.");
     module.def(
         "box",
         [](const std::array<double, Dim>& lower, const std::array<double, Dim>& upper, double size, int variant,

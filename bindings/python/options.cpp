@@ -1,5 +1,9 @@
 #include <pybind11/stl/filesystem.h>
 
+#include <functional>
+#include <map>
+#include <utility>
+
 #include "scenes.hpp"
 
 namespace abut::python {
@@ -7,19 +11,19 @@ namespace {
 
 using Take = std::function<void(run::RunOptions&, const py::handle&)>;
 
-template <class Value, class Place>
-Take take_value(Place place) {
-    return [place](run::RunOptions& options, const py::handle& value) { place(options) = py::cast<Value>(value); };
+template <class Value, class Member>
+Take take_value(Member member) {
+    return [member](run::RunOptions& options, const py::handle& value) { member(options) = py::cast<Value>(value); };
 }
 
-template <class Choice, std::size_t N, class Place>
-Take take_word(const std::array<run::Word<Choice>, N>& words, Place place) {
-    return [&words, place](run::RunOptions& options, const py::handle& value) {
+template <class Choice, std::size_t N, class Member>
+Take take_word(const std::array<run::Word<Choice>, N>& words, Member member) {
+    return [&words, member](run::RunOptions& options, const py::handle& value) {
         const auto given = py::cast<std::string>(value);
         std::string known;
         for (const auto& [word, choice] : words) {
             if (given == word) {
-                place(options) = choice;
+                member(options) = choice;
                 return;
             }
             known += (known.empty() ? "'" : ", '") + std::string(word) + "'";
@@ -85,6 +89,9 @@ run::RunOptions options_of(const py::dict& given) {
             throw py::value_error(name + ": " + error.what());
         }
     }
+    for (const auto& [name, value] : {std::pair("interval", options.interval), std::pair("threads", options.threads),
+                                      std::pair("frames", options.frames), std::pair("steps", options.steps)})
+        if (value < 0) throw py::value_error(std::string(name) + ": " + std::to_string(value) + "; 0 and more are allowed");
     return options;
 }
 

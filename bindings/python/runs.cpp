@@ -1,12 +1,18 @@
 #include "runs.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 
+#include "abut/base/error.hpp"
+#include "abut/base/throw_again.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/mesh/interpenetration.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
@@ -75,19 +81,19 @@ private:
 template <class Class, class StateOf>
 void add_state(Class& made, StateOf state_of) {
     using Self = typename Class::type;
-    made.def_property_readonly("steps", [=](Self& self) { return state_of(self).steps(); })
+    made.def_property_readonly("steps", [=](Self& self) { return state_of(self)->steps(); })
         .def_property_readonly(
-            "time", [=](Self& self) { return state_of(self).time(); }, "[s]")
+            "time", [=](Self& self) { return state_of(self)->time(); }, "[s]")
         .def_property_readonly(
-            "displacement", [=](Self& self) { return state_of(self).displacement(); }, "of the cells, (n_cells, dim) [m]")
+            "displacement", [=](Self& self) { return state_of(self)->displacement(); }, "of the cells, (n_cells, dim) [m]")
         .def_property_readonly(
-            "velocity", [=](Self& self) { return state_of(self).velocity(); }, "of the cells, (n_cells, dim) [m/s]")
+            "velocity", [=](Self& self) { return state_of(self)->velocity(); }, "of the cells, (n_cells, dim) [m/s]")
         .def_property_readonly(
-            "stress", [=](Self& self) { return state_of(self).stress(); }, "(n_cells, dim, dim) [Pa]")
+            "stress", [=](Self& self) { return state_of(self)->stress(); }, "(n_cells, dim, dim) [Pa]")
         .def_property_readonly(
-            "von_mises", [=](Self& self) { return state_of(self).von_mises(); }, "(n_cells) [Pa]")
+            "von_mises", [=](Self& self) { return state_of(self)->von_mises(); }, "(n_cells) [Pa]")
         .def_property_readonly(
-            "contact_pressure", [=](Self& self) { return state_of(self).contact_pressure(); },
+            "contact_pressure", [=](Self& self) { return state_of(self)->contact_pressure(); },
             "of the boundary faces, in the order of surface [Pa]");
 }
 
@@ -95,10 +101,10 @@ void add_state(Class& made, StateOf state_of) {
 template <int Dim>
 struct Glance {
     std::optional<State<Dim>> state;
-    [[nodiscard]] const State<Dim>& now() const {
+    [[nodiscard]] const State<Dim>* now() const {
         if (!state)
             throw Misuse("the state of a run is there while look is called, and not after. Copy what you need of it.");
-        return *state;
+        return &*state;
     }
 };
 
@@ -120,7 +126,9 @@ public:
             ~Close() { glance.state.reset(); }
         } close{*glance};
         const py::object answer = look_(glance);
-        if (!answer.is_none()) stops_ = py::cast<bool>(answer);
+        const int stops = PyObject_IsTrue(answer.ptr());
+        if (stops < 0) throw py::error_already_set();
+        stops_ = stops != 0;
     }
     [[nodiscard]] bool asks_to_stop() const override {
         const py::gil_scoped_acquire lock;
@@ -157,8 +165,7 @@ template <int Dim>
 py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials, const py::object& velocity,
                   const py::object& acceleration, const std::map<std::string, py::object>& held,
                   const std::vector<std::string>& rollers, const std::map<std::string, py::object>& traction,
-                  const typename SceneArguments<Dim>::OfPosition& displacement,
-                  const typename SceneArguments<Dim>::OfPosition& added_velocity, bool contact,
+                  const py::object& displacement, const py::object& added_velocity, bool contact,
                   std::optional<double> energy_scale, const py::object& look, const py::kwargs& given) {
     const run::Scene<Dim> scene = scene_of<Dim>({mesh, materials, velocity, acceleration, held, rollers, traction,
                                                  displacement, added_velocity, contact, energy_scale});
@@ -189,13 +196,28 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
         "seconds"_a = result->seconds.total);
 }
 
+/// An object while a call has it to itself: steps are taken without the interpreter's lock.
+class Use {
+public:
+    explicit Use(std::atomic_flag& in_use) : in_use_(in_use) {
+        if (in_use_.test_and_set(std::memory_order_acquire))
+            throw Misuse("this run takes steps in another thread. Use one thread at a time.");
+    }
+    ~Use() { in_use_.clear(std::memory_order_release); }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+
+private:
+    std::atomic_flag& in_use_;
+};
+
 /// A solid under MEMM, taken step by step.
 template <int Dim>
 class Memm {
 public:
     Memm(run::Scene<Dim> scene, const run::RunOptions& given)
         : scene_(std::move(scene)),
-          options_(run::with_defaults<Dim>(given)),
+          options_(checked(scene_, given)),
           solid_(scene_.mesh, run::solid_options(scene_, options_)),
           stable_dt_(dynamics::stable_step(solid_).dt),
           memm_(solid_, run::displacement_at_start(scene_), run::momentum_at_start(scene_, solid_),
@@ -211,25 +233,69 @@ public:
         record();
     }
 
+    /// Ctrl-C ends it between two steps.
     void step(std::int64_t n) {
+        if (n < 0) throw py::value_error("step: n is " + std::to_string(n) + "; 0 and more are allowed");
+        const Use use(in_use_);
         const py::gil_scoped_release release;
-        for (std::int64_t i = 0; i < n; ++i) memm_.step();
+        auto asked = std::chrono::steady_clock::now();
+        for (std::int64_t i = 0; i < n; ++i) {
+            take_step();
+            if (const auto now = std::chrono::steady_clock::now(); now - asked > std::chrono::milliseconds(50)) {
+                const py::gil_scoped_acquire lock;
+                if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+                asked = now;
+            }
+        }
     }
     void record() {
+        const Use use(in_use_);
         ledger_.record(dynamics::measure(memm_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
+        const auto& entry = ledger_.entries().back();
+        if (!std::isfinite(entry.energy) || !std::isfinite(entry.pseudo_energy))
+            throw Diverged(at_this_step("the run has diverged: its energy is not finite. Take a shorter step."));
     }
-    [[nodiscard]] py::object ledger() const { return table_of(ledger_); }
+    [[nodiscard]] py::object ledger() const {
+        const Use use(in_use_);
+        return table_of(ledger_);
+    }
     [[nodiscard]] double dt() const { return memm_.dt(); }
     [[nodiscard]] double stable_dt() const { return stable_dt_; }
     [[nodiscard]] py::array_t<double> masses() const { return copy_of(solid_.masses()); }
-    [[nodiscard]] py::list bodies() const { return motions_of(solid::body_motions<Dim>(view(), solid_)); }
-    [[nodiscard]] py::dict contact() const { return report_of(solid_.contact_report()); }
-    [[nodiscard]] State<Dim> state() {
-        view_.emplace(memm_);
-        return {*view_, solid_};
+    [[nodiscard]] py::list bodies() const {
+        const Use use(in_use_);
+        return motions_of(solid::body_motions<Dim>(view(), solid_));
+    }
+    [[nodiscard]] py::dict contact() const {
+        const Use use(in_use_);
+        return report_of(solid_.contact_report());
     }
 
+    /// The present state, while somebody looks at it.
+    struct Held {
+        Use use;
+        dynamics::RunView<Dim> view;
+        State<Dim> state;
+        explicit Held(Memm& run) : use(run.in_use_), view(run.memm_), state(view, run.solid_) {}
+        const State<Dim>* operator->() const { return &state; }
+    };
+
 private:
+    [[nodiscard]] static run::RunOptions checked(const run::Scene<Dim>& scene, const run::RunOptions& given) {
+        run::check(given);
+        if (scene.contact) mesh::check_apart(scene.mesh, "", given.contact.search.broad_phase);
+        return run::with_defaults<Dim>(given);
+    }
+    void take_step() {
+        try {
+            memm_.step();
+        } catch (const Error& error) {
+            throw_again(error, at_this_step(error.what()));
+        }
+    }
+    [[nodiscard]] std::string at_this_step(const char* what) const {
+        return "step " + std::to_string(memm_.steps()) + ", t = " + std::to_string(memm_.time()) + " s: " + what;
+    }
     [[nodiscard]] dynamics::RunView<Dim> view() const { return memm_; }
     run::Scene<Dim> scene_;
     run::RunOptions options_;
@@ -239,22 +305,21 @@ private:
     dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     dynamics::Ledger<Dim> ledger_;
-    std::optional<dynamics::RunView<Dim>> view_;  // of `state`
+    mutable std::atomic_flag in_use_{};
 };
 
 template <int Dim>
 std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials,
                                      const py::object& velocity, const py::object& acceleration,
                                      const std::map<std::string, py::object>& held, const std::vector<std::string>& rollers,
-                                     const std::map<std::string, py::object>& traction,
-                                     const typename SceneArguments<Dim>::OfPosition& displacement,
-                                     const typename SceneArguments<Dim>::OfPosition& added_velocity, bool contact,
-                                     const py::kwargs& given) {
+                                     const std::map<std::string, py::object>& traction, const py::object& displacement,
+                                     const py::object& added_velocity, bool contact, const py::kwargs& given) {
     run::Scene<Dim> scene = scene_of<Dim>(
         {mesh, materials, velocity, acceleration, held, rollers, traction, displacement, added_velocity, contact, {}});
+    for (const char* name : {"time", "steps", "interval", "frames", "out", "threads", "integrator", "levels",
+                             "contact_margin", "contact_levels", "gauge"})
+        if (given.contains(name)) throw py::type_error("memm takes no '" + std::string(name) + "', which is for simulate");
     const run::RunOptions options = options_of(given);
-    if (options.integrator != run::SolidIntegrator::memm || !options.out.empty())
-        throw py::value_error("memm takes neither integrator nor out; simulate does");
     const py::gil_scoped_release release;
     return std::make_unique<Memm<Dim>>(std::move(scene), options);
 }
@@ -271,17 +336,19 @@ template <int Dim>
 void add_dimension(py::module_& module, const std::string& suffix) {
     auto glance = py::class_<Glance<Dim>, std::shared_ptr<Glance<Dim>>>(module, ("State" + suffix).c_str(),
                                                                         "A run at one moment; good while look is called.");
-    add_state(glance, [](const Glance<Dim>& self) -> const State<Dim>& { return self.now(); });
+    add_state(glance, [](const Glance<Dim>& self) { return self.now(); });
 
     auto memm = py::class_<Memm<Dim>>(module, ("Memm" + suffix).c_str(), "A solid under MEMM, step by step; made by memm.");
-    add_state(memm, [](Memm<Dim>& self) { return self.state(); });
-    memm.def("step", &Memm<Dim>::step, "n"_a = 1, "Takes n steps.")
-        .def("record", &Memm<Dim>::record, "Adds a row to the ledger; costs about two forces.")
-        .def_property_readonly("ledger", &Memm<Dim>::ledger, "The columns of energy.csv, a structured array.")
+    add_state(memm, [](Memm<Dim>& self) { return typename Memm<Dim>::Held(self); });
+    memm.def("step", &Memm<Dim>::step, "n"_a = 1, "Takes n steps; Ctrl-C ends them.")
+        .def("record", &Memm<Dim>::record,
+             "Adds a row to the ledger; costs about two forces. Raises Diverged where the energy is not finite.")
+        .def_property_readonly("ledger", &Memm<Dim>::ledger,
+                               "The columns of energy.csv, a structured array; its first row is the start.")
         .def_property_readonly("dt", &Memm<Dim>::dt, "[s]")
         .def_property_readonly("stable_dt", &Memm<Dim>::stable_dt, "[s]")
         .def_property_readonly("masses", &Memm<Dim>::masses, "of the cells [kg]")
-        .def_property_readonly("bodies", &Memm<Dim>::bodies, "mass, velocity and rotation of each")
+        .def_property_readonly("bodies", &Memm<Dim>::bodies, "mass [kg], velocity [m/s] and rotation [rad] of each")
         .def_property_readonly("contact", &Memm<Dim>::contact, "Counters since the start; missed_contacts must stay 0.");
 
     const std::map<std::string, py::object> none;
@@ -290,7 +357,11 @@ void add_dimension(py::module_& module, const std::string& suffix) {
         "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
         "added_velocity"_a = py::none(), "contact"_a = true, "energy_scale"_a = py::none(), "look"_a = py::none(),
         (std::string(
-             "Runs a scene and returns ledger, displacement, bodies at start and end, warnings, ... as a dict. "
+             "Runs a scene and returns a dict: ledger (structured array), displacement at the end [m], start and end (mass "
+             "[kg], "
+             "velocity [m/s], rotation [rad] of each body), steps, dt and stable_dt [s], complete, energy_scale [J], "
+             "contact "
+             "(counters), warnings (texts), seconds. "
              "look(state): called at the start and after each step; True makes the next one the last. energy_scale: [J], "
              "where all is at rest at the start. out: a folder for energy.csv, pictures and the VTU series. ") +
          scene_text)
@@ -298,7 +369,9 @@ void add_dimension(py::module_& module, const std::string& suffix) {
     module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
                "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
                "added_velocity"_a = py::none(), "contact"_a = true,
-               (std::string("The same, to be taken step by step. ") + scene_text).c_str());
+               (std::string("The same under MEMM, to be taken step by step; options of steps and files are for simulate. ") +
+                scene_text)
+                   .c_str());
 }
 
 }  // namespace

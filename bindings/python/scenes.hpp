@@ -1,11 +1,10 @@
 #pragma once
-#include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <array>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,15 +12,13 @@
 
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"
-#include "arrays.hpp"
+#include "vectors.hpp"
 
 namespace abut::python {
 
 /// What a scene is made of, in the words of Python.
 template <int Dim>
 struct SceneArguments {
-    using OfPosition = std::function<std::array<double, Dim>(const std::array<double, Dim>&)>;
-
     const mesh::Mesh<Dim>& mesh;
     std::vector<solid::Material> materials;
     py::object velocity;
@@ -29,24 +26,28 @@ struct SceneArguments {
     std::map<std::string, py::object> held;
     std::vector<std::string> rollers;
     std::map<std::string, py::object> traction;
-    OfPosition displacement;
-    OfPosition added_velocity;
+    py::object displacement;  // functions of a position, or None
+    py::object added_velocity;
     bool contact;
     std::optional<double> energy_scale;
 };
 
+/// A function of Python as a field; empty for None. It may be called, copied and dropped without the interpreter's lock.
+template <int Dim>
+std::function<Vector<Dim>(const Vector<Dim>&)> field_of(const py::object& function, const char* name) {
+    if (function.is_none()) return {};
+    const std::shared_ptr<py::object> held(new py::object(function), [](py::object* object) {
+        const py::gil_scoped_acquire lock;
+        delete object;
+    });
+    return [held, name](const Vector<Dim>& x) {
+        const py::gil_scoped_acquire lock;
+        return vector_of<Dim>((*held)(py::array_t<double>(py::ssize_t{Dim}, x.data())), name);
+    };
+}
+
 template <int Dim>
 run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
-    const auto as_field = [](const typename SceneArguments<Dim>::OfPosition& of_position) {
-        std::function<Vector<Dim>(const Vector<Dim>&)> field;
-        if (of_position)
-            field = [of_position](const Vector<Dim>& x) {
-                std::array<double, Dim> position;
-                std::copy_n(x.data(), Dim, position.begin());
-                return Vector<Dim>(of_position(position).data());
-            };
-        return field;
-    };
     run::Scene<Dim> scene;
     scene.mesh = given.mesh;
     scene.solid.materials = given.materials;
@@ -60,8 +61,8 @@ run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
     for (const auto& [group, value] : given.traction)
         scene.solid.boundary.traction.push_back(
             {.group = group, .value = vector_of<Dim>(value, ("traction['" + group + "']").c_str())});
-    scene.displacement = as_field(given.displacement);
-    scene.added_velocity = as_field(given.added_velocity);
+    scene.displacement = field_of<Dim>(given.displacement, "displacement(x)");
+    scene.added_velocity = field_of<Dim>(given.added_velocity, "added_velocity(x)");
     scene.contact = given.contact;
     if (given.energy_scale) scene.energy_scale = {"E0", *given.energy_scale};
     return scene;

@@ -1,6 +1,10 @@
 // The Python module `abut.solid`: meshes, solids and runs for numpy.
 #include <pybind11/pybind11.h>
 
+#include <cctype>
+#include <string>
+
+#include "abut.h"
 #include "abut/base/error.hpp"
 #include "meshes.hpp"
 #include "runs.hpp"
@@ -25,11 +29,29 @@ const char* class_of(abut::ErrorKind kind) {
     return "InternalError";
 }
 
+static_assert(static_cast<int>(abut::ErrorKind::bad_input) + 1 == ABUT_BAD_INPUT &&
+              static_cast<int>(abut::ErrorKind::limit_exceeded) + 1 == ABUT_LIMIT_EXCEEDED);
+
+/// An option as it is written in Python: --contact-margin is contact_margin.
+std::string in_python(const std::string& text) {
+    std::string changed;
+    for (std::size_t i = 0; i < text.size();) {
+        const bool is_option = text.compare(i, 2, "--") == 0 && i + 2 < text.size() && std::islower(text[i + 2]) != 0;
+        if (!is_option) {
+            changed += text[i++];
+            continue;
+        }
+        for (i += 2; i < text.size() && (std::islower(text[i]) != 0 || text[i] == '-'); ++i)
+            changed += text[i] == '-' ? '_' : text[i];
+    }
+    return changed;
+}
+
 /// The exceptions of the package `abut`, with their facts.
 void raise(const abut::Error& error) {
     const py::object kind = py::module_::import("abut").attr(class_of(error.kind()));
-    const py::object instance = kind(py::str(error.what()));
-    instance.attr("status") = 1 + static_cast<int>(error.kind());  // as in abut.h
+    const py::object instance = kind(py::str(in_python(error.what())));
+    instance.attr("status") = static_cast<int>(error.kind()) + 1;
     instance.attr("face_1") = error.facts().face_1;
     instance.attr("face_2") = error.facts().face_2;
     instance.attr("cell") = error.facts().cell;

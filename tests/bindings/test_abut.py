@@ -126,21 +126,22 @@ class Contact(unittest.TestCase):
         contact = made(wanted=lambda a, b: contact.step(REST, REST) is None)
         with self.assertRaisesRegex(abut.Misuse, "in use"):
             contact.step(REST, lowered(0.15))
-        shared, refused = made(), []
+        inside, go_on = threading.Event(), threading.Event()
 
-        def work():
-            for _ in range(2000):
-                try:
-                    shared.step(REST, lowered(0.15))
-                    shared.pairs
-                except abut.Misuse:
-                    refused.append(1)
-        threads = [threading.Thread(target=work) for _ in range(4)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(shared.step(REST, lowered(0.15))["active_pairs"], 1)
+        def waits(face_1, face_2):
+            inside.set()
+            return go_on.wait(10.0)
+
+        shared = made(wanted=waits)
+        stepping = threading.Thread(target=shared.step, args=(REST, lowered(0.15)))
+        stepping.start()
+        inside.wait(10.0)
+        for call in (lambda: shared.step(REST, REST), lambda: shared.pairs, shared.state, lambda: shared.evaluate(REST)):
+            with self.assertRaisesRegex(abut.Misuse, "in use"):
+                call()
+        go_on.set()
+        stepping.join()
+        self.assertEqual(shared.report["active_pairs"], 1)
 
     def test_nothing_is_written_where_it_would_be_lost(self):
         contact = made()

@@ -4,6 +4,7 @@ import os
 import pathlib
 import signal
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -62,6 +63,13 @@ class Meshes(unittest.TestCase):
         mesh = two_boxes()
         surface = mesh.surface
         overlap = abut.find_overlaps(mesh.points, surface["faces"], surface["body"], 0.02, offsets=surface["offsets"])
+        np.testing.assert_allclose(surface["depth"][surface["body"] == 0], 0.5 / 4.0, rtol=1e-12)
+        self.assertEqual(len(mesh.surface_cells), len(surface["body"]))
+        contact = abut.NodalContact(mesh.points, **surface, stiffness=[1.0, 1.0])
+        pressed = mesh.points
+        pressed[np.unique(surface["faces"].reshape(-1, 2)[surface["body"] == 1])] -= [0.0, 0.03]
+        contact.step(mesh.points, mesh.points)
+        self.assertAlmostEqual(contact.step(mesh.points, pressed)["energy"], 0.5 * 0.5 * 0.02**2 * 0.8, delta=1e-15)
         self.assertAlmostEqual(overlap["area"].sum(), 0.8, delta=1e-14)
         np.testing.assert_allclose(overlap["gap"], 0.01, atol=1e-14)
 
@@ -78,12 +86,29 @@ class Meshes(unittest.TestCase):
                 (ValueError, r"shape \(n, 3\)", lambda: solid.mesh(points, {"triangle": [[0, 1]]})),
                 (ValueError, "each of the 1 cells", lambda: solid.mesh(points, {"triangle": [[0, 1, 2]]}, body=[0, 1])),
                 (ValueError, r"\(n, 2\) or \(n, 3\)", lambda: solid.mesh([1.0, 2.0], {"triangle": [[0, 1, 2]]})),
+                (TypeError, "must be an array of integers", lambda: solid.mesh(points, {"triangle": [[0, 1.9, 2.2]]})),
+                (ValueError, "must be within", lambda: solid.mesh(points, {"triangle": [[2**32, 1, 2]]})),
+                (TypeError, "body must be", lambda: solid.mesh(points, {"triangle": [[0, 1, 2]]}, body=[0.9])),
+                (ValueError, "number 2147483647 for 1 cells",
+                 lambda: solid.mesh(points, {"triangle": [[0, 1, 2]]}, body=[2**31 - 1])),
+                (TypeError, "groups.'foot'", lambda: solid.mesh(points, {"triangle": [[0, 1, 2]]}, groups={"foot": [[0.9, 1]]})),
+                (ValueError, "no meshes", lambda: solid.combine([])),
                 (abut.BadInput, "vertex 5", lambda: solid.mesh(points, {"triangle": [[0, 1, 5]]})),
                 (abut.BadInput, "no such file", lambda: solid.read_mesh("nothing.msh", 2)),
                 (ValueError, "dim is 4", lambda: solid.read_mesh("nothing.msh", 4)),
                 (abut.BadInput, "radius", lambda: solid.disc(radius=-1.0))):
             with self.assertRaisesRegex(error, text):
                 call()
+
+
+    def test_every_part_is_made(self):
+        for mesh, measure, tolerance in ((solid.box((0, 0), (2, 1), 0.3), 2.0, 1e-12),
+                                         (solid.box((0, 0, 0), (2, 1, 1), 0.5), 2.0, 1e-12),
+                                         (solid.disc(size=0.1), np.pi, 0.01),
+                                         (solid.cylinder(length=0.5, size=0.2), 0.5 * np.pi, 0.03),
+                                         (solid.sphere(size=0.2), 4.0 / 3.0 * np.pi, 0.05)):
+            self.assertAlmostEqual(mesh.measures.sum() / measure, 1.0, delta=tolerance)
+            self.assertGreater(len(mesh.groups), 0)
 
 
 class Runs(unittest.TestCase):
@@ -100,7 +125,7 @@ class Runs(unittest.TestCase):
         p, nu = 1e-3, 0.3  # plane strain, E = 1
         stretch = p * np.array([1.0 - nu**2, -nu * (1.0 + nu)])
         memm = solid.memm(solid.structured_box(**ROD), [solid.Material()], [(0.0, 0.0)], rollers=["xmin", "ymin"],
-                          traction={"xmax": (p, 0.0)}, displacement=lambda x: stretch * x)
+                          traction={"xmax": (p, 0.0)}, displacement=lambda x: x * stretch)
         before = memm.displacement
         memm.step(200)
         np.testing.assert_allclose(memm.displacement, before, atol=1e-15)
@@ -163,6 +188,38 @@ class Runs(unittest.TestCase):
             solid.simulate(two_boxes(), **falling(), steps=1000, look=interrupts)
         self.assertLess(len(steps), 10)
 
+    def test_ctrl_c_ends_many_steps(self):
+        memm = solid.memm(two_boxes(), **falling())
+        timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            memm.step(10**9)
+        self.assertGreater(memm.steps, 0)
+
+    def test_a_run_in_use_is_left_alone(self):
+        memm = solid.memm(two_boxes(), **falling())
+        stepping = threading.Thread(target=memm.step, args=(200000,))
+        stepping.start()
+        refused = 0
+        while stepping.is_alive():
+            for call in (memm.step, memm.record, lambda: memm.displacement, lambda: memm.ledger):
+                try:
+                    call()
+                except abut.Misuse:
+                    refused += 1
+        self.assertGreater(refused, 0)
+        self.assertGreaterEqual(memm.steps, 200000)
+
+    def test_a_clamped_bar_sinks_by_its_weight_in_space(self):
+        # Uniaxial strain under a load of its own: sides on rollers, u = rho g / (2 M) (h^2 - (h - z)^2), M = lambda + 2 mu.
+        h, g, steps = 1.0, 1e-3, 1500
+        mesh = solid.structured_box((0, 0, 0), (0.5, 0.5, h), (3, 3, 6))
+        result = solid.simulate(mesh, [solid.Material(poisson=0.0)], [(0.0, 0.0, 0.0)], acceleration=[(0.0, 0.0, -g)],
+                                held={"zmin": (0.0, 0.0, 0.0)}, rollers=["xmin", "xmax", "ymin", "ymax"], energy_scale=1e-6,
+                                displacement=lambda x: [0.0, 0.0, -0.5 * g * (h**2 - (h - x[2])**2)], steps=steps)
+        exact = -0.5 * g * (h**2 - (h - mesh.centroids[:, 2])**2)
+        self.assertLess(np.abs(result["displacement"][:, 2] - exact).max(), 0.1 * 0.5 * g)  # it begins at its rest, and stays there
+
     def test_errors_carry_their_facts(self):
         mesh = two_boxes()
         with self.assertRaises(abut.BadInput) as raised:
@@ -178,8 +235,26 @@ class Runs(unittest.TestCase):
                 solid.simulate(mesh, **{**falling(), **options})
         with self.assertRaisesRegex(ValueError, r"velocity must have the shape \(n, 2\)"):
             solid.simulate(mesh, [solid.Material()] * 2, [1.0, 2.0])
-        with self.assertRaisesRegex(ValueError, "neither integrator nor out"):
-            solid.memm(mesh, **falling(), out="somewhere")
+        for name in ("out", "time", "steps", "threads", "integrator", "levels"):
+            with self.assertRaisesRegex(TypeError, f"memm takes no '{name}'"):
+                solid.memm(mesh, **falling(), **{name: 1})
+        with self.assertRaisesRegex(abut.BadInput, "restart: -5 steps"):
+            solid.memm(mesh, **falling(), restart=-5)
+        with self.assertRaisesRegex(abut.BadInput, "^time, dt: "):  # in the words of Python
+            solid.simulate(mesh, **falling())
+        with self.assertRaisesRegex(ValueError, "n is -1"):
+            solid.memm(mesh, **falling()).step(-1)
+        with self.assertRaisesRegex(ValueError, r"displacement\(x\) must be 2 numbers"):
+            solid.memm(mesh, **falling(), displacement=lambda x: 1.0)
+        overlapping = solid.combine([solid.disc(size=0.4, name="a"), solid.disc(size=0.4, variant=1, name="b")])
+        for run in (solid.memm, lambda *given: solid.simulate(*given, steps=3)):
+            with self.assertRaisesRegex(abut.BadInput, "overlap"):
+                run(overlapping, [solid.Material()] * 2, [(0.1, 0.0), (0.0, 0.0)])
+        lost = solid.memm(mesh, **falling(), cfl=1.5, allow_unstable=True, contact=False)
+        with self.assertRaisesRegex(abut.Diverged, "step [0-9]+, t = "):
+            for _ in range(100):
+                lost.step(100)
+                lost.record()
 
 
 if __name__ == "__main__":

@@ -199,7 +199,7 @@ TEST_CASE("faces of bodies that have become one, or rigid, press on each other n
     CHECK(has(refused({0}), "give one each"));
 }
 
-TEST_CASE("for a face that comes anew the run begins: it is in contact where its nodes are pressed in", "[contact][nodal]") {
+TEST_CASE("the run begins for a new face: it is in contact where its nodes are pressed in", "[contact][nodal]") {
     // The lower face erodes; two that lie in its place have a node between them, which was there before.
     TwoFaces faces;
     faces.scene.rest.push_back({0.5, 0.0});
@@ -267,7 +267,7 @@ TEST_CASE("forces on obstacles that a host has appended to its nodes are left ou
     CHECK(on->force.y() == Approx(-(own[5] + own[7])));
     CHECK(on->moment[0] == Approx(2.5 * on->force.y()));  // about the origin
     CHECK_THROWS_AS(step.add_force_to(std::span(guard)), BadInput);
-    CHECK(step.n_deformable_nodes == 4);
+    CHECK(step.least_force_size == 4);
     CHECK_THROWS_AS(step.add_force_to(std::span(own).first(6)), BadInput);  // a force would be lost
 }
 
