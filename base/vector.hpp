@@ -6,9 +6,9 @@
 
 // Containers of the standard library cross the border, and those of the debug mode are laid out in another way.
 #if defined(_GLIBCXX_DEBUG) && !defined(ABUT_HAS_DEBUG_CONTAINERS)
-#error "Abut was built without _GLIBCXX_DEBUG: std::vector has another size there. Build Abut with -DCMAKE_CXX_FLAGS=-D_GLIBCXX_DEBUG as well, or take _GLIBCXX_ASSERTIONS, or the C layer."
+#error "Abut was built without _GLIBCXX_DEBUG: build both with it, or the host with _GLIBCXX_ASSERTIONS."
 #elif defined(ABUT_HAS_DEBUG_CONTAINERS) && !defined(_GLIBCXX_DEBUG)
-#error "Abut was built with _GLIBCXX_DEBUG: std::vector has another size there. Build the host with -D_GLIBCXX_DEBUG as well."
+#error "Abut was built with _GLIBCXX_DEBUG: build the host with it as well."
 #endif
 
 namespace abut {
