@@ -54,6 +54,7 @@ program forces
     x_0 = x_1
   end do
   call abut_destroy(contact)
+  deallocate (corners, body, offsets, depth, x_0, x_1, f, pairs)  ! a main program keeps them, which a sanitizer takes for a leak
 
 contains
 
