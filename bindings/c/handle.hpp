@@ -8,6 +8,7 @@
 
 #include "abut/contact/nodal_contact.hpp"
 #include "guarded.hpp"
+#include "in_use.hpp"
 
 struct abut_contact {
     std::variant<abut::contact::NodalContact<2>, abut::contact::NodalContact<3>> contact;
@@ -32,28 +33,14 @@ namespace abut::c_layer {
 template <class Contact>
 constexpr int dimension_of = std::is_same_v<std::remove_cvref_t<Contact>, contact::NodalContact<2>> ? 2 : 3;
 
-/// A handle while a call has it to itself.
-class Use {
-public:
-    explicit Use(std::atomic_flag& in_use) : in_use_(in_use) {
-        if (in_use_.test_and_set(std::memory_order_acquire))
-            throw Misuse(
-                "this contact is in use: by a callback's own caller, or by another thread. Use one thread at a time, and "
-                "call nothing of it from its callbacks.");
-    }
-    ~Use() { in_use_.clear(std::memory_order_release); }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-
-private:
-    std::atomic_flag& in_use_;
-};
-
 /// Calls with the contact of the right dimension.
 template <class Handle, class Call>
 inline void with_contact(Handle* handle, const Call& call) {
     check_pointer(handle, "the handle `contact`");
-    const Use use(handle->in_use);
+    const abut::bindings::Use use(
+        handle->in_use,
+        "this contact is in use: by a callback's own caller, or by another thread. Use one thread at "
+        "a time, and call nothing of it from its callbacks.");
     std::visit([&](auto& contact) { call(contact); }, handle->contact);
 }
 

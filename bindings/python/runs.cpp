@@ -18,6 +18,7 @@
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "in_use.hpp"
 #include "scenes.hpp"
 
 namespace abut::python {
@@ -158,7 +159,9 @@ py::list motions_of(const std::vector<solid::BodyMotion<Dim>>& motions) {
 py::dict report_of(const contact::ContactReport& report) {
     return py::dict("candidates_max"_a = report.candidates_max, "active_pairs_max"_a = report.active_pairs_max,
                     "events"_a = report.events, "rebuilds"_a = report.rebuilds, "missed_contacts"_a = report.missed_contacts,
-                    "compressed_steps"_a = report.compressed_steps, "compression_max"_a = report.compression_max);
+                    "inadmissible_overlaps"_a = report.inadmissible_overlaps, "compressed_steps"_a = report.compressed_steps,
+                    "compression_max"_a = report.compression_max, "tilted_pairs_max"_a = report.tilted_pairs_max,
+                    "slipped_pairs"_a = report.slipped_pairs, "sliding_ratio_max"_a = report.sliding_ratio_max);
 }
 
 template <int Dim>
@@ -196,20 +199,7 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
         "seconds"_a = result->seconds.total);
 }
 
-/// An object while a call has it to itself: steps are taken without the interpreter's lock.
-class Use {
-public:
-    explicit Use(std::atomic_flag& in_use) : in_use_(in_use) {
-        if (in_use_.test_and_set(std::memory_order_acquire))
-            throw Misuse("this run takes steps in another thread. Use one thread at a time.");
-    }
-    ~Use() { in_use_.clear(std::memory_order_release); }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-
-private:
-    std::atomic_flag& in_use_;
-};
+constexpr const char* run_in_use = "this run takes steps in another thread. Use one thread at a time.";
 
 /// A solid under MEMM, taken step by step.
 template <int Dim>
@@ -236,7 +226,7 @@ public:
     /// Ctrl-C ends it between two steps.
     void step(std::int64_t n) {
         if (n < 0) throw py::value_error("step: n is " + std::to_string(n) + "; 0 and more are allowed");
-        const Use use(in_use_);
+        const bindings::Use use(in_use_, run_in_use);
         const py::gil_scoped_release release;
         auto asked = std::chrono::steady_clock::now();
         for (std::int64_t i = 0; i < n; ++i) {
@@ -249,34 +239,34 @@ public:
         }
     }
     void record() {
-        const Use use(in_use_);
+        const bindings::Use use(in_use_, run_in_use);
         ledger_.record(dynamics::measure(memm_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
         const auto& entry = ledger_.entries().back();
         if (!std::isfinite(entry.energy) || !std::isfinite(entry.pseudo_energy))
-            throw Diverged(at_this_step("the run has diverged: its energy is not finite. Take a shorter step."));
+            throw Diverged(at_step(memm_.steps(), "the run has diverged: its energy is not finite. Take a shorter step."));
     }
     [[nodiscard]] py::object ledger() const {
-        const Use use(in_use_);
+        const bindings::Use use(in_use_, run_in_use);
         return table_of(ledger_);
     }
     [[nodiscard]] double dt() const { return memm_.dt(); }
     [[nodiscard]] double stable_dt() const { return stable_dt_; }
     [[nodiscard]] py::array_t<double> masses() const { return copy_of(solid_.masses()); }
     [[nodiscard]] py::list bodies() const {
-        const Use use(in_use_);
+        const bindings::Use use(in_use_, run_in_use);
         return motions_of(solid::body_motions<Dim>(view(), solid_));
     }
     [[nodiscard]] py::dict contact() const {
-        const Use use(in_use_);
+        const bindings::Use use(in_use_, run_in_use);
         return report_of(solid_.contact_report());
     }
 
     /// The present state, while somebody looks at it.
     struct Held {
-        Use use;
+        bindings::Use use;
         dynamics::RunView<Dim> view;
         State<Dim> state;
-        explicit Held(Memm& run) : use(run.in_use_), view(run.memm_), state(view, run.solid_) {}
+        explicit Held(Memm& run) : use(run.in_use_, run_in_use), view(run.memm_), state(view, run.solid_) {}
         const State<Dim>* operator->() const { return &state; }
     };
 
@@ -290,13 +280,14 @@ private:
         try {
             memm_.step();
         } catch (const Error& error) {
-            throw_again(error, at_this_step(error.what()));
+            throw_again(error, at_step(memm_.steps() + 1, error.what()));
         }
     }
-    [[nodiscard]] std::string at_this_step(const char* what) const {
-        return "step " + std::to_string(memm_.steps()) + ", t = " + std::to_string(memm_.time()) + " s: " + what;
+    [[nodiscard]] std::string at_step(std::int64_t step, const char* what) const {
+        return "step " + std::to_string(step) + ", t = " + std::to_string(memm_.time()) + " s: " + what;
     }
     [[nodiscard]] dynamics::RunView<Dim> view() const { return memm_; }
+
     run::Scene<Dim> scene_;
     run::RunOptions options_;
     solid::Solid<Dim> solid_;

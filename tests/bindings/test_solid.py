@@ -153,7 +153,12 @@ class Runs(unittest.TestCase):
             self.assertEqual(len(rows), len(result["ledger"]))
             energy = next(name for name in rows[0] if name.startswith("pseudo_energy"))
             np.testing.assert_array_equal([float(row[energy]) for row in rows], result["ledger"]["pseudo_energy"])
-            self.assertEqual(len(list(pathlib.Path(folder).glob("bodies_0*.vtu"))), 3)
+            frames = sorted(pathlib.Path(folder).glob("bodies_0*.vtu"))
+            self.assertEqual(len(frames), 3)
+            for frame in frames:
+                np.testing.assert_allclose(solid.read_mesh(frame, 2).measures.sum(), two_boxes().measures.sum(), rtol=1e-12)
+            self.assertGreater((pathlib.Path(folder) / "summary.json").stat().st_size, 0)
+            self.assertEqual(result["contact"]["missed_contacts"] + result["contact"]["inadmissible_overlaps"], 0)
 
     def test_look_sees_each_step_and_may_end_the_run(self):
         seen, kept = [], []
