@@ -1,0 +1,70 @@
+#pragma once
+#include "abut/base/vector.hpp"
+
+namespace abut::solid {
+
+/// hat(a) b = a × b.
+template <int Dim>
+[[nodiscard]] Matrix<Dim> hat(const AxialVector<Dim>& a) {
+    Matrix<Dim> m;
+    if constexpr (Dim == 2)
+        m << 0.0, -a[0], a[0], 0.0;
+    else
+        m << 0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0;
+    return m;
+}
+
+/// Twice the axial vector of the skew part: for M = b a^T it is a × b.
+template <int Dim>
+[[nodiscard]] AxialVector<Dim> axial(const Matrix<Dim>& m) {
+    if constexpr (Dim == 2)
+        return AxialVector<2>(m(1, 0) - m(0, 1));
+    else
+        return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
+}
+
+/// The rotation Q for which Q^T B is symmetric and its trace largest; for B = F M with a positive M the nearest one to F.
+template <int Dim>
+[[nodiscard]] Matrix<Dim> nearest_rotation(const Matrix<Dim>& b);
+
+/// Where a body is that turns: the mass mean of its points x, and the rotation that fits best how they lie about it.
+/// docs/method.md, Bodies that turn.
+template <int Dim>
+struct BodyFrame {
+    Vector<Dim> centre = Vector<Dim>::Zero();      ///< mass mean of x [m]
+    Matrix<Dim> turn = Matrix<Dim>::Identity();    ///< Q = nearest_rotation(B)
+    Matrix<Dim> moment = Matrix<Dim>::Identity();  ///< B = sum m (x - centre) (X - mean of X)^T [kg m^2]
+
+    /// Of a point that lies at w in the frame.
+    [[nodiscard]] Vector<Dim> operator()(const Vector<Dim>& w) const { return centre + turn * w; }
+};
+
+/// The frame of a body on a straight step of its points: how gradients in the frame become gradients in space, so that the
+/// work of a step is exactly the change of energy, and neither momentum nor angular momentum about the mean positions
+/// appears. With the same frame at both ends it is the plain gradient. docs/method.md, Bodies that turn.
+template <int Dim>
+class FrameStep {
+public:
+    FrameStep() = default;
+    FrameStep(const BodyFrame<Dim>& start, const BodyFrame<Dim>& end);
+
+    /// Q_b, the mean of both rotations; not a rotation itself.
+    [[nodiscard]] const Matrix<Dim>& mean_turn() const { return mean_turn_; }
+    /// Q_p: forces on points of the body, in space, act in the frame by Q_p^T.
+    [[nodiscard]] const Matrix<Dim>& force_turn() const { return force_turn_; }
+    /// lambda: a moment T that is missing in space is made up by the gradient m Q_b (lambda × X') of each point [1/s^2].
+    [[nodiscard]] AxialVector<Dim> carry(const AxialVector<Dim>& missing_moment) const { return to_carry_ * missing_moment; }
+
+private:
+    using AxialMatrix = Eigen::Matrix<double, Dim*(Dim - 1) / 2, Dim*(Dim - 1) / 2, Eigen::DontAlign>;
+
+    Matrix<Dim> mean_turn_ = Matrix<Dim>::Identity();
+    Matrix<Dim> force_turn_ = Matrix<Dim>::Identity();
+    AxialMatrix to_carry_ = AxialMatrix::Zero();  // L^-T
+};
+
+/// The angle of a rotation [rad], 0 to pi.
+template <int Dim>
+[[nodiscard]] double rotation_angle(const Matrix<Dim>& turn);
+
+}  // namespace abut::solid
