@@ -47,6 +47,11 @@ public:
         check_size(x_0);
         check_size(x_1);
         if (!list_holds_at(x_0) || !list_holds_at(x_1)) search(x_0, x_1);
+        return step_listed(x_0, x_1, take);
+    }
+
+    const NodalStep<Dim>& step_listed(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
+        require_list();
         report_.inadmissible_overlaps = law_.apply(surface_, pairs_, store_.memory(), x_0, x_1, take, step_);
         count_step(report_, step_, options_.compression_warning);
         if (step_.report.compression > options_.compression_limit) refuse_depth();
@@ -57,11 +62,43 @@ public:
         check_size(x);
         if (list_holds_at(x) || !has_searched_) {
             if (!list_holds_) search(x, x);  // the run begins here
-            law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
-        } else {
-            evaluate_elsewhere(x);
+            return evaluate_listed(x);
         }
+        evaluate_elsewhere(x);
         return step_;
+    }
+
+    const NodalStep<Dim>& evaluate_listed(PointsView<Dim> x) {
+        require_list();
+        law_.evaluate(surface_, pairs_, store_.memory(), x, step_);
+        return step_;
+    }
+
+    [[nodiscard]] bool is_valid_for(double motion) const { return list_holds_ && candidates_.is_valid_for(motion); }
+
+    void search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
+        check_size(x_0);
+        check_size(x_1);
+        if (!std::exchange(list_holds_, false)) pairs_.assign(surface_, store_.pairs());
+        search_candidates(x_0, x_1);
+        found_.clear();
+        for (const auto& [facet_1, facet_2] : candidates_.candidates())
+            if (const FacePair pair{SurfaceFace{facet_1}, SurfaceFace{facet_2}}; is_wanted(pair)) found_.push_back(pair);
+        list_contacts(x_0);
+        found_.insert(found_.end(), in_contact_.begin(), in_contact_.end());
+        sort_unique(found_);
+
+        pairs_.assign(surface_, found_, in_contact_, x_0, x_1, 0.5 * candidates_.skin(), options_.compression_limit);
+        store_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(pairs_.pairs()[i], x_0)}; });
+        searched_at_.clear();
+        for (const std::int32_t node : surface_.nodes()) searched_at_.push_back(x_0[node]);
+        step_.nodes = pairs_.nodes();
+        clear_step(pairs_, step_);
+        new_facets_.clear();
+        list_holds_ = has_searched_ = true;
+        ++report_.rebuilds;
+        report_.candidates = static_cast<std::int64_t>(found_.size());
+        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
     }
 
     [[nodiscard]] const NodalStep<Dim>& last() const { return step_; }
@@ -105,6 +142,7 @@ public:
     [[nodiscard]] const NodalSurface<Dim>& surface() const { return surface_; }
     [[nodiscard]] const ContactReport& report() const { return report_; }
     [[nodiscard]] const CandidateReport& search_report() const { return candidates_.report(); }
+    [[nodiscard]] double skin() const { return candidates_.skin(); }
 
 private:
     static NodalOptions checked(NodalOptions options) {
@@ -145,29 +183,6 @@ private:
         })));
     }
 
-    void search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
-        if (!std::exchange(list_holds_, false)) pairs_.assign(surface_, store_.pairs());
-        search_candidates(x_0, x_1);
-        found_.clear();
-        for (const auto& [facet_1, facet_2] : candidates_.candidates())
-            if (const FacePair pair{SurfaceFace{facet_1}, SurfaceFace{facet_2}}; is_wanted(pair)) found_.push_back(pair);
-        list_contacts(x_0);
-        found_.insert(found_.end(), in_contact_.begin(), in_contact_.end());
-        sort_unique(found_);
-
-        pairs_.assign(surface_, found_, in_contact_, x_0, x_1, 0.5 * candidates_.skin(), options_.compression_limit);
-        store_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(pairs_.pairs()[i], x_0)}; });
-        searched_at_.clear();
-        for (const std::int32_t node : surface_.nodes()) searched_at_.push_back(x_0[node]);
-        step_.nodes = pairs_.nodes();
-        clear_step(pairs_, step_);
-        new_facets_.clear();
-        list_holds_ = has_searched_ = true;
-        ++report_.rebuilds;
-        report_.candidates = static_cast<std::int64_t>(found_.size());
-        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
-    }
-
     /// By a list of its own, of which nothing is left but its result: a pair that is out of reach at x must not lose what it
     /// remembers.
     void evaluate_elsewhere(PointsView<Dim> x) {
@@ -190,6 +205,13 @@ private:
             throw;
         }
         take_back();
+    }
+
+    void require_list() const {
+        if (!list_holds_)
+            throw Misuse(
+                "nodal contact: there is no candidate list: call `search` first, and again after an error, a "
+                "`restore` or a new surface.");
     }
 
     [[nodiscard]] bool is_wanted(const FacePair& pair) const {
@@ -301,6 +323,22 @@ const NodalStep<Dim>& NodalContact<Dim>::evaluate(PointsView<Dim> x) {
     return implementation_->evaluate(x);
 }
 template <int Dim>
+bool NodalContact<Dim>::is_valid_for(double motion) const {
+    return implementation_->is_valid_for(motion);
+}
+template <int Dim>
+void NodalContact<Dim>::search(PointsView<Dim> x_0, PointsView<Dim> x_1) {
+    implementation_->search(x_0, x_1);
+}
+template <int Dim>
+const NodalStep<Dim>& NodalContact<Dim>::step_listed(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
+    return implementation_->step_listed(x_0, x_1, take);
+}
+template <int Dim>
+const NodalStep<Dim>& NodalContact<Dim>::evaluate_listed(PointsView<Dim> x) {
+    return implementation_->evaluate_listed(x);
+}
+template <int Dim>
 const NodalStep<Dim>& NodalContact<Dim>::last() const {
     return implementation_->last();
 }
@@ -335,6 +373,11 @@ const ContactReport& NodalContact<Dim>::report() const {
 template <int Dim>
 const CandidateReport& NodalContact<Dim>::search_report() const {
     return implementation_->search_report();
+}
+
+template <int Dim>
+double NodalContact<Dim>::skin() const {
+    return implementation_->skin();
 }
 
 template class NodalContact<2>;

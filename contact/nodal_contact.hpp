@@ -71,6 +71,18 @@ public:
     /// TooDeep.
     const NodalStep<Dim>& evaluate(PointsView<Dim> x);
 
+    // What `step` and `evaluate` are made of, for a host to which a bound on the motion costs less than all its nodes.
+
+    /// Whether the candidate list is still a superset of all that can touch, when no node of a face is farther than `motion`
+    /// [m] from where the step began that was last searched for.
+    [[nodiscard]] bool is_valid_for(double motion) const;
+    /// Makes a new list for a step from x_0 to x_1; throws as `step`. The list holds for that step, however long it is.
+    void search(PointsView<Dim> x_0, PointsView<Dim> x_1);
+    /// As `step` and `evaluate` where the list holds, which is not asked: they read the nodes of the list alone, `last().nodes`.
+    /// Throw Misuse without a list.
+    const NodalStep<Dim>& step_listed(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
+    const NodalStep<Dim>& evaluate_listed(PointsView<Dim> x);
+
     /// The result of the last of these calls.
     [[nodiscard]] const NodalStep<Dim>& last() const;
 
@@ -99,6 +111,7 @@ public:
     [[nodiscard]] const NodalSurface<Dim>& surface() const;
     [[nodiscard]] const ContactReport& report() const;
     [[nodiscard]] const CandidateReport& search_report() const;
+    [[nodiscard]] double skin() const;  ///< of the current list [m]
 
 private:
     class Implementation;

@@ -35,6 +35,9 @@ public:
         if (faces.depth.size() != n)
             refuse("`depth` has " + std::to_string(faces.depth.size()) + " entries for " + std::to_string(n) +
                    " faces in `body`; give one each.");
+        if (!faces.face_stiffness.empty() && faces.face_stiffness.size() != n)
+            refuse("`face_stiffness` has " + std::to_string(faces.face_stiffness.size()) + " entries for " +
+                   std::to_string(n) + " faces in `body`; give one each, or none.");
         if (faces.offsets.empty() ? faces.nodes.size() != Dim * n : faces.offsets.size() != n + 1)
             refuse(faces.offsets.empty()
                        ? "`nodes` has " + std::to_string(faces.nodes.size()) + " entries, " + std::to_string(Dim * n) +
@@ -71,6 +74,18 @@ public:
             refuse_face(face, "belongs to body " + std::to_string(body) + ", but `stiffness` is given for " +
                                   std::to_string(faces_.stiffness.size()) + " bodies, counted from 0.");
         return body;
+    }
+
+    [[nodiscard]] double stiffness(std::int32_t face) const {
+        const double of_body = faces_.stiffness[body(face)];
+        if (of_body == rigid || faces_.face_stiffness.empty()) return of_body;
+        const double stiffness = faces_.face_stiffness[face];
+        if (!(stiffness > 0.0 && stiffness <= of_body))
+            refuse_face(face,
+                        "has the stiffness " + number(stiffness) + " Pa/m; it must be > 0 and at most that of its body, " +
+                            number(of_body) + " Pa/m.",
+                        {.value = stiffness, .allowed = of_body});
+        return stiffness;
     }
 
     [[nodiscard]] double depth(std::int32_t face) const {
@@ -164,7 +179,7 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
             append_facet(face, corners, facet);
             facets_.cell_depth.push_back(host.depth(face));
             facets_.body.push_back(host.body(face));
-            facets_.stiffness.push_back(stiffness(host.body(face)));
+            facets_.stiffness.push_back(host.stiffness(face));
         };
         if (corners.size() == Dim) append({0, 1, 2});
         if (corners.size() != Dim)

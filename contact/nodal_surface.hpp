@@ -24,6 +24,9 @@ struct NodalFaces {
     /// (n_bodies) k [Pa/m]: `skin_stiffness` of a deformable body, infinity of a rigid one. Contact is the spring of the
     /// half elements behind both faces in series, no penalty: a larger k costs time steps and gains nothing
     std::span<const double> stiffness;
+    /// (n_faces) k [Pa/m] of each face, for hosts whose faces give way by sigma/k each by itself, as cell-centred solids; that
+    /// of its body then bounds it. Empty: that of its body. Not read for rigid bodies
+    std::span<const double> face_stiffness = {};
 };
 
 /// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the given depths of its faces. A k for each face fails

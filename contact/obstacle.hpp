@@ -2,6 +2,7 @@
 #include <functional>
 #include <vector>
 
+#include "abut/contact/placement.hpp"
 #include "abut/contact/surface.hpp"
 
 namespace abut::contact {
@@ -11,6 +12,8 @@ template <int Dim>
 struct RigidObstacle {
     std::vector<std::vector<Vector<Dim>>> faces;   ///< corners of each face, outside as in Surface::append [m]
     std::function<Vector<Dim>(double time)> path;  ///< translation from rest at a time [m]; empty: it stands still
+    /// Where it is at a time, turns included, for the pair potential alone; then `path` is not used
+    std::function<Placement<Dim>(double time)> placement = {};
 };
 
 /// A square (3D) or segment (2D) of a plane, half_width in every direction about `point`, facing along `normal`.

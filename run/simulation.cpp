@@ -135,7 +135,7 @@ public:
         }
         result_.end = solid::body_motions<Dim>(integrator_, solid_);
         result_.contact = solid_.contact_report();
-        if (solid_.contact()) result_.skin = solid_.contact()->skin();
+        result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();
         result_.times = difference(solid_.times(), times_of_setup_);
         if (scene_.findings) result_.findings = scene_.findings(result_);

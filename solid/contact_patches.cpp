@@ -16,7 +16,7 @@ class PatchFinder {
 public:
     PatchFinder(const Ccg<Dim>& ccg, std::span<const TouchingFaces<Dim>> touching)
         : ccg_(ccg), touching_(touching), cells_(cells_of_faces()), sets_(cells_.size()), patch_of_root_(cells_.size(), -1) {
-        for (const auto& [face_1, face_2, normal] : touching_) {
+        for (const auto& [face_1, face_2, at, normal] : touching_) {
             join_cells_of(face_1);
             join_cells_of(face_2);
             if (face_1 != no_face && face_2 != no_face) sets_.join(position(face_1), position(face_2));
@@ -29,11 +29,9 @@ public:
             patch.points.push_back(cells_[i]);
             for (const BoundaryFace face : ccg_.prescribed_faces_of(cells_[i])) append_holds(patch, face);
         }
-        for (const auto& [face_1, face_2, normal] : touching_)
-            if (face_1 == no_face || face_2 == no_face) {
-                const BoundaryFace face = std::max(face_1, face_2);
-                patch_of(position(face)).holds.push_back({ccg_.centroid(face), normal});
-            }
+        for (const auto& [face_1, face_2, at, normal] : touching_)
+            if (face_1 == no_face || face_2 == no_face)
+                patch_of(position(std::max(face_1, face_2))).holds.push_back({at, normal});
         return std::move(patches_);
     }
 
@@ -48,7 +46,7 @@ private:
 
     std::vector<std::int32_t> cells_of_faces() const {
         std::vector<std::int32_t> cells;
-        for (const auto& [face_1, face_2, normal] : touching_)
+        for (const auto& [face_1, face_2, at, normal] : touching_)
             for (const BoundaryFace face : {face_1, face_2}) {
                 if (face == no_face) continue;
                 const auto of_face = ccg_.cells_of(face);

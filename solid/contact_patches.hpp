@@ -14,12 +14,12 @@ template <int Dim>
 struct TouchingFaces {
     BoundaryFace face_1;
     BoundaryFace face_2;
-    Vector<Dim> normal;  ///< of the pair
+    Vector<Dim> position;  ///< where an obstacle holds its partner (dynamics::Hold) [m]; of two bodies not used
+    Vector<Dim> normal;    ///< along which it does
 };
 
 /// The cells whose displacement enters these faces, sorted into patches: the cells of one face are in one patch, and so are
-/// the two faces of a pair. In the order of their first cells. Obstacles hold a patch along the normal of the pair, at the
-/// centroid of the face; prescribed faces of its cells in the directions that are prescribed.
+/// the two faces of a pair. In the order of their first cells. Obstacles hold a patch where they touch it; prescribed faces of its cells in the directions that are prescribed.
 template <int Dim>
 [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches(const Ccg<Dim>& ccg,
                                                                        std::span<const TouchingFaces<Dim>> touching);

@@ -43,6 +43,23 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
 }
 
 template <int Dim>
+double MotionBound<Dim>::tilt_amplification(BoundaryFace face) const {
+    const std::int32_t cell = arrays_.cell_of(face);
+    double sum = 0.0;
+    for (const HalfFace& half_face : arrays_.half_faces_of(cell)) {
+        double moved = 0.0;  // |du_f - du_c|
+        if (const BoundaryFace b = arrays_.boundary_index[half_face.face]; b != no_face) {
+            moved = 1.0 + kept_[number_of(b)] + 2.0 * norm_sum_[number_of(b)];
+        } else {
+            for (const double weight : arrays_.stencils[half_face.face].weights) moved += 2.0 * std::abs(weight);
+            if (half_face.first != cell) moved += 2.0;
+        }
+        sum += moved * Eigen::Map<const Vector<Dim>>(arrays_.faces[half_face.face].area_vector.data()).norm();
+    }
+    return (1.0 + rounding) * sum * arrays_.cells[cell].inverse_measure;
+}
+
+template <int Dim>
 double MotionBound<Dim>::of_face(BoundaryFace face) const {
     const std::int32_t b = number_of(face);
     const Lanes<Dim> own = load_packed<Dim>(moved_, own_[b]);

@@ -30,6 +30,9 @@ public:
     /// |1 - D| + 2 sum_j |W_j|, j other cells than c [-]. The bound is a seminorm of du.
     [[nodiscard]] double amplification() const { return amplification_; }
 
+    /// |dG_c| of the cell behind the face, over the motion of the cell that moves farthest, at most [1/m].
+    [[nodiscard]] double tilt_amplification(BoundaryFace face) const;
+
 private:
     [[nodiscard]] double of_face(BoundaryFace face) const;
 

@@ -8,6 +8,11 @@
 #include "abut/base/parallel.hpp"
 
 namespace abut::solid {
+namespace {
+
+constexpr double most_deformed = 1e-9;  // of a rotation
+
+}  // namespace
 
 template <int Dim>
 Obstacles<Dim>::Obstacles(std::span<const contact::RigidObstacle<Dim>> obstacles)
@@ -15,7 +20,26 @@ Obstacles<Dim>::Obstacles(std::span<const contact::RigidObstacle<Dim>> obstacles
 
 template <int Dim>
 bool Obstacles<Dim>::move() const {
-    return std::ranges::any_of(obstacles_, [](const auto& obstacle) { return bool(obstacle.path); });
+    return std::ranges::any_of(obstacles_, [](const auto& obstacle) { return obstacle.path || obstacle.placement; });
+}
+
+template <int Dim>
+bool Obstacles<Dim>::turn() const {
+    return std::ranges::any_of(obstacles_, [](const auto& obstacle) { return bool(obstacle.placement); });
+}
+
+template <int Dim>
+contact::Placement<Dim> Obstacles<Dim>::placement(std::size_t obstacle, double time) const {
+    const auto& path = obstacles_[obstacle].placement;
+    if (!path) return {.offset = displacement(obstacle, time)};
+    const contact::Placement<Dim> placement = path(time);
+    const double off = (placement.turn.transpose() * placement.turn - Matrix<Dim>::Identity()).norm();
+    if (!placement.offset.allFinite() || !(off <= most_deformed) || placement.turn.determinant() < 0.0)
+        throw BadInput("obstacle " + std::to_string(obstacle) + ": its placement at t = " + number(time) +
+                           " s is not finite, or its turn is no rotation: turn^T turn differs from 1 by " + number(off) +
+                           ", " + number(most_deformed) + " is allowed. Correct RigidObstacle::placement.",
+                       {.value = off, .allowed = most_deformed});
+    return placement;
 }
 
 template <int Dim>
@@ -32,8 +56,15 @@ Vector<Dim> Obstacles<Dim>::displacement(std::size_t obstacle, double time) cons
 template <int Dim>
 double Obstacles<Dim>::motion(double from, double to) const {
     double motion = 0.0;
-    for (std::size_t i = 0; i < obstacles_.size(); ++i)
-        motion = larger(motion, (displacement(i, to) - displacement(i, from)).norm());
+    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+        if (!obstacles_[i].placement) {
+            motion = larger(motion, (displacement(i, to) - displacement(i, from)).norm());
+            continue;
+        }
+        const contact::Placement<Dim> a = placement(i, from), b = placement(i, to);
+        for (const auto& corners : obstacles_[i].faces)
+            for (const Vector<Dim>& corner : corners) motion = larger(motion, (b(corner) - a(corner)).norm());
+    }
     return motion;
 }
 

@@ -15,11 +15,17 @@ public:
     /// They must outlive this.
     explicit Obstacles(std::span<const contact::RigidObstacle<Dim>> obstacles);
 
+    [[nodiscard]] std::size_t size() const { return obstacles_.size(); }
+    [[nodiscard]] const contact::RigidObstacle<Dim>& operator[](std::size_t obstacle) const { return obstacles_[obstacle]; }
     /// Whether one of them has a path.
     [[nodiscard]] bool move() const;
+    /// Whether one of them has a path on which it may turn.
+    [[nodiscard]] bool turn() const;
+    /// Throws BadInput where a path gives one that is not finite, or no rotation.
+    [[nodiscard]] contact::Placement<Dim> placement(std::size_t obstacle, double time) const;
     /// From rest [m]. Throws BadInput where a path gives one that is not finite.
     [[nodiscard]] Vector<Dim> displacement(std::size_t obstacle, double time) const;
-    /// How far the one that moves most is at `to` from where it was at `from` [m].
+    /// How far a corner of the one that moves most is at `to` from where it was at `from`, at most [m].
     [[nodiscard]] double motion(double from, double to) const;
 
     /// Appends their faces to a surface; they are its bodies from `first_body` on.

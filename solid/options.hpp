@@ -5,7 +5,9 @@
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/contact/options.hpp"
+#include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material.hpp"
 
 namespace abut::solid {
@@ -13,12 +15,15 @@ namespace abut::solid {
 /// What a scene holds beside its mesh.
 template <int Dim>
 struct SolidOptions {
-    std::vector<Material> materials;  ///< one per body
+    std::vector<Material> materials;     ///< one per body
+    std::vector<Kinematics> kinematics;  ///< one per body; empty: all `small`
     BoundaryConditions<Dim> boundary;
     std::vector<Vector<Dim>> acceleration;  ///< of gravity, one per body [m/s^2]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)>
-        body_load;                                       ///< force density [N/m^3], constant in time; empty: none
-    std::optional<contact::ContactOptions> contact;      ///< empty: bodies pass through each other, at no cost
+        body_load;                                   ///< force density [N/m^3], constant in time; empty: none
+    std::optional<contact::ContactOptions> contact;  ///< empty: bodies pass through each other, at no cost
+    ContactLaw law = ContactLaw::automatic;
+    geometry::FacingFade facing;                         ///< of `pair_potential` (contact::NodalOptions)
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "abut/contact/contact.hpp"
+#include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
@@ -17,6 +18,8 @@
 namespace abut::solid {
 
 template <int Dim>
+class BodyFrames;
+template <int Dim>
 class BodyRotation;
 template <int Dim>
 class ContactDriver;
@@ -24,6 +27,8 @@ template <int Dim>
 class Loads;
 template <int Dim>
 class LocalLevels;
+template <int Dim>
+class ReconstructionDriver;
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
 /// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
@@ -48,8 +53,9 @@ public:
     [[nodiscard]] std::span<const double> masses() const { return masses_.of_cells; }  ///< of the cells (n_cells) [kg]
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return mesh_.cell_centroid; }  ///< of the cells [m]
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return mesh_.cell_body; }     ///< (n_cells)
-    /// Strains are linear: what turns freely keeps its angular momentum about the positions at rest.
-    [[nodiscard]] dynamics::MomentArms moment_arms() const { return dynamics::MomentArms::rest; }
+    /// Where no body turns strains are linear, and what is free keeps its angular momentum about the positions at rest; bodies
+    /// with a frame of their own keep J~.
+    [[nodiscard]] dynamics::MomentArms moment_arms() const;
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells. docs/method.md, Space.
     [[nodiscard]] double step_margin() const { return contact_ ? 0.85 : 1.0; }
 
@@ -110,7 +116,10 @@ public:
     /// Figures of contact since the start; all zero without contact.
     [[nodiscard]] contact::ContactReport contact_report() const;
     [[nodiscard]] dynamics::ContactCounts contact_counts() const;  ///< what of it the ledger records
-    [[nodiscard]] const contact::Contact<Dim>* contact() const;    ///< null without contact
+    /// Null without contact, and under another law.
+    [[nodiscard]] const contact::Contact<Dim>* contact() const;
+    [[nodiscard]] const contact::NodalContact<Dim>* nodal_contact() const;
+    [[nodiscard]] double skin() const;  ///< of the last candidate list; 0 without contact [m]
     /// Boundary faces that take no part in contact, since their displacement is prescribed; 0 without contact.
     [[nodiscard]] std::int64_t contact_faces_left_out() const;
     /// Corners that are too sharp for contact to see them coming, their positions at rest [m]; empty without contact.
@@ -119,9 +128,11 @@ public:
     /// Edges of two bodies that would cross unseen; nothing without contact. contact/unseen_edges.hpp.
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }
-    /// How far each body has turned in q (n_bodies) [rad]: the angle of the nearest rotation. Strains are linear: a body
-    /// that turns grows by 1/cos of it, without a force against that. docs/limits.md.
+    /// How far each body has turned in q (n_bodies) [rad], 0 to pi: the angle of the nearest rotation. One of
+    /// Kinematics::small grows by 1/cos of it, without a force against that. docs/limits.md.
     [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
+    /// sigma of a cell in space [Pa], of the state that was evaluated last.
+    [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
 private:
     struct Masses {
@@ -132,6 +143,9 @@ private:
     void require_start(double time, double dt) const;
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
+    [[nodiscard]] std::span<const Vector<Dim>> in_frames(std::span<const Vector<Dim>> q,
+                                                         std::span<const std::int32_t> cells);
+    void to_space(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
     void add_work(double share);
     void end_step(double time);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
@@ -143,14 +157,17 @@ private:
     Ccg<Dim> ccg_;
     Masses masses_;
     std::unique_ptr<BodyRotation<Dim>> rotation_;
+    std::unique_ptr<BodyFrames<Dim>> frames_;
     SolidTimes times_;
     std::int64_t evaluations_ = 0;
     double work_ = 0.0;
     double time_ = 0.0;  // of the state that the last step ended in
     std::unique_ptr<Loads<Dim>> loads_;
-    std::unique_ptr<ContactDriver<Dim>> contact_;  // null without contact
-    std::unique_ptr<LocalLevels<Dim>> levels_;     // null without local steps
-    std::vector<Vector<Dim>> midpoint_;
+    std::unique_ptr<ContactDriver<Dim>> contact_;          // null without contact
+    ReconstructionDriver<Dim>* reconstruction_ = nullptr;  // the same, under that law
+    std::unique_ptr<LocalLevels<Dim>> levels_;             // null without local steps
+    std::vector<Vector<Dim>> midpoint_;                    // in the frames of the bodies
+    std::vector<std::int32_t> all_cells_;
     Region<Dim> patch_region_;  // of the cells that `end_force_on` was asked for last
 };
 

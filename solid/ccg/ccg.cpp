@@ -193,6 +193,18 @@ void Ccg<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<
 }
 
 template <int Dim>
+Region<Dim> Ccg<Dim>::region_of_tilted_faces(std::span<const BoundaryFace> faces) const {
+    return solid::region_of_tilted_faces(impl_->arrays, faces);
+}
+
+template <int Dim>
+void Ccg<Dim>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                     const BoundaryLoad<Dim>& load, std::span<Vector<Dim>> displacement,
+                                     std::span<Matrix<Dim>> displacement_gradient) {
+    impl_->sweeps.evaluate_tilted_faces(region, u, load, displacement, displacement_gradient);
+}
+
+template <int Dim>
 void Ccg<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     impl_->sweeps.evaluate_cells(region, u, load, corrections, result);
@@ -212,6 +224,11 @@ double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const Boundar
 template <int Dim>
 double Ccg<Dim>::motion_amplification() const {
     return impl_->motion_bound.amplification();
+}
+
+template <int Dim>
+double Ccg<Dim>::tilt_amplification(BoundaryFace face) const {
+    return impl_->motion_bound.tilt_amplification(face);
 }
 
 template <int Dim>

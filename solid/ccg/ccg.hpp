@@ -22,8 +22,9 @@ struct BoundaryLoad {
 template <int Dim>
 struct FaceCorrections {
     std::span<const BoundaryFace> faces;           ///< boundary faces, increasing (n)
-    std::span<const Vector<Dim>> displacement;     ///< delta_f (n) [m]
+    std::span<const Vector<Dim>> displacement;     ///< delta_f (n) [m]; may be empty
     std::span<const Vector<Dim>> energy_gradient;  ///< dV/dû_f of the pairs (n) [N]; may be empty
+    std::span<const Matrix<Dim>> moment = {};      ///< dV/dG_c of the pairs, c behind the face (n) [N m]; may be empty
 };
 
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
@@ -100,6 +101,11 @@ public:
     /// face g that answers.
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
+    /// What `evaluate_tilted_faces` needs for these boundary faces: less than `evaluate_faces`.
+    [[nodiscard]] Region<Dim> region_of_tilted_faces(std::span<const BoundaryFace> faces) const;
+    /// û [m] of the region's faces (region.faces), and the displacement gradient G_c of the cells behind them [-].
+    void evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                               std::span<Vector<Dim>> displacement, std::span<Matrix<Dim>> displacement_gradient);
     /// dV/du_c of the region's cells, as `gradient` gives it (region.cells) [N].
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
@@ -112,6 +118,8 @@ public:
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
     /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
+    /// The same of |G_c| of the cell behind a boundary face [1/m].
+    [[nodiscard]] double tilt_amplification(BoundaryFace face) const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells`
     /// since then have set those of their region.

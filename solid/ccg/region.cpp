@@ -12,26 +12,27 @@ Vector<Dim> vector(const std::array<double, Dim>& a) {
     return Eigen::Map<const Vector<Dim>>(a.data());
 }
 
-/// From the cells whose stress is wanted back to everything it depends on.
 template <int Dim>
-void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
-    const auto faces_of = [&](const std::vector<std::int32_t>& cells) {
-        std::vector<std::int32_t> faces;
-        for (const std::int32_t c : cells)
-            for (const HalfFace& half_face : arrays.half_faces_of(c)) faces.push_back(half_face.face);
-        sort_unique(faces);
-        return faces;
-    };
-    const auto append_face_cells = [&](std::vector<std::int32_t>& cells, std::int32_t f) {
-        cells.insert(cells.end(), arrays.face_cells[f].begin(), arrays.face_cells[f].end());
-    };
-    sort_unique(region.stress_cells);
-    region.displacement_gradient_cells = region.stress_cells;
-    for (const std::int32_t f : faces_of(region.stress_cells)) append_face_cells(region.displacement_gradient_cells, f);
+std::vector<std::int32_t> faces_of(const CcgArrays<Dim>& arrays, const std::vector<std::int32_t>& cells) {
+    std::vector<std::int32_t> faces;
+    for (const std::int32_t c : cells)
+        for (const HalfFace& half_face : arrays.half_faces_of(c)) faces.push_back(half_face.face);
+    sort_unique(faces);
+    return faces;
+}
+
+template <int Dim>
+void append_face_cells(const CcgArrays<Dim>& arrays, std::int32_t f, std::vector<std::int32_t>& cells) {
+    cells.insert(cells.end(), arrays.face_cells[f].begin(), arrays.face_cells[f].end());
+}
+
+/// From the cells whose displacement gradient is wanted back to everything it depends on.
+template <int Dim>
+void complete_gradients(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     sort_unique(region.displacement_gradient_cells);
     region.input_cells = region.displacement_gradient_cells;
-    for (const std::int32_t f : faces_of(region.displacement_gradient_cells)) {
-        append_face_cells(region.input_cells, f);
+    for (const std::int32_t f : faces_of(arrays, region.displacement_gradient_cells)) {
+        append_face_cells(arrays, f, region.input_cells);
         if (const BoundaryFace b = arrays.boundary_index[f]; b != no_face) {
             const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
             region.reconstructed_boundary.push_back(b);
@@ -44,6 +45,16 @@ void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
         }
     }
     sort_unique(region.input_cells);
+}
+
+/// From the cells whose stress is wanted.
+template <int Dim>
+void complete(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
+    sort_unique(region.stress_cells);
+    region.displacement_gradient_cells = region.stress_cells;
+    for (const std::int32_t f : faces_of(arrays, region.stress_cells))
+        append_face_cells(arrays, f, region.displacement_gradient_cells);
+    complete_gradients(arrays, region);
 }
 
 /// All boundary faces that share an energy term with b, itself included, increasing.
@@ -121,6 +132,15 @@ Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const Bounda
 }
 
 template <int Dim>
+Region<Dim> region_of_tilted_faces(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces) {
+    Region<Dim> region;
+    region.faces.assign(faces.begin(), faces.end());
+    for (const BoundaryFace b : faces) region.displacement_gradient_cells.push_back(arrays.cell_of(b));
+    complete_gradients(arrays, region);
+    return region;
+}
+
+template <int Dim>
 Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> cells) {
     const auto append_rows = [](auto& rows, const auto& occurrences, std::int32_t i) {
         rows.insert(rows.end(), occurrences.rows.begin() + occurrences.offsets[i],
@@ -160,6 +180,8 @@ contact::FaceCoupling<Dim> face_coupling(const CcgArrays<Dim>& arrays, std::span
 
 template Region<2> region_of_faces(const CcgArrays<2>&, std::span<const BoundaryFace>);
 template Region<3> region_of_faces(const CcgArrays<3>&, std::span<const BoundaryFace>);
+template Region<2> region_of_tilted_faces(const CcgArrays<2>&, std::span<const BoundaryFace>);
+template Region<3> region_of_tilted_faces(const CcgArrays<3>&, std::span<const BoundaryFace>);
 template Region<2> region_of_cells(const CcgArrays<2>&, std::span<const std::int32_t>);
 template Region<3> region_of_cells(const CcgArrays<3>&, std::span<const std::int32_t>);
 template contact::FaceCoupling<2> face_coupling(const CcgArrays<2>&, std::span<const BoundaryFace>);

@@ -12,6 +12,8 @@ namespace abut::solid {
 template <int Dim>
 [[nodiscard]] Region<Dim> region_of_faces(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces);
 template <int Dim>
+[[nodiscard]] Region<Dim> region_of_tilted_faces(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces);
+template <int Dim>
 [[nodiscard]] Region<Dim> region_of_cells(const CcgArrays<Dim>& arrays, std::span<const std::int32_t> cells);
 
 /// How face gradients answer to face displacements: Q_ff' among these boundary faces. docs/method.md, Time.

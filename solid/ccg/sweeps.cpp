@@ -170,6 +170,7 @@ void CcgSweeps<Dim>::displacement_gradients_of_chunk(std::int32_t k) {
 template <int Dim>
 void CcgSweeps<Dim>::stresses_of_chunk(std::int32_t k) {
     for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_stress(c);
+    moments_.add_to(s_, chunks_[k].cell, chunks_[k + 1].cell);
 }
 
 template <int Dim>
@@ -193,8 +194,12 @@ class CcgSweeps<Dim>::PlacedCorrections {
 public:
     PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
         : sweeps_(sweeps), corrections_(corrections) {
+        sweeps.moments_.assign(sweeps.arrays_, corrections);
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
             const std::int32_t b = number_of(corrections.faces[i]);
+            if (!corrections.energy_gradient.empty())
+                store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, b);
+            if (corrections.displacement.empty()) continue;
             const Vector<Dim>& correction = corrections.displacement[i];
             store(load_packed<Dim>(sweeps.correction_, b) + load_packed<Dim>(correction), sweeps.correction_, b);
             sweeps.arrays_.boundary.for_each_answer(corrections.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
@@ -202,11 +207,10 @@ public:
                           load_packed<Dim>(Vector<Dim>(answer * correction)),
                       sweeps.correction_, number_of(face));
             });
-            if (!corrections.energy_gradient.empty())
-                store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, b);
         }
     }
     ~PlacedCorrections() {
+        sweeps_.moments_.clear();
         for (const BoundaryFace face : corrections_.faces) {
             store(Lanes<Dim>{}, sweeps_.correction_, number_of(face));
             store(Lanes<Dim>{}, sweeps_.pair_gradient_, number_of(face));
@@ -283,21 +287,32 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
 // A part of the mesh -------------------------------------------------------------------------------------------------
 
 template <int Dim>
-void CcgSweeps<Dim>::evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
-                                        const BoundaryLoad<Dim>& boundary_load) {
+void CcgSweeps<Dim>::evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                                        const BoundaryLoad<Dim>& boundary_load) {
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
     for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
     for_all(region.reconstructed_boundary,
             [&](BoundaryFace b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b)); });
     for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_displacement_gradient(c); });
-    for_all(region.stress_cells, [&](std::int32_t c) { set_stress(c); });
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                           const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
+                                           std::span<Matrix<Dim>> gradient) {
+    evaluate_to_displacement_gradients(region, u, boundary_load);
+    for (std::size_t i = 0; i < region.faces.size(); ++i) {
+        displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
+        gradient[i] = displacement_gradient(arrays_.cell_of(region.faces[i]));
+    }
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                     const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
                                     std::span<Vector<Dim>> gradient) {
-    evaluate_to_stress(region, u, boundary_load);
+    evaluate_to_displacement_gradients(region, u, boundary_load);
+    for_all(region.stress_cells, [&](std::int32_t c) { set_stress(c); });
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
         gradient[i] = unload<Dim>(boundary_gradient(region.faces[i], boundary_load));
@@ -336,7 +351,10 @@ void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t
             return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell,
                         [&](std::int32_t c) { set_displacement_gradient(c); });
         case stresses:
-            return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) { set_stress(c); });
+            return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) {
+                set_stress(c);
+                moments_.add_to(s_, c, c + 1);
+            });
         case face_gradients:
             each(region.energy_gradient_faces, &Offsets::energy_gradient_face,
                  [&](std::int32_t f) { store(interior_gradient(f), y_, f); });

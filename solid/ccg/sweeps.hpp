@@ -7,6 +7,7 @@
 
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/ccg/cell_moments.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
 
 namespace abut::solid {
@@ -39,6 +40,8 @@ public:
     void divide_into_chunks(Region<Dim>& region) const;
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient);
+    void evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                               std::span<Vector<Dim>> displacement, std::span<Matrix<Dim>> displacement_gradient);
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
@@ -86,8 +89,8 @@ private:
     // A part of the mesh
     void run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
                   std::span<Vector<Dim>> result);
-    void evaluate_to_stress(const Region<Dim>& region, std::span<const Vector<Dim>> u,
-                            const BoundaryLoad<Dim>& boundary_load);
+    void evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                            const BoundaryLoad<Dim>& boundary_load);
 
     const CcgArrays<Dim>& arrays_;
     // Work arrays of registers.
@@ -100,6 +103,7 @@ private:
     std::vector<double> y_;              // dV/dũ_f, by face
     std::vector<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
     std::vector<double> pair_gradient_;  // by boundary face; zero but during a call
+    CellMoments<Dim> moments_;           // empty but during a call
     std::vector<Chunk> chunks_;          // one more at the end
     SweepSchedule<n_stages> schedule_;
 };

@@ -9,56 +9,81 @@
 
 namespace abut::solid {
 
-/// Gradients p = dV/dx of some points of a body that do not belong to its system, as corners of faces, summed up.
+/// Gradients p = dV/dx of points of a body that move with the points of its system, as corners of faces do, summed up.
 template <int Dim>
 struct BodyPush {
     Vector<Dim> gradient = Vector<Dim>::Zero();  ///< sum of p [N]
     Matrix<Dim> moment = Matrix<Dim>::Zero();    ///< sum of p (x - centre)^T, the arms being means of both ends [N m]
+
+    void add(const Vector<Dim>& p, const Vector<Dim>& mean_arm) {
+        gradient += p;
+        moment += p * mean_arm.transpose();
+    }
 };
 
-/// The frames of all bodies of a system of points, and the way of displacements into them and of gradients out of them.
-/// Bodies whose frame does not move keep the displacements and gradients that they have. Every sum runs in a fixed order.
+/// The frames of all bodies of a system of points along a step or in one state, and the way of displacements into them and of
+/// gradients out of them. Bodies whose frame does not move keep the displacements and gradients that they have. Every sum
+/// runs in a fixed order.
 ///
 ///     x' = x - centre,  X' = X - mean of X,  u = Q^T x' - X'
 template <int Dim>
 class BodyFrames {
 public:
-    using Frames = std::vector<BodyFrame<Dim>>;  ///< by body
-
     /// Points of body b are [begin[b], begin[b + 1]); `turns`: whether its frame moves. Arrays of points must outlive this.
     /// Throws BadInput for a body that turns in space while its points lie on a line, or in a point.
     BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
                std::vector<bool> turns, std::span<const std::string> names);
 
     [[nodiscard]] std::size_t n_bodies() const { return turns_.size(); }
+    [[nodiscard]] bool any_turns() const { return any_turns_; }
     [[nodiscard]] bool turns(std::size_t body) const { return turns_[body]; }
     /// Mass mean of X [m].
     [[nodiscard]] const Vector<Dim>& rest_centre(std::size_t body) const { return rest_[body].centre; }
 
-    /// For displacements q (n_points) [m].
-    void place(std::span<const Vector<Dim>> q, Frames& frames) const;
-    /// u (n_points) [m].
-    void displacement(std::span<const Vector<Dim>> q, const Frames& frames, std::span<Vector<Dim>> u) const;
-    /// The mean of u at both ends of a step. No point moves farther in its frame than what is returned [m]; NaN if one does
-    /// not move by a number.
-    double take_midpoints(std::span<const Vector<Dim>> q_0, const Frames& frames_0, std::span<const Vector<Dim>> q_1,
-                          const Frames& frames_1, std::span<Vector<Dim>> middle) const;
+    // Where the bodies are: each replaces what the other has set.
 
-    /// dV/dx of the step, from dV/du (both n_points, in one array) and the pushes on each body [N]. Remembers what makes up
-    /// for missing moments.
-    void to_space(std::span<const Vector<Dim>> q_0, const Frames& frames_0, std::span<const Vector<Dim>> q_1,
-                  const Frames& frames_1, std::span<const BodyPush<Dim>> pushes, std::span<Vector<Dim>> gradient);
-    /// The same of one point, in one state, with what the last `to_space` remembers: but for terms of the order of a step.
-    [[nodiscard]] Vector<Dim> point_to_space(std::int32_t point, const Frames& frames, const Vector<Dim>& gradient) const;
+    /// Along a step from q_0 to q_1 (n_points) [m]; where one has ended before, it is taken that this one begins there.
+    void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
+    /// The next step begins where this one ends.
+    void end_step() { has_stepped_ = true; }
+    /// In one state, which is both ends.
+    void stand_at(std::span<const Vector<Dim>> q);
+    /// In that at an end of the last `follow`.
+    void stand_at_start() { stand_in(start_); }
+    void stand_at_end() { stand_in(end_); }
+    [[nodiscard]] std::span<const BodyFrame<Dim>> start() const { return is_standing_ ? state_ : start_; }
+    [[nodiscard]] std::span<const BodyFrame<Dim>> end() const { return is_standing_ ? state_ : end_; }
+    [[nodiscard]] const FrameStep<Dim>& step(std::size_t body) const { return steps_[body]; }
+
+    // There
+
+    /// u in some frames, as `start` or `end`, of some points; `u` has place for all (n_points) [m].
+    void displacement(std::span<const std::int32_t> points, std::span<const Vector<Dim>> q,
+                      std::span<const BodyFrame<Dim>> frames, std::span<Vector<Dim>> u) const;
+    /// The mean of u at both ends (n_points) [m]. No point moves farther in its frame than what is returned [m]; NaN if one
+    /// does not move by a number.
+    double take_midpoints(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
+                          std::span<Vector<Dim>> middle) const;
+    /// dV/dx, from dV/du (both n_points, in one array) and the pushes on each body [N]; without pushes: none. Remembers what
+    /// makes up for missing moments.
+    void to_space(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<const BodyPush<Dim>> pushes,
+                  std::span<Vector<Dim>> gradient);
+    /// The same of one point in one state, with what the last `to_space` remembers: but for terms of the order of a step.
+    [[nodiscard]] Vector<Dim> point_to_space(std::int32_t point, const Vector<Dim>& gradient) const;
+    /// How far a body has turned [rad], 0 to pi; of one whose frame does not move 0.
+    [[nodiscard]] double rotation(std::size_t body) const { return rotation_angle<Dim>(end()[body].turn); }
 
 private:
+    void place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const;
+    void stand_in(const std::vector<BodyFrame<Dim>>& frames);
+    void set_steps();
     [[nodiscard]] Vector<Dim> rest_arm(std::int32_t point, std::size_t body) const {
         return rest_position_[static_cast<std::size_t>(point)] - rest_[body].centre;
     }
     /// u of a point that has moved by q.
-    [[nodiscard]] Vector<Dim> in_frame(std::int32_t point, const BodyFrame<Dim>& frame, std::size_t body,
+    [[nodiscard]] Vector<Dim> in_frame(std::int32_t point, std::size_t body, const BodyFrame<Dim>& frame,
                                        const Vector<Dim>& q) const;
-    /// Of the points of one body.
+    /// Over the points of one body.
     template <class Value, class Term>
     Value sum(std::size_t body, const Value& zero, const Term& term) const;
 
@@ -66,10 +91,15 @@ private:
     std::span<const double> masses_;
     std::vector<std::int32_t> begin_;
     std::vector<bool> turns_;
-    std::vector<BodyFrame<Dim>> rest_;      // centre and moment at rest
-    std::vector<double> mass_;              // of each body [kg]
-    std::vector<std::size_t> body_;         // of each point
-    std::vector<AxialVector<Dim>> lambda_;  // of each body, of the last step
+    bool any_turns_ = false;
+    std::vector<BodyFrame<Dim>> rest_;
+    std::vector<double> mass_;        // of each body [kg]
+    std::vector<std::int32_t> body_;  // of each point
+    std::vector<BodyFrame<Dim>> start_, end_, state_;
+    std::vector<FrameStep<Dim>> steps_;
+    std::vector<AxialVector<Dim>> lambda_;  // of each body, in the last `to_space`
+    bool has_stepped_ = false;
+    bool is_standing_ = false;
 };
 
 }  // namespace abut::solid

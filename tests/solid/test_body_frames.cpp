@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -11,6 +12,7 @@
 
 using namespace abut;
 using namespace abut::test;
+using solid::BodyFrame;
 using solid::BodyFrames;
 using solid::BodyPush;
 
@@ -60,13 +62,14 @@ struct AnyBody {
 
     Eigen::VectorXd in_frame(const std::vector<Vector<Dim>>& q) {
         std::vector<Vector<Dim>> u(n);
-        frames->displacement(q, placed(q), u);
+        std::vector<std::int32_t> all(n);
+        std::iota(all.begin(), all.end(), 0);
+        frames->displacement(all, q, placed(q), u);
         return Eigen::Map<const Eigen::VectorXd>(u[0].data(), Dim * n);
     }
-    typename BodyFrames<Dim>::Frames placed(const std::vector<Vector<Dim>>& q) const {
-        typename BodyFrames<Dim>::Frames placed;
-        frames->place(q, placed);
-        return placed;
+    std::vector<BodyFrame<Dim>> placed(const std::vector<Vector<Dim>>& q) {
+        frames->stand_at(q);
+        return {frames->end().begin(), frames->end().end()};
     }
     Vector<Dim> corner_at(int v, const std::vector<Vector<Dim>>& q) {
         return placed(q)[0](corner[v] + Vector<Dim>(reconstruction[v] * in_frame(q)));
@@ -92,12 +95,12 @@ struct AnyBody {
         for (int v = 0; v < n_corners; ++v) {
             f += reconstruction[v].transpose() * (step.force_turn().transpose() * push[v]);
             const Vector<Dim> arm = 0.5 * (corner_at(v, q_0) - frames_0[0].centre + corner_at(v, q_1) - frames_1[0].centre);
-            pushes[0].gradient += push[v];
-            pushes[0].moment += push[v] * arm.transpose();
+            pushes[0].add(push[v], arm);
         }
         std::vector<Vector<Dim>> result(n);
         for (int i = 0; i < n; ++i) result[i] = f.segment<Dim>(Dim * i);
-        frames->to_space(q_0, frames_0, q_1, frames_1, pushes, result);
+        frames->follow(q_0, q_1);
+        frames->to_space(q_0, q_1, pushes, result);
         return result;
     }
 

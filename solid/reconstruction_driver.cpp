@@ -1,4 +1,4 @@
-#include "abut/solid/contact_driver.hpp"
+#include "abut/solid/reconstruction_driver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,8 @@
 namespace abut::solid {
 
 template <int Dim>
-ContactDriver<Dim>::ContactDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                                  const Loads<Dim>& loads, SolidTimes& times)
+ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
+                                                const Loads<Dim>& loads, SolidTimes& times)
     : mesh_(mesh),
       options_(*options.contact),
       ccg_(ccg),
@@ -29,7 +29,7 @@ ContactDriver<Dim>::ContactDriver(const mesh::Mesh<Dim>& mesh, const SolidOption
 }
 
 template <int Dim>
-void ContactDriver<Dim>::build_surface() {
+void ReconstructionDriver<Dim>::build_surface() {
     const auto prescribed = ccg_.prescribed();
     for (const BoundaryFace b : ccg_.boundary_faces()) {
         if (!prescribed[b].isZero(0.0)) {
@@ -51,8 +51,8 @@ void ContactDriver<Dim>::build_surface() {
 // The path of the listed faces ---------------------------------------------------------------------------------------
 
 template <int Dim>
-void ContactDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
-                                double time, double dt) {
+void ReconstructionDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
+                                       double cell_motion, double time, double dt) {
     if (!is_surely_valid(cell_motion, time + dt) && !is_valid_at(q_1, time + dt))
         search(q_0, q_1, time, dt);
     else if (!has_stepped_)
@@ -61,26 +61,27 @@ void ContactDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<cons
 }
 
 template <int Dim>
-void ContactDriver<Dim>::follow_jump(std::span<const Vector<Dim>> q, double time) {
+void ReconstructionDriver<Dim>::follow_jump(std::span<const Vector<Dim>> q, double time) {
     if (!is_valid_at(q, time)) search(q, q, time, 0.0);
 }
 
 /// By what no cell exceeds in the step: nothing is computed but a sum. Where it says no, `is_valid_at` decides.
 template <int Dim>
-bool ContactDriver<Dim>::is_surely_valid(double cell_motion, double time) {
+bool ReconstructionDriver<Dim>::is_surely_valid(double cell_motion, double time) {
     const std::optional<double> motion = watch_.add_step(cell_motion);
     return motion && contact_->is_valid_for(obstacles_.motion(watch_.time(), time) + *motion);
 }
 
 template <int Dim>
-bool ContactDriver<Dim>::is_valid_at(std::span<const Vector<Dim>> q, double time) {
+bool ReconstructionDriver<Dim>::is_valid_at(std::span<const Vector<Dim>> q, double time) {
     const Stopwatch watch(times_.search);
     const double motion = watch_.measure(q, loads_.end());
     return contact_->is_valid_for(obstacles_.motion(watch_.time(), time) + motion);
 }
 
 template <int Dim>
-void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt) {
+void ReconstructionDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
+                                       double dt) {
     const Stopwatch watch(times_.search);
     const auto u_0 = surface_displacement(q_0, loads_.start(), time);
     const auto u_1 = surface_displacement(q_1, loads_.end(), time + dt);
@@ -99,8 +100,8 @@ void ContactDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<cons
 
 /// Of all faces of the surface.
 template <int Dim>
-std::vector<Vector<Dim>> ContactDriver<Dim>::surface_displacement(std::span<const Vector<Dim>> q,
-                                                                  const BoundaryLoad<Dim>& load, double time) {
+std::vector<Vector<Dim>> ReconstructionDriver<Dim>::surface_displacement(std::span<const Vector<Dim>> q,
+                                                                         const BoundaryLoad<Dim>& load, double time) {
     IdVector<BoundaryFace, Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
     ccg_.boundary_displacement(q, load, boundary.values());
     std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
@@ -110,20 +111,20 @@ std::vector<Vector<Dim>> ContactDriver<Dim>::surface_displacement(std::span<cons
 }
 
 template <int Dim>
-void ContactDriver<Dim>::set_start(std::span<const Vector<Dim>> q_0, double time) {
+void ReconstructionDriver<Dim>::set_start(std::span<const Vector<Dim>> q_0, double time) {
     evaluate_faces(q_0, loads_.start(), time, u_0_, y_0_);
 }
 
 template <int Dim>
-void ContactDriver<Dim>::set_end(std::span<const Vector<Dim>> q_1, double time) {
+void ReconstructionDriver<Dim>::set_end(std::span<const Vector<Dim>> q_1, double time) {
     const Stopwatch watch(times_.contact);
     touching_.clear();
     evaluate_faces(q_1, loads_.end(), time, u_1_, y_1_);
 }
 
 template <int Dim>
-void ContactDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
-                                        std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient) {
+void ReconstructionDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
+                                               std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient) {
     const auto faces = contact_->faces();
     displacement.resize(faces.size());
     gradient.resize(faces.size());
@@ -135,7 +136,7 @@ void ContactDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, const Bo
 }
 
 template <int Dim>
-void ContactDriver<Dim>::end_step() {
+void ReconstructionDriver<Dim>::end_step() {
     std::swap(u_0_, u_1_);
     std::swap(y_0_, y_1_);
     has_stepped_ = true;
@@ -145,36 +146,38 @@ void ContactDriver<Dim>::end_step() {
 // Contact on that path -----------------------------------------------------------------------------------------------
 
 template <int Dim>
-void ContactDriver<Dim>::integrate() {
+void ReconstructionDriver<Dim>::integrate() {
     const Stopwatch watch(times_.contact);
     keep_touching_faces(contact_->integrate({u_0_, u_1_, y_0_, y_1_}));
 }
 
 template <int Dim>
-void ContactDriver<Dim>::take_start() {
+void ReconstructionDriver<Dim>::take_start() {
     keep_touching_faces(contact_->evaluate(u_0_, y_0_));
 }
 
 template <int Dim>
-void ContactDriver<Dim>::take_end() {
+void ReconstructionDriver<Dim>::take_end() {
     const Stopwatch watch(times_.contact);
     keep_touching_faces(contact_->follow(u_0_, u_1_, y_1_));
 }
 
 template <int Dim>
-void ContactDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
+void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
-    for (const contact::PairStep<Dim>& pair : step.pairs)
-        touching_.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2), pair.normal});
+    for (const contact::PairStep<Dim>& pair : step.pairs) {
+        const BoundaryFace face_1 = boundary_face(pair.face_1), face_2 = boundary_face(pair.face_2);
+        touching_.push_back({face_1, face_2, ccg_.centroid(std::max(face_1, face_2)), pair.normal});
+    }
 }
 
 template <int Dim>
-void ContactDriver<Dim>::evaluate_last_end() {
+void ReconstructionDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>>) {
     if (!contact_->faces().empty()) contact_->evaluate(u_0_, y_0_);
 }
 
 template <int Dim>
-void ContactDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
+void ReconstructionDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
     require_valid_at(q, time);
     evaluate_faces(q, loads_.end(), time, u_1_, y_1_);
     if (!contact_->faces().empty()) contact_->evaluate(u_1_, y_1_);
@@ -183,7 +186,7 @@ void ContactDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
 /// Contacts have no history before the first step: then the list may be rebuilt. Later a state for which it is not valid is
 /// refused, since a list made there would forget which pairs are in contact.
 template <int Dim>
-void ContactDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q, double time) {
+void ReconstructionDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q, double time) {
     if (watch_.is_end_of_search(q)) return;
     const double motion = obstacles_.motion(watch_.time(), time) + watch_.motion_until(q, loads_.end());
     if (contact_->is_valid_for(motion)) return;
@@ -200,7 +203,7 @@ void ContactDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q, double
 // Results ------------------------------------------------------------------------------------------------------------
 
 template <int Dim>
-FaceCorrections<Dim> ContactDriver<Dim>::corrections() const {
+FaceCorrections<Dim> ReconstructionDriver<Dim>::corrections() const {
     const contact::ContactStep<Dim>& step = contact_->last();
     if (!step.is_active()) return {};
     const std::size_t n = boundary_of_listed_.size();
@@ -208,7 +211,7 @@ FaceCorrections<Dim> ContactDriver<Dim>::corrections() const {
 }
 
 template <int Dim>
-void ContactDriver<Dim>::take_obstacle_forces(double share, double& work) {
+void ReconstructionDriver<Dim>::take_obstacle_forces(double share, double& work) {
     obstacles_.clear_forces();
     if (touching_.empty()) return;
     const auto faces = contact_->faces();
@@ -221,12 +224,12 @@ void ContactDriver<Dim>::take_obstacle_forces(double share, double& work) {
 }
 
 template <int Dim>
-double ContactDriver<Dim>::compression() const {
+double ReconstructionDriver<Dim>::compression() const {
     return contact_->last().report.compression;
 }
 
 template <int Dim>
-ContactField ContactDriver<Dim>::field() const {
+ContactField ReconstructionDriver<Dim>::field() const {
     const auto n = static_cast<std::size_t>(ccg_.n_boundary());
     ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
     const contact::ContactStep<Dim>& step = contact_->last();
@@ -243,7 +246,7 @@ ContactField ContactDriver<Dim>::field() const {
 }
 
 template <int Dim>
-std::vector<TouchingPair<Dim>> ContactDriver<Dim>::touching_pairs(double gap) const {
+std::vector<TouchingPair<Dim>> ReconstructionDriver<Dim>::touching_pairs(double gap) const {
     std::vector<TouchingPair<Dim>> touching;
     for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
         if (overlap.gap <= gap)
@@ -252,17 +255,17 @@ std::vector<TouchingPair<Dim>> ContactDriver<Dim>::touching_pairs(double gap) co
 }
 
 template <int Dim>
-std::vector<dynamics::ContactPatch<Dim>> ContactDriver<Dim>::patches() const {
+std::vector<dynamics::ContactPatch<Dim>> ReconstructionDriver<Dim>::patches() const {
     return contact_patches<Dim>(ccg_, touching_);
 }
 
 template <int Dim>
-contact::ContactReport ContactDriver<Dim>::report() const {
+contact::ContactReport ReconstructionDriver<Dim>::report() const {
     return contact_->report();
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> ContactDriver<Dim>::blind_corners() const {
+std::vector<Vector<Dim>> ReconstructionDriver<Dim>::blind_corners() const {
     std::vector<Vector<Dim>> corners;
     for (const std::int32_t vertex : contact::blind_corners(surface_.view(), options_.search.facing_cosine))
         corners.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
@@ -270,11 +273,11 @@ std::vector<Vector<Dim>> ContactDriver<Dim>::blind_corners() const {
 }
 
 template <int Dim>
-std::optional<contact::EdgePair<Dim>> ContactDriver<Dim>::unseen_edges() const {
+std::optional<contact::EdgePair<Dim>> ReconstructionDriver<Dim>::unseen_edges() const {
     return contact::unseen_edges(surface_.view(), options_.search.facing_cosine);
 }
 
-template class ContactDriver<2>;
-template class ContactDriver<3>;
+template class ReconstructionDriver<2>;
+template class ReconstructionDriver<3>;
 
 }  // namespace abut::solid

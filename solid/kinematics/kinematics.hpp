@@ -1,0 +1,18 @@
+#pragma once
+
+namespace abut::solid {
+
+/// How a body may move. docs/method.md, Bodies that turn.
+enum class Kinematics {
+    small,     ///< linear elasticity in one frame: exact where nothing turns; a body that turns by a grows by 1/cos a
+    floating,  ///< linear elasticity in a frame that turns with the body: any turn, small strains and small turns inside it
+};
+
+/// What acts between faces in contact.
+enum class ContactLaw {
+    automatic,       ///< `reconstruction` where all bodies are small and no obstacle turns, else `pair_potential`
+    reconstruction,  ///< faces that are moved as a whole, normals at rest. docs/method.md, Contact
+    pair_potential,  ///< the potential of pairs of faces that tilt and turn. docs/method.md, The potential of a pair
+};
+
+}  // namespace abut::solid

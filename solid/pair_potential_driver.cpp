@@ -1,0 +1,352 @@
+#include "abut/solid/pair_potential_driver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/contact/nodal_faces.hpp"
+#include "abut/geometry/polygon.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+contact::NodalOptions nodal_options(const SolidOptions<Dim>& options) {
+    const contact::ContactOptions& contact = *options.contact;
+    const contact::ContactOptions other_law;
+    if (contact.overlap != other_law.overlap || contact.weighting != other_law.weighting || contact.area != other_law.area ||
+        contact.quadrature != other_law.quadrature)
+        throw BadInput(
+            "contact: overlap, weighting, area and quadrature are choices of the modified reconstruction, and bodies that "
+            "turn need the pair potential. Leave them at their defaults, or choose Kinematics::small for all bodies.");
+    return {.search = contact.search,
+            .facing = options.facing,
+            .events = contact.events,
+            .compression_warning = contact.compression_warning,
+            .compression_limit = contact.compression_limit,
+            .wanted = {}};
+}
+
+}  // namespace
+
+template <int Dim>
+PairPotentialDriver<Dim>::PairPotentialDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
+                                              const Loads<Dim>& loads, const BodyFrames<Dim>& frames, SolidTimes& times)
+    : mesh_(mesh), ccg_(ccg), loads_(loads), frames_(frames), times_(times), obstacles_(options.obstacles) {
+    contact_.emplace(build_surface(), nodal_options(options));
+    std::vector<std::int32_t> nodes(rest_.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    all_ = list(nodes);
+    x_0_ = x_1_ = x_state_ = searched_at_ = rest_;
+    u_.resize(static_cast<std::size_t>(mesh.n_cells()));
+}
+
+template <int Dim>
+contact::NodalSurface<Dim> PairPotentialDriver<Dim>::build_surface() {
+    contact::NodalFaceArrays<Dim> faces;
+    faces.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()), 0.0);
+    std::vector<double> stiffness;  // of each face
+    const auto prescribed = ccg_.prescribed();
+    for (const BoundaryFace b : ccg_.boundary_faces()) {
+        if (!prescribed[b].isZero(0.0)) {
+            ++faces_left_out_;
+            continue;
+        }
+        const std::int32_t face = mesh_face(mesh_, b);
+        const double depth = mesh_.cell_measure[cell_of(mesh_, b)] / mesh_.face_measure[face];
+        std::vector<std::int32_t> corners;
+        double reach = 0.0;
+        for (const std::int32_t v : mesh_.face_vertices[face]) {
+            corners.push_back(static_cast<std::int32_t>(rest_.size()));
+            rest_.push_back(mesh_.vertices[v]);
+            face_of_node_.push_back(static_cast<std::int32_t>(boundary_of_surface_.size()));
+            reach = std::max(reach, (mesh_.vertices[v] - mesh_.face_centroid[face]).norm());
+        }
+        faces.append_face(corners, depth, body_of(b));
+        stiffness.push_back(ccg_.normal_stiffness(b));
+        double& of_body = faces.stiffness[static_cast<std::size_t>(body_of(b))];
+        of_body = std::max(of_body, stiffness.back());
+        amplification_ = std::max(amplification_, ccg_.motion_amplification() + reach * ccg_.tilt_amplification(b));
+        boundary_of_surface_.push_back(b);
+        corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
+    }
+    for (double& of_body : faces.stiffness)
+        if (of_body == 0.0) of_body = 1.0;  // all faces are prescribed: nothing touches it
+    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+        faces.append_obstacle(obstacles_[i], rest_);
+        obstacle_of_node_.resize(rest_.size() - face_of_node_.size(), i);
+    }
+    stiffness.resize(faces.body.size(), std::numeric_limits<double>::infinity());
+    contact::NodalFaces<Dim> view = faces.view();
+    view.face_stiffness = stiffness;
+    return contact::NodalSurface<Dim>(rest_, view);
+}
+
+// Where the nodes are ------------------------------------------------------------------------------------------------
+
+template <int Dim>
+typename PairPotentialDriver<Dim>::Listed PairPotentialDriver<Dim>::list(std::span<const std::int32_t> nodes) const {
+    Listed listed;
+    for (const std::int32_t node : nodes)
+        if (static_cast<std::size_t>(node) < face_of_node_.size())
+            listed.faces.push_back(face_of_node_[node]);
+        else
+            listed.obstacles.push_back(node);
+    sort_unique(listed.faces);
+    for (const std::int32_t face : listed.faces) listed.boundary.push_back(boundary_of_surface_[face]);
+    listed.region = ccg_.region_of_tilted_faces(listed.boundary);
+    return listed;
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::place(const Listed& listed, std::span<const Vector<Dim>> q, Frames frames,
+                                     const BoundaryLoad<Dim>& load, double time, Points& x) {
+    displacement_.resize(listed.faces.size());
+    tilt_.resize(listed.faces.size());
+    frames_.displacement(listed.region.input_cells, q, frames, u_);
+    ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_);
+    for (std::size_t i = 0; i < listed.faces.size(); ++i) {
+        const BoundaryFace b = listed.boundary[i];
+        const auto body = static_cast<std::size_t>(body_of(b));
+        const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body);
+        for (std::int32_t n = corner_offsets_[listed.faces[i]]; n < corner_offsets_[listed.faces[i] + 1]; ++n)
+            x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - ccg_.centroid(b)));
+    }
+    std::size_t obstacle = obstacles_.size();  // none yet
+    contact::Placement<Dim> placement;
+    for (const std::int32_t n : listed.obstacles) {
+        if (const std::size_t of_node = obstacle_of_node_[n - face_of_node_.size()]; of_node != obstacle) {
+            obstacle = of_node;
+            placement = obstacles_.placement(obstacle, time);
+        }
+        x[n] = placement(rest_[n]);
+    }
+}
+
+/// By what no cell and no frame exceeds in the step: nothing is computed but a few sums.
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) {
+    watch_.travelled += cell_motion;
+    if (!has_stepped_ || loads_.vary()) return false;
+    double of_bodies = 0.0;
+    for (std::size_t body = 0; body < frames_.n_bodies(); ++body) {
+        const BodyFrame<Dim>&from = watch_.frames[body], to = frames_.end()[body];
+        const double turned =
+            std::sqrt(0.5) * (to.turn - from.turn).norm();  // the largest stretch of a difference of rotations
+        of_bodies = larger(of_bodies, (to.centre - from.centre).norm() + turned * watch_.radius[body]);
+    }
+    const double motion =
+        watch_.moved + amplification_ * watch_.travelled + of_bodies + obstacles_.motion(watch_.time, time);
+    return contact_->is_valid_for(motion);
+}
+
+/// How far the farthest node is from where candidates were searched [m]; all nodes are placed.
+template <int Dim>
+double PairPotentialDriver<Dim>::measure(const Points& x, double time) {
+    watch_.frames.assign(frames_.end().begin(), frames_.end().end());
+    watch_.radius.assign(frames_.n_bodies(), 0.0);
+    for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) {
+        const auto body = static_cast<std::size_t>(body_of(boundary_of_surface_[i]));
+        for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n)
+            watch_.radius[body] = larger(watch_.radius[body], (x[n] - watch_.frames[body].centre).norm());
+    }
+    watch_.time = time;
+    watch_.travelled = 0.0;
+    watch_.moved = 0.0;
+    for (std::size_t n = 0; n < x.size(); ++n) watch_.moved = larger(watch_.moved, (x[n] - searched_at_[n]).norm());
+    return watch_.moved;
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
+                                      double time, double dt) {
+    if (is_surely_valid(cell_motion, time + dt)) {
+        const Stopwatch watch(times_.contact);
+        return place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+    }
+    const Stopwatch watch(times_.search);
+    place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+    if (!contact_->is_valid_for(measure(x_1_, time + dt)))
+        search(q_0, time, dt);
+    else if (!has_stepped_)
+        place(listed_, q_0, frames_.start(), loads_.start(), time, x_0_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, double time, double dt) {
+    place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
+    contact_->search(x_0_, x_1_);
+    searched_at_ = x_0_;
+    measure(x_1_, time + dt);
+    listed_nodes_ = contact_->last().nodes;
+    listed_ = list(listed_nodes_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::end_step() {
+    std::swap(x_0_, x_1_);
+    has_stepped_ = true;
+}
+
+// Contact ------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void PairPotentialDriver<Dim>::integrate() {
+    const Stopwatch watch(times_.contact);
+    has_stepped_ = false;  // until the step has ended well
+    contact_->step_listed(x_0_, x_1_, contact::TakenForce::mean);
+    collect(x_0_, x_1_);
+    keep_touching_faces();
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_start() {
+    contact_->evaluate_listed(x_0_);
+    collect(x_0_, x_0_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_end() {
+    const Stopwatch watch(times_.contact);
+    has_stepped_ = false;
+    contact_->step_listed(x_0_, x_1_, contact::TakenForce::end);
+    collect(x_1_, x_1_);
+    keep_touching_faces();
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q) {
+    if (!contact_->is_valid_for(0.0)) return evaluate(q, watch_.time);
+    contact_->evaluate_listed(x_0_);
+    collect(x_0_, x_0_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
+    place(all_, q, frames_.end(), loads_.end(), time, x_state_);
+    contact_->evaluate(x_state_);
+    if (contact_->last().nodes != listed_nodes_) {
+        listed_nodes_ = contact_->last().nodes;
+        listed_ = list(listed_nodes_);
+        has_stepped_ = false;
+    }
+    collect(x_state_, x_state_);
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
+    face_gradient_.clear();
+    cell_moment_.clear();
+    pushes_.assign(frames_.n_bodies(), {});
+    const contact::NodalStep<Dim>& step = contact_->last();
+    if (!step.is_active()) return;
+    face_gradient_.resize(listed_.faces.size(), Vector<Dim>::Zero());
+    cell_moment_.resize(listed_.faces.size(), Matrix<Dim>::Zero());
+    std::size_t at = 0;  // nodes and faces are in the same order
+    for (std::size_t i = 0; i < step.nodes.size(); ++i) {
+        const std::int32_t node = step.nodes[i];
+        if (static_cast<std::size_t>(node) >= face_of_node_.size()) break;
+        while (listed_.faces[at] != face_of_node_[node]) ++at;
+        const BoundaryFace b = listed_.boundary[at];
+        const auto body = static_cast<std::size_t>(body_of(b));
+        const Vector<Dim>& p = step.gradient[i];
+        const Vector<Dim> in_frame = frames_.step(body).force_turn().transpose() * p;
+        face_gradient_[at] += in_frame;
+        cell_moment_[at] += in_frame * (rest_[node] - ccg_.centroid(b)).transpose();
+        pushes_[body].add(p, 0.5 * (x_0[node] - frames_.start()[body].centre + x_1[node] - frames_.end()[body].centre));
+    }
+}
+
+template <int Dim>
+FaceCorrections<Dim> PairPotentialDriver<Dim>::corrections() const {
+    if (face_gradient_.empty()) return {};
+    return {listed_.boundary, {}, face_gradient_, cell_moment_};
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::take_obstacle_forces(double share, double& work) {
+    obstacles_.clear_forces();
+    const contact::NodalStep<Dim>& step = contact_->last();
+    if (!step.is_active()) return;
+    const auto first = std::ranges::lower_bound(step.nodes, static_cast<std::int32_t>(face_of_node_.size()));
+    for (auto i = static_cast<std::size_t>(first - step.nodes.begin()); i < step.nodes.size(); ++i) {
+        const std::int32_t node = step.nodes[i];
+        obstacles_.add_force(obstacle_of_node_[node - face_of_node_.size()], -step.gradient[i]);
+        work += share * step.gradient[i].dot(x_1_[node] - x_0_[node]);
+    }
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::keep_touching_faces() {
+    touching_.clear();
+    for (const contact::PairStep<Dim>& pair : contact_->last().pairs) {
+        const BoundaryFace face_1 = boundary_face(pair.face_1), face_2 = boundary_face(pair.face_2);
+        if (face_1 != no_face && face_2 != no_face)
+            touching_.push_back({face_1, face_2, Vector<Dim>::Zero(), pair.normal});
+        else if (face_1 != no_face)
+            touching_.push_back({face_1, face_2, middle_of(pair.face_1), obstacle_normal(pair.face_2)});
+        else
+            touching_.push_back({face_1, face_2, middle_of(pair.face_2), obstacle_normal(pair.face_1)});
+    }
+}
+
+/// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
+template <int Dim>
+Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::SurfaceFace face) const {
+    if (!frames_.any_turns()) return ccg_.centroid(boundary_face(face));
+    const auto i = static_cast<std::size_t>(face);
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n) sum += 0.5 * (x_0_[n] + x_1_[n]);
+    return sum / (corner_offsets_[i + 1] - corner_offsets_[i]);
+}
+
+/// In the middle of the step. What a tilted face pushes along a wall must not let the filter change the momentum along it.
+template <int Dim>
+Vector<Dim> PairPotentialDriver<Dim>::obstacle_normal(contact::SurfaceFace face) const {
+    const auto& surface = contact_->surface();
+    const auto nodes = surface.facets().view().vertices_of(surface.facet_offsets()[static_cast<std::size_t>(face)]);
+    std::array<Vector<Dim>, Dim> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = 0.5 * (x_0_[nodes[i]] + x_1_[nodes[i]]);
+    return geometry::face_normal<Dim>(corners);
+}
+
+// Results ------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+ContactField PairPotentialDriver<Dim>::field() const {
+    const auto n = static_cast<std::size_t>(ccg_.n_boundary());
+    ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
+    for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
+        for (const contact::SurfaceFace face : {pair.face_1, pair.face_2})
+            if (const BoundaryFace b = boundary_face(face); b != no_face) {
+                field.pressure[number_of(b)] += pair.normal_force / mesh_.face_measure[mesh_face(mesh_, b)];
+                field.gap[number_of(b)] = std::min(field.gap[number_of(b)], pair.gap_1);
+            }
+    return field;
+}
+
+template <int Dim>
+std::vector<TouchingPair<Dim>> PairPotentialDriver<Dim>::touching_pairs(double gap) const {
+    std::vector<TouchingPair<Dim>> touching;
+    for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
+        if (pair.gap_1 <= gap)
+            touching.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2), pair.normal, pair.gap_1});
+    return touching;
+}
+
+template <int Dim>
+std::vector<dynamics::ContactPatch<Dim>> PairPotentialDriver<Dim>::patches() const {
+    return contact_patches<Dim>(ccg_, touching_);
+}
+
+template class PairPotentialDriver<2>;
+template class PairPotentialDriver<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,111 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "abut/contact/contact.hpp"
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/contact_driver.hpp"
+#include "abut/solid/contact_patches.hpp"
+#include "abut/solid/list_watch.hpp"
+#include "abut/solid/loads.hpp"
+#include "abut/solid/options.hpp"
+
+namespace abut::solid {
+
+/// By the modified reconstruction: the faces of bodies that do not turn, each moved as a whole. The points are the cells.
+///
+/// `follow` consists of parts, for steps that are not made by all cells at once: `is_valid_at`, `search`, `set_start`,
+/// `set_end`.
+template <int Dim>
+class ReconstructionDriver final : public ContactDriver<Dim> {
+public:
+    /// All arguments must outlive the driver; where the time goes is added to `times`. Throws as contact::Contact.
+    ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
+                         const Loads<Dim>& loads, SolidTimes& times);
+
+    // The path of the listed faces in one step
+
+    void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion, double time,
+                double dt) override;
+    void follow_jump(std::span<const Vector<Dim>> q, double time) override;
+    void jumped(std::span<const Vector<Dim>> q, double time) override { set_start(q, time); }
+    /// Whether the candidate list is valid in q, where the current step ends, at that time.
+    [[nodiscard]] bool is_valid_at(std::span<const Vector<Dim>> q, double time);
+    /// Rebuilds the candidate list for the current step, and sets the start of the path.
+    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void set_start(std::span<const Vector<Dim>> q_0, double time);
+    void set_end(std::span<const Vector<Dim>> q_1, double time);
+    /// The start of the path is known: it is where the last step ended.
+    [[nodiscard]] bool has_stepped() const { return has_stepped_; }
+    /// The cells that `set_start` and `set_end` read, increasing.
+    [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.input_cells; }
+    void end_step() override;
+
+    // Contact on that path
+
+    void integrate() override;
+    void take_start() override;
+    void take_end() override;
+    void evaluate_last_end(std::span<const Vector<Dim>> q) override;
+    void evaluate(std::span<const Vector<Dim>> q, double time) override;
+
+    // Results
+
+    [[nodiscard]] FaceCorrections<Dim> corrections() const override;
+    /// Whether some pair was active in the last step.
+    [[nodiscard]] bool is_active() const { return !touching_.empty(); }
+    void take_obstacle_forces(double share, double& work) override;
+    [[nodiscard]] Obstacles<Dim>& obstacles() { return obstacles_; }
+    [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
+    [[nodiscard]] double compression() const override;
+    [[nodiscard]] ContactField field() const override;
+    [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(double gap) const override;
+    [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
+
+    [[nodiscard]] const contact::Contact<Dim>& contact() const { return *contact_; }
+    [[nodiscard]] contact::ContactReport report() const override;
+    [[nodiscard]] double skin() const override { return contact_->skin(); }
+    [[nodiscard]] std::int64_t faces_left_out() const override { return faces_left_out_; }
+    [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override;
+    [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override;
+
+private:
+    void build_surface();
+    [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
+    void require_valid_at(std::span<const Vector<Dim>> q, double time);
+    void keep_touching_faces(const contact::ContactStep<Dim>& step);
+    [[nodiscard]] std::vector<Vector<Dim>> surface_displacement(std::span<const Vector<Dim>> q,
+                                                                const BoundaryLoad<Dim>& load, double time);
+    void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
+                        std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
+    [[nodiscard]] BoundaryFace boundary_face(contact::SurfaceFace face) const {
+        return surface_.view().is_rigid(number_of(face)) ? no_face : boundary_of_surface_[static_cast<std::size_t>(face)];
+    }
+    [[nodiscard]] std::size_t obstacle_of(contact::SurfaceFace face) const {
+        return static_cast<std::size_t>(surface_.body[static_cast<std::size_t>(face)] - mesh_.n_bodies());
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    const contact::ContactOptions& options_;
+    Ccg<Dim>& ccg_;
+    const Loads<Dim>& loads_;
+    SolidTimes& times_;
+    Obstacles<Dim> obstacles_;
+    contact::Surface<Dim> surface_;                  // deformable faces, then those of the obstacles
+    std::vector<BoundaryFace> boundary_of_surface_;  // boundary face of each deformable surface face
+    std::int64_t faces_left_out_ = 0;
+    std::optional<contact::Contact<Dim>> contact_;
+    ListWatch<Dim> watch_;
+    bool has_stepped_ = false;
+    Region<Dim> region_;                            // of the deformable listed faces
+    std::vector<BoundaryFace> boundary_of_listed_;  // their boundary faces; they come first in the list
+    std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
+        y_1_;                                   // path of the listed faces; between steps _0 is where the last one ended
+    std::vector<TouchingFaces<Dim>> touching_;  // boundary faces of the pairs that were active in the last step
+};
+
+}  // namespace abut::solid
