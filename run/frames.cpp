@@ -38,7 +38,7 @@ struct Stresses {
         for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
             const auto body = static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(c)]);
             const double poisson = solid.options().materials[body].poisson;
-            stress.push_back(solid.ccg().stress(c));
+            stress.push_back(solid.stress(c));
             equivalent.push_back(von_mises<Dim>(stress.back(), poisson));
             out_of_plane.push_back(full_stress<Dim>(stress.back(), poisson)(2, 2));
         }

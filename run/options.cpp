@@ -104,6 +104,8 @@ NamedValues named_values(const RunOptions& options) {
         values.push_back({"gauge", options.gauge});
     append(values, {{"filter", word_of(filter_words, options.filter)},
                     {"restart", options.restart},
+                    {"kinematics", word_of(kinematics_words, options.kinematics)},
+                    {"law", word_of(law_words, options.law)},
                     {"broad_phase", std::string(geometry::name(contact.search.broad_phase))},
                     {"overlap", word_of(overlap_words, contact.overlap)},
                     {"weights", word_of(weighting_words, contact.weighting)},

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "abut/contact/options.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
 
 namespace abut::run {
 
@@ -24,6 +26,8 @@ struct RunOptions {
     double cfl = 0.9;             ///< time step over the stable step [-]
     double dt = not_given;        ///< time step [s], instead of `cfl`
     bool allow_unstable = false;  ///< takes `dt` even above the stable step
+    std::optional<solid::Kinematics> kinematics;  ///< of all bodies; empty: as the scene says
+    solid::ContactLaw law = solid::ContactLaw::automatic;
     contact::ContactOptions contact;
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
@@ -50,6 +54,11 @@ inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm",
                                                                         {"memm_async", SolidIntegrator::memm_async},
                                                                         {"leapfrog", SolidIntegrator::leapfrog},
                                                                         {"bilbao", SolidIntegrator::bilbao}}};
+inline constexpr std::array<Word<std::optional<solid::Kinematics>>, 3> kinematics_words{
+    {{"scene", std::nullopt}, {"small", solid::Kinematics::small}, {"floating", solid::Kinematics::floating}}};
+inline constexpr std::array<Word<solid::ContactLaw>, 3> law_words{{{"automatic", solid::ContactLaw::automatic},
+                                                                   {"reconstruction", solid::ContactLaw::reconstruction},
+                                                                   {"pair_potential", solid::ContactLaw::pair_potential}}};
 inline constexpr std::array<Word<contact::OverlapMode>, 2> overlap_words{
     {{"moving", contact::OverlapMode::moving}, {"frozen", contact::OverlapMode::frozen}}};
 inline constexpr std::array<Word<contact::InterfaceWeighting>, 2> weighting_words{

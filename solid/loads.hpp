@@ -42,6 +42,8 @@ public:
     /// are now: `share` of it [J].
     void add_work(double share, double& work) const;
 
+    /// By cell [N]; empty: none.
+    [[nodiscard]] std::span<const Vector<Dim>> body_force() const { return body_force_; }
     /// Of body forces in the displacements u [J].
     [[nodiscard]] double body_work(std::span<const Vector<Dim>> u) const;
     /// Body force less dV/du_c of one cell [N].

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
@@ -16,6 +17,13 @@ constexpr double rounding = 1e-12;
 template <int Dim>
 double spectral_norm(const Matrix<Dim>& m) {
     return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
+}
+
+/// Not below the spectral norm; it for multiples of the identity.
+template <int Dim>
+double norm_bound(const Matrix<Dim>& m) {
+    const double columns = m.cwiseAbs().colwise().sum().maxCoeff(), rows = m.cwiseAbs().rowwise().sum().maxCoeff();
+    return std::min(m.norm(), std::sqrt(columns * rows));
 }
 
 }  // namespace
@@ -43,20 +51,40 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), c
 }
 
 template <int Dim>
-double MotionBound<Dim>::tilt_amplification(BoundaryFace face) const {
-    const std::int32_t cell = arrays_.cell_of(face);
-    double sum = 0.0;
-    for (const HalfFace& half_face : arrays_.half_faces_of(cell)) {
-        double moved = 0.0;  // |du_f - du_c|
-        if (const BoundaryFace b = arrays_.boundary_index[half_face.face]; b != no_face) {
-            moved = 1.0 + kept_[number_of(b)] + 2.0 * norm_sum_[number_of(b)];
-        } else {
-            for (const double weight : arrays_.stencils[half_face.face].weights) moved += 2.0 * std::abs(weight);
-            if (half_face.first != cell) moved += 2.0;
+double MotionBound<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const {
+    const std::int32_t own = arrays_.cell_of(face);
+    std::vector<std::pair<std::int32_t, Matrix<Dim>>> row;  // weights of cells
+    const auto add = [&](std::int32_t cell, const Matrix<Dim>& weight) {
+        const auto found = std::ranges::find(row, cell, &std::pair<std::int32_t, Matrix<Dim>>::first);
+        if (found == row.end())
+            row.emplace_back(cell, weight);
+        else
+            found->second += weight;
+    };
+    const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
+    const auto add_boundary_face = [&](BoundaryFace b, double share) {  // share (û_b - u_own)
+        for (std::int32_t i = boundary.offsets[number_of(b)]; i < boundary.offsets[number_of(b) + 1]; ++i) {
+            add(boundary.cells[i], share * boundary.weights[i]);
+            add(own, -share * boundary.weights[i]);
         }
-        sum += moved * Eigen::Map<const Vector<Dim>>(arrays_.faces[half_face.face].area_vector.data()).norm();
+        add(own, -share * boundary.deficit[number_of(b)]);
+    };
+    add(own, Matrix<Dim>::Identity());
+    add_boundary_face(face, 1.0);
+    for (const HalfFace& half_face : arrays_.half_faces_of(own)) {
+        const auto area = Eigen::Map<const Vector<Dim>>(arrays_.faces[half_face.face].area_vector.data());
+        const double share = (half_face.first == own ? 1.0 : -1.0) * arrays_.cells[own].inverse_measure * area.dot(arm);
+        if (const BoundaryFace b = arrays_.boundary_index[half_face.face]; b != no_face) {
+            add_boundary_face(b, share);
+            continue;
+        }
+        const FaceStencil<Dim>& stencil = arrays_.stencils[half_face.face];
+        for (int j = 0; j <= Dim; ++j) add(stencil.cells[j], share * stencil.weights[j] * Matrix<Dim>::Identity());
+        add(own, -share * Matrix<Dim>::Identity());
     }
-    return (1.0 + rounding) * sum * arrays_.cells[cell].inverse_measure;
+    double sum = 0.0;
+    for (const auto& [cell, weight] : row) sum += norm_bound<Dim>(weight);
+    return (1.0 + rounding) * sum;
 }
 
 template <int Dim>

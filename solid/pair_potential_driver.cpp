@@ -12,17 +12,21 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/nodal_faces.hpp"
+#include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
 
 namespace abut::solid {
 namespace {
+
+/// Skins that faces which are far from all other bodies may move before they must be looked at again.
+constexpr double far_skins = 4.0;
 
 template <int Dim>
 contact::NodalOptions nodal_options(const SolidOptions<Dim>& options) {
     const contact::ContactOptions& contact = *options.contact;
     const contact::ContactOptions other_law;
     if (contact.overlap != other_law.overlap || contact.weighting != other_law.weighting || contact.area != other_law.area ||
-        contact.quadrature != other_law.quadrature)
+        (contact.quadrature != other_law.quadrature && contact.quadrature != Dim))
         throw BadInput(
             "contact: overlap, weighting, area and quadrature are choices of the modified reconstruction, and bodies that "
             "turn need the pair potential. Leave them at their defaults, or choose Kinematics::small for all bodies.");
@@ -60,20 +64,19 @@ contact::NodalSurface<Dim> PairPotentialDriver<Dim>::build_surface() {
             continue;
         }
         const std::int32_t face = mesh_face(mesh_, b);
-        const double depth = mesh_.cell_measure[cell_of(mesh_, b)] / mesh_.face_measure[face];
+        const double depth = cell_depth(mesh_, face);
         std::vector<std::int32_t> corners;
-        double reach = 0.0;
         for (const std::int32_t v : mesh_.face_vertices[face]) {
             corners.push_back(static_cast<std::int32_t>(rest_.size()));
             rest_.push_back(mesh_.vertices[v]);
             face_of_node_.push_back(static_cast<std::int32_t>(boundary_of_surface_.size()));
-            reach = std::max(reach, (mesh_.vertices[v] - mesh_.face_centroid[face]).norm());
+            amplification_ = std::max(
+                amplification_, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
         }
         faces.append_face(corners, depth, body_of(b));
         stiffness.push_back(ccg_.normal_stiffness(b));
         double& of_body = faces.stiffness[static_cast<std::size_t>(body_of(b))];
         of_body = std::max(of_body, stiffness.back());
-        amplification_ = std::max(amplification_, ccg_.motion_amplification() + reach * ccg_.tilt_amplification(b));
         boundary_of_surface_.push_back(b);
         corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
     }
@@ -100,7 +103,11 @@ typename PairPotentialDriver<Dim>::Listed PairPotentialDriver<Dim>::list(std::sp
         else
             listed.obstacles.push_back(node);
     sort_unique(listed.faces);
-    for (const std::int32_t face : listed.faces) listed.boundary.push_back(boundary_of_surface_[face]);
+    for (const std::int32_t face : listed.faces) {
+        listed.boundary.push_back(boundary_of_surface_[face]);
+        for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n) listed.nodes.push_back(n);
+    }
+    listed.nodes.insert(listed.nodes.end(), listed.obstacles.begin(), listed.obstacles.end());
     listed.region = ccg_.region_of_tilted_faces(listed.boundary);
     return listed;
 }
@@ -112,13 +119,16 @@ void PairPotentialDriver<Dim>::place(const Listed& listed, std::span<const Vecto
     tilt_.resize(listed.faces.size());
     frames_.displacement(listed.region.input_cells, q, frames, u_);
     ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_);
-    for (std::size_t i = 0; i < listed.faces.size(); ++i) {
-        const BoundaryFace b = listed.boundary[i];
-        const auto body = static_cast<std::size_t>(body_of(b));
-        const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body);
-        for (std::int32_t n = corner_offsets_[listed.faces[i]]; n < corner_offsets_[listed.faces[i] + 1]; ++n)
-            x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - ccg_.centroid(b)));
-    }
+    parallel_each(
+        std::ssize(listed.faces),
+        [&](std::ptrdiff_t i) {
+            const BoundaryFace b = listed.boundary[i];
+            const auto body = static_cast<std::size_t>(body_of(b));
+            const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body);
+            for (std::int32_t n = corner_offsets_[listed.faces[i]]; n < corner_offsets_[listed.faces[i] + 1]; ++n)
+                x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - ccg_.centroid(b)));
+        },
+        256);
     std::size_t obstacle = obstacles_.size();  // none yet
     contact::Placement<Dim> placement;
     for (const std::int32_t n : listed.obstacles) {
@@ -130,63 +140,116 @@ void PairPotentialDriver<Dim>::place(const Listed& listed, std::span<const Vecto
     }
 }
 
+// How long the list is valid -----------------------------------------------------------------------------------------
+
+/// At most, at the end of the step [m].
+template <int Dim>
+double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double time) const {
+    double of_frames = 0.0;
+    for (std::size_t body = 0; body < frames_.n_bodies(); ++body) {
+        const BodyFrame<Dim>&from = watch.frames[body], to = frames_.end()[body];
+        const double turned = std::sqrt(0.5) * (to.turn - from.turn).norm();  // the largest stretch of this difference
+        of_frames = larger(of_frames, (to.centre - from.centre).norm() + turned * watch.radius[body]);
+    }
+    return watch.moved + larger(of_frames + amplification_ * watch.travelled, obstacles_.motion(watch.time, time));
+}
+
 /// By what no cell and no frame exceeds in the step: nothing is computed but a few sums.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) {
-    watch_.travelled += cell_motion;
+    near_watch_.travelled += cell_motion;
+    far_watch_.travelled += cell_motion;
     if (!has_stepped_ || loads_.vary()) return false;
-    double of_bodies = 0.0;
-    for (std::size_t body = 0; body < frames_.n_bodies(); ++body) {
-        const BodyFrame<Dim>&from = watch_.frames[body], to = frames_.end()[body];
-        const double turned =
-            std::sqrt(0.5) * (to.turn - from.turn).norm();  // the largest stretch of a difference of rotations
-        of_bodies = larger(of_bodies, (to.centre - from.centre).norm() + turned * watch_.radius[body]);
-    }
-    const double motion =
-        watch_.moved + amplification_ * watch_.travelled + of_bodies + obstacles_.motion(watch_.time, time);
-    return contact_->is_valid_for(motion);
+    return contact_->is_valid_for(motion_since(near_watch_, time)) && motion_since(far_watch_, time) <= far_reach_;
 }
 
-/// How far the farthest node is from where candidates were searched [m]; all nodes are placed.
+/// Places the nodes near other bodies at the end of the step; what is far must not have come near.
 template <int Dim>
-double PairPotentialDriver<Dim>::measure(const Points& x, double time) {
-    watch_.frames.assign(frames_.end().begin(), frames_.end().end());
-    watch_.radius.assign(frames_.n_bodies(), 0.0);
-    for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) {
-        const auto body = static_cast<std::size_t>(body_of(boundary_of_surface_[i]));
-        for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n)
-            watch_.radius[body] = larger(watch_.radius[body], (x[n] - watch_.frames[body].centre).norm());
+bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
+    if (!has_stepped_ || loads_.vary() || !contact_->is_valid_for(0.0) || !(motion_since(far_watch_, time) <= far_reach_))
+        return false;
+    place(near_, q_1, frames_.end(), loads_.end(), time, x_1_);
+    near_watch_ = watch_from(near_, x_1_, time);
+    return contact_->is_valid_for(near_watch_.moved);
+}
+
+/// From here, where the nodes listed are placed: at the end of the step.
+template <int Dim>
+typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(const Listed& listed, const Points& x,
+                                                                              double time) const {
+    Watch watch{.frames = {frames_.end().begin(), frames_.end().end()}, .radius = {}, .time = time};
+    watch.radius.assign(frames_.n_bodies(), 0.0);
+    for (const std::int32_t n : listed.nodes) {
+        if (static_cast<std::size_t>(n) >= face_of_node_.size()) break;
+        const auto body = static_cast<std::size_t>(body_of(boundary_of_surface_[face_of_node_[n]]));
+        watch.radius[body] = larger(watch.radius[body], (x[n] - watch.frames[body].centre).squaredNorm());
     }
-    watch_.time = time;
-    watch_.travelled = 0.0;
-    watch_.moved = 0.0;
-    for (std::size_t n = 0; n < x.size(); ++n) watch_.moved = larger(watch_.moved, (x[n] - searched_at_[n]).norm());
-    return watch_.moved;
+    for (double& radius : watch.radius) radius = std::sqrt(radius);
+    watch.moved = std::sqrt(largest(std::ssize(listed.nodes), [&](std::ptrdiff_t i) {
+        return (x[listed.nodes[i]] - searched_at_[listed.nodes[i]]).squaredNorm();
+    }));
+    return watch;
 }
 
 template <int Dim>
 void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
                                       double time, double dt) {
+    end_time_ = time + dt;
     if (is_surely_valid(cell_motion, time + dt)) {
         const Stopwatch watch(times_.contact);
         return place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
     }
     const Stopwatch watch(times_.search);
-    place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
-    if (!contact_->is_valid_for(measure(x_1_, time + dt)))
-        search(q_0, time, dt);
-    else if (!has_stepped_)
-        place(listed_, q_0, frames_.start(), loads_.start(), time, x_0_);
+    if (!is_valid_at_near_nodes(q_1, time + dt)) search(q_0, q_1, time, dt);
 }
 
 template <int Dim>
-void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, double time, double dt) {
+void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
+                                      double dt) {
     place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
+    place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
     contact_->search(x_0_, x_1_);
     searched_at_ = x_0_;
-    measure(x_1_, time + dt);
+    far_reach_ = far_skins * contact_->skin();
     listed_nodes_ = contact_->last().nodes;
     listed_ = list(listed_nodes_);
+    near_ = list(near_nodes());
+    near_watch_ = watch_from(near_, x_1_, time + dt);
+    far_watch_ = watch_from(all_, x_1_, time + dt);
+}
+
+/// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that contact
+/// itself looks ahead.
+template <int Dim>
+std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
+    const contact::SurfaceView<Dim> facets = contact_->surface().facets().view();
+    const auto box_of = [&](std::int32_t facet) {
+        geometry::Box<Dim> box;
+        for (const std::int32_t n : facets.vertices_of(facet))
+            box.extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
+        return box;
+    };
+    std::vector<geometry::Box<Dim>> box_of_body(static_cast<std::size_t>(contact_->surface().n_bodies()));
+    double deepest = 0.0;
+    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
+        box_of_body[facets.body[facet]].extend(box_of(facet));
+        deepest = std::max(deepest, facets.cell_depth[facet]);
+    }
+    const double margin = 2.0 * far_reach_ + contact_->skin() + 4.0 * deepest;
+    std::vector<std::vector<geometry::Box<Dim>>> others(box_of_body.size());  // that a body may come near to
+    for (std::size_t body = 0; body < others.size(); ++body)
+        for (std::size_t other = 0; other < others.size(); ++other)
+            if (const auto grown = box_of_body[other].grown(margin); other != body && grown.overlaps(box_of_body[body]))
+                others[body].push_back(grown);
+    std::vector<std::int32_t> nodes;
+    for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
+        const auto overlaps = [box = box_of(facet)](const geometry::Box<Dim>& other) { return box.overlaps(other); };
+        if (std::ranges::none_of(others[facets.body[facet]], overlaps)) continue;
+        const auto corners = facets.vertices_of(facet);
+        nodes.insert(nodes.end(), corners.begin(), corners.end());
+    }
+    sort_unique(nodes);
+    return nodes;
 }
 
 template <int Dim>
@@ -223,7 +286,7 @@ void PairPotentialDriver<Dim>::take_end() {
 
 template <int Dim>
 void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q) {
-    if (!contact_->is_valid_for(0.0)) return evaluate(q, watch_.time);
+    if (!contact_->is_valid_for(0.0)) return evaluate(q, end_time_);
     contact_->evaluate_listed(x_0_);
     collect(x_0_, x_0_);
 }

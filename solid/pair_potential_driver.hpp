@@ -64,6 +64,7 @@ private:
         std::vector<std::int32_t> faces;      // of bodies, by their index in the surface, increasing
         std::vector<BoundaryFace> boundary;   // the same
         std::vector<std::int32_t> obstacles;  // nodes of obstacles, increasing
+        std::vector<std::int32_t> nodes;      // all of them, increasing
         Region<Dim> region;
     };
 
@@ -71,9 +72,21 @@ private:
     [[nodiscard]] Listed list(std::span<const std::int32_t> nodes) const;
     void place(const Listed& listed, std::span<const Vector<Dim>> q, Frames frames, const BoundaryLoad<Dim>& load,
                double time, Points& x);
+    /// What bounds how far some nodes are from where they were at a search: exact in one state, a bound from there on.
+    struct Watch {
+        std::vector<BodyFrame<Dim>> frames;  // in that state
+        std::vector<double> radius;          // of these nodes about the centre of each body [m]
+        double time = 0.0;                   // of that state [s]
+        double moved = 0.0;                  // the farthest of them from where candidates were searched [m]
+        double travelled = 0.0;  // since then: sum over the steps of the motion in its frame of the cell that moved farthest
+    };
+
+    [[nodiscard]] double motion_since(const Watch& watch, double time) const;
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
-    double measure(const Points& x, double time);
-    void search(std::span<const Vector<Dim>> q_0, double time, double dt);
+    [[nodiscard]] bool is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time);
+    [[nodiscard]] Watch watch_from(const Listed& listed, const Points& x, double time) const;
+    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    [[nodiscard]] std::vector<std::int32_t> near_nodes() const;
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
     void collect(const Points& x_0, const Points& x_1);
     void keep_touching_faces();
@@ -100,17 +113,14 @@ private:
     double amplification_ = 0.0;  // how far a corner moves at most in its frame when no cell moves farther than 1
     std::optional<contact::NodalContact<Dim>> contact_;
 
-    Listed all_, listed_;
+    // All faces; those near enough to another body to touch it while no face moves farther than `far_reach_`; those listed.
+    Listed all_, near_, listed_;
     std::vector<std::int32_t> listed_nodes_;  // what `listed_` is of
     Points x_0_, x_1_, x_state_;              // nodes at both ends of a step; between steps _0 is where the last one ended
     bool has_stepped_ = false;
-    struct Watch {  // the state in which all nodes were looked at last
-        std::vector<BodyFrame<Dim>> frames;
-        std::vector<double> radius;  // of each body about its centre [m]
-        double time = 0.0;
-        double moved = 0.0;      // the node that was farthest from where candidates were searched [m]
-        double travelled = 0.0;  // since then: sum over the steps of the motion in its frame of the cell that moved farthest
-    } watch_;
+    Watch near_watch_, far_watch_;
+    double far_reach_ = 0.0;  // [m]
+    double end_time_ = 0.0;   // of the last step [s]
     Points searched_at_;
 
     std::vector<Vector<Dim>> u_;  // work arrays, of all points and of listed faces

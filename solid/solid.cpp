@@ -129,15 +129,18 @@ Solid<Dim>::~Solid() = default;
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::in_frames(std::span<const Vector<Dim>> q, std::span<const std::int32_t> cells) {
     if (!frames_->any_turns()) return q;
-    midpoint_.resize(q.size());
-    frames_->displacement(cells, q, frames_->end(), midpoint_);
-    return midpoint_;
+    in_frames_.resize(q.size());
+    frames_->displacement(cells, q, frames_->end(), in_frames_);
+    return in_frames_;
 }
 
+/// Replaces gradients in the frames by forces in space, body forces included.
 template <int Dim>
-void Solid<Dim>::to_space(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
+void Solid<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                           std::span<Vector<Dim>> gradient) {
-    frames_->to_space(q_0, q_1, contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{}, gradient);
+    if (!frames_->any_turns()) return loads_->to_force(gradient);
+    frames_->to_force(q_0, q_1, contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{}, loads_->body_force(),
+                      gradient);
 }
 
 template <int Dim>
@@ -147,8 +150,7 @@ void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
     frames_->stand_at(u);
     if (contact_) contact_->evaluate(u, time_);
     ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), gradient);
-    to_space(u, u, gradient);
-    loads_->to_force(gradient);
+    to_force(u, u, gradient);
 }
 
 template <int Dim>
@@ -198,13 +200,18 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = as_vectors<Dim>(force);
+    const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
+        if (frames_->any_turns())
+            ccg_.gradient_of_packed(packed_midpoint_, load, corrections(), gradient);
+        else
+            ccg_.gradient(midpoint_, load, corrections(), gradient);
+    };
     if (loads_->vary())
-        ccg_.gradient(midpoint_, loads_->mean(), corrections(), gradient);
+        take_gradient(loads_->mean());
     else
-        ccg_.gradient(midpoint_, loads_->end(), corrections(), gradient);
+        take_gradient(loads_->end());
     add_work(1.0);
-    to_space(u_0, u_1, gradient);
-    loads_->to_force(gradient);
+    to_force(u_0, u_1, gradient);
     evaluations_ += mesh_.n_cells();
     end_step(time + dt);
 }
@@ -230,8 +237,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const Stopwatch watch(times_.bulk);
     ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
     add_work(0.5);
-    to_space(u_1, u_1, gradient);
-    loads_->to_force(gradient);
+    to_force(u_1, u_1, gradient);
     evaluations_ += mesh_.n_cells();
     end_step(time + dt);
 }
@@ -265,15 +271,16 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
     if (tractions_jump && contact_) contact_->jumped(q_0, time);
 }
 
-/// Fills midpoint_. No cell moves farther in its frame than what is returned [m]; without contact nobody asks, and it is 0.
+/// Fills midpoint_ or packed_midpoint_. No cell moves farther in its frame than what is returned [m]; without contact nobody asks, and it is 0.
 template <int Dim>
 double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     const Stopwatch watch(times_.bulk);
-    midpoint_.resize(q_0.size());
     if (frames_->any_turns()) {
         frames_->follow(q_0, q_1);
-        return frames_->take_midpoints(q_0, q_1, midpoint_);
+        packed_midpoint_.resize(lane_width<Dim> * q_0.size());
+        return frames_->take_midpoints(q_0, q_1, packed_midpoint_);
     }
+    midpoint_.resize(q_0.size());
     if (contact_) return take_midpoints<Dim>(q_0, q_1, midpoint_);
     parallel_each(static_cast<std::ptrdiff_t>(q_0.size()),
                   [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); });

@@ -145,7 +145,7 @@ private:
     [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     [[nodiscard]] std::span<const Vector<Dim>> in_frames(std::span<const Vector<Dim>> q,
                                                          std::span<const std::int32_t> cells);
-    void to_space(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
+    void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
     void add_work(double share);
     void end_step(double time);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
@@ -166,7 +166,9 @@ private:
     std::unique_ptr<ContactDriver<Dim>> contact_;          // null without contact
     ReconstructionDriver<Dim>* reconstruction_ = nullptr;  // the same, under that law
     std::unique_ptr<LocalLevels<Dim>> levels_;             // null without local steps
-    std::vector<Vector<Dim>> midpoint_;                    // in the frames of the bodies
+    std::vector<Vector<Dim>> midpoint_;                    // where no body turns, else
+    std::vector<double> packed_midpoint_;                  // in the frames, as the operators take it
+    std::vector<Vector<Dim>> in_frames_;
     std::vector<std::int32_t> all_cells_;
     Region<Dim> patch_region_;  // of the cells that `end_force_on` was asked for last
 };

@@ -10,6 +10,8 @@ namespace {
 
 const auto overlap_modes = choices_of(run::overlap_words);
 const auto weights = choices_of(run::weighting_words);
+const auto kinematics = choices_of(run::kinematics_words);
+const auto laws = choices_of(run::law_words);
 const auto integrators = choices_of(run::integrator_words);
 const auto switches = choices_of(run::event_words);
 const auto filters = choices_of(run::filter_words);
@@ -87,6 +89,12 @@ void add_contact_options(CLI::App& app, run::RunOptions& options) {
     add_model_options(app, options);
     auto& contact = options.contact;
     const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
+    grouped(add_choice(app, "--kinematics", options.kinematics,
+                       "of all bodies: small for those that do not turn, floating frames, or as the scene says",
+                       kinematics));
+    grouped(add_choice(app, "--law", options.law,
+                       "of contact: the modified reconstruction for bodies that do not turn, the pair potential for all",
+                       laws));
     grouped(add_choice(app, "--broad-phase", contact.search.broad_phase,
                        "what finds faces that are near; all give the same bits", broad_phases));
     grouped(add_choice(app, "--overlap", contact.overlap,

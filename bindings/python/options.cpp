@@ -49,6 +49,8 @@ const std::map<std::string, Take>& known_options() {
         {"gauge", take_value<double>(ABUT_OPTION(gauge))},
         {"filter", take_word(run::filter_words, ABUT_OPTION(filter))},
         {"restart", take_value<int>(ABUT_OPTION(restart))},
+        {"kinematics", take_word(run::kinematics_words, ABUT_OPTION(kinematics))},
+        {"law", take_word(run::law_words, ABUT_OPTION(law))},
         {"overlap", take_word(run::overlap_words, ABUT_OPTION(contact.overlap))},
         {"weights", take_word(run::weighting_words, ABUT_OPTION(contact.weighting))},
         {"area", take_word(run::area_words, ABUT_OPTION(contact.area))},

@@ -160,6 +160,12 @@ void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>&
 }
 
 template <int Dim>
+void Ccg<Dim>::gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load,
+                                  const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->sweeps.gradient_of_packed(u, load, corrections, result);
+}
+
+template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
     return impl_->sweeps.face_gradient(impl_->arrays.face_of(face));
 }
@@ -227,8 +233,8 @@ double Ccg<Dim>::motion_amplification() const {
 }
 
 template <int Dim>
-double Ccg<Dim>::tilt_amplification(BoundaryFace face) const {
-    return impl_->motion_bound.tilt_amplification(face);
+double Ccg<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const {
+    return impl_->motion_bound.corner_amplification(face, arm);
 }
 
 template <int Dim>

@@ -85,6 +85,10 @@ public:
     /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
+    /// The same of u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
+    /// of its size.
+    void gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                            std::span<Vector<Dim>> result);
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient`; `evaluate_cells`
     /// since then has set those of its region.
     [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;
@@ -118,8 +122,8 @@ public:
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
     /// Under constant loads `motion_bound` grows by at most this times the motion of the cell that moves farthest [-].
     [[nodiscard]] double motion_amplification() const;
-    /// The same of |G_c| of the cell behind a boundary face [1/m].
-    [[nodiscard]] double tilt_amplification(BoundaryFace face) const;
+    /// The same of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid that tilts with the cell behind.
+    [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
     /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells`
     /// since then have set those of their region.

@@ -1,5 +1,7 @@
 #include "abut/solid/ccg/sweeps.hpp"
 
+#include <utility>
+
 #include "abut/base/parallel.hpp"
 
 namespace abut::solid {
@@ -245,8 +247,21 @@ CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays) : arrays_(arrays) {
 template <int Dim>
 void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    const PlacedCorrections placed(*this, corrections);
     load_displacement(u);
+    run_sweeps(load, corrections, result);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load,
+                                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    std::swap(u_, u);
+    run_sweeps(load, corrections, result);
+}
+
+template <int Dim>
+void CcgSweeps<Dim>::run_sweeps(const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                                std::span<Vector<Dim>> result) {
+    const PlacedCorrections placed(*this, corrections);
     schedule_.run([&](int stage, std::int32_t chunk) {
         switch (stage) {
             case reconstruction:

@@ -31,6 +31,9 @@ public:
 
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result);
+    /// The same; the arrays of displacements are exchanged.
+    void gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                            std::span<Vector<Dim>> result);
     /// V without the work of the loads [J].
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                        const FaceCorrections<Dim>& corrections);
@@ -73,6 +76,8 @@ private:
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
+
+    void run_sweeps(const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
     // One chunk
     void set_chunks();

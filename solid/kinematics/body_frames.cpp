@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -26,58 +28,118 @@ void require_width(const Matrix<Dim>& second_moment, const std::string& name) {
                    "choose Kinematics::small or Kinematics::rigid for it.");
 }
 
+Register4 load_four(const std::vector<double>& values, std::ptrdiff_t i) {
+    Register4 four;
+    std::memcpy(&four, values.data() + 4 * i, sizeof four);
+    return four;
+}
+
+/// Sums of a (x) (b, 1) over points: a row of four per component of a.
+template <int Dim>
+struct Moments {
+    std::array<Register4, Dim> row{};
+
+    void add(Lanes<Dim> a, Register4 b) {
+        for (int k = 0; k < Dim; ++k) row[k] += a[k] * b;
+    }
+    Moments& operator+=(const Moments& other) {
+        for (int k = 0; k < Dim; ++k) row[k] += other.row[k];
+        return *this;
+    }
+    [[nodiscard]] Matrix<Dim> product() const {
+        Matrix<Dim> m;
+        for (int k = 0; k < Dim; ++k)
+            for (int j = 0; j < Dim; ++j) m(k, j) = row[k][j];
+        return m;
+    }
+    [[nodiscard]] Vector<Dim> sum() const {
+        Vector<Dim> s;
+        for (int k = 0; k < Dim; ++k) s[k] = row[k][Dim];
+        return s;
+    }
+};
+
+/// Over points [begin, end), in blocks of fixed size.
+template <int Dim, class Add>
+Moments<Dim> sum_moments(std::int32_t begin, std::int32_t end, const Add& add) {
+    const std::ptrdiff_t n_blocks = (end - begin + parallel_grain - 1) / parallel_grain;
+    const auto sum_of_block = [&](std::ptrdiff_t block) {
+        Moments<Dim> sum;
+        const std::ptrdiff_t first = begin + block * parallel_grain;
+        for (std::ptrdiff_t i = first; i < std::min<std::ptrdiff_t>(end, first + parallel_grain); ++i) add(sum, i);
+        return sum;
+    };
+    if (n_blocks == 1) return sum_of_block(0);
+    std::vector<Moments<Dim>> sums(static_cast<std::size_t>(n_blocks));
+    parallel_each(
+        n_blocks, [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); }, 4);
+    Moments<Dim> total;
+    for (const Moments<Dim>& sum : sums) total += sum;
+    return total;
+}
+
+/// (a, 1)
+template <int Dim>
+Register4 with_one(Lanes<Dim> a) {
+    if constexpr (Dim == 2)
+        return Register4{a[0], a[1], 1.0, 0.0};
+    else
+        return Register4{a[0], a[1], a[2], 1.0};
+}
+
+/// The larger of two values >= 0 by their bits, which keep the order of numbers with NaN above infinity: no branch.
+double largest_bits(double a, double b) {
+    return std::bit_cast<double>(std::max(std::bit_cast<std::int64_t>(a), std::bit_cast<std::int64_t>(b)));
+}
+
 }  // namespace
 
 template <int Dim>
 BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses,
                             std::vector<std::int32_t> begin, std::vector<bool> turns, std::span<const std::string> names)
-    : rest_position_(rest),
-      masses_(masses),
-      begin_(std::move(begin)),
+    : begin_(std::move(begin)),
       turns_(std::move(turns)),
       any_turns_(std::ranges::find(turns_, true) != turns_.end()),
       rest_(turns_.size()),
       steps_(turns_.size()),
       lambda_(turns_.size(), AxialVector<Dim>::Zero()) {
+    arm_.resize(lane_width<Dim> * rest.size());
+    weighted_arm_.resize(4 * rest.size());
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         body_.resize(static_cast<std::size_t>(begin_[body + 1]), static_cast<std::int32_t>(body));
-        mass_.push_back(sum(body, 0.0, [&](std::int32_t i) { return masses_[i]; }));
         const Vector<Dim> origin = rest[begin_[body]];
-        const Vector<Dim> moment = sum(body, Vector<Dim>(Vector<Dim>::Zero()), [&](std::int32_t i) -> Vector<Dim> {
-            return masses_[i] * (rest_position_[i] - origin);
-        });
-        rest_[body].centre = origin + moment / mass_[body];
-        rest_[body].moment = sum(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t i) -> Matrix<Dim> {
-            return masses_[i] * rest_arm(i, body) * rest_arm(i, body).transpose();
-        });
+        double mass = 0.0;
+        Vector<Dim> moment = Vector<Dim>::Zero();
+        for (std::int32_t i = begin_[body]; i < begin_[body + 1]; ++i) {
+            mass += masses[i];
+            moment += masses[i] * (rest[i] - origin);
+        }
+        mass_.push_back(mass);
+        rest_[body].centre = origin + moment / mass;
+        rest_[body].moment.setZero();
+        for (std::int32_t i = begin_[body]; i < begin_[body + 1]; ++i) {
+            const Vector<Dim> arm = rest[i] - rest_[body].centre;
+            rest_[body].moment += masses[i] * arm * arm.transpose();
+            store(load_packed<Dim>(arm), arm_, i);
+            for (int k = 0; k < Dim; ++k) weighted_arm_[4 * i + k] = masses[i] * arm[k];
+            weighted_arm_[4 * i + Dim] = masses[i];
+        }
         if (turns_[body]) require_width<Dim>(rest_[body].moment, names[body]);
     }
     start_ = end_ = state_ = rest_;
 }
 
-template <int Dim>
-template <class Value, class Term>
-Value BodyFrames<Dim>::sum(std::size_t body, const Value& zero, const Term& term) const {
-    const std::int32_t begin = begin_[body];
-    return ordered_sum(begin_[body + 1] - begin, zero,
-                       [&](std::ptrdiff_t i) -> Value { return term(begin + static_cast<std::int32_t>(i)); });
-}
-
 /// Displacements enter by their differences to that of the first point: a body far from where it began loses no digits.
 template <int Dim>
 void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const {
-    using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;  // of m d X'^T and m d
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         if (!turns_[body]) continue;
-        const Vector<Dim> origin = q[begin_[body]];
-        const Sums sums = sum(body, Sums(Sums::Zero()), [&](std::int32_t i) -> Sums {
-            Sums term;
-            const Vector<Dim> moved = masses_[i] * (q[i] - origin);
-            term << moved * rest_arm(i, body).transpose(), moved;
-            return term;
+        const Lanes<Dim> origin = load_packed<Dim>(q[begin_[body]]);
+        const Moments<Dim> sums = sum_moments<Dim>(begin_[body], begin_[body + 1], [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+            sum.add(load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
         });
-        frames[body].centre = rest_[body].centre + origin + sums.template rightCols<1>() / mass_[body];
-        frames[body].moment = rest_[body].moment + sums.template leftCols<Dim>();
+        frames[body].centre = rest_[body].centre + q[begin_[body]] + sums.sum() / mass_[body];
+        frames[body].moment = rest_[body].moment + sums.product();
         frames[body].turn = nearest_rotation<Dim>(frames[body].moment);
     }
 }
@@ -116,49 +178,91 @@ void BodyFrames<Dim>::set_steps() {
         if (turns_[body]) steps_[body] = FrameStep<Dim>(start()[body], end()[body]);
 }
 
+/// u of points of one body, from how far they have moved.
+template <int Dim>
+class BodyFrames<Dim>::IntoFrame {
+public:
+    IntoFrame(const BodyFrames& frames, std::size_t body, const BodyFrame<Dim>& frame)
+        : turns_(frames.turns_[body]),
+          shift_(load_packed<Dim>(Vector<Dim>(frame.centre - frames.rest_[body].centre))),
+          back_(load_packed<Dim>(Matrix<Dim>(frame.turn.transpose()))) {}
+
+    [[nodiscard]] Lanes<Dim> operator()(const Vector<Dim>& q, Lanes<Dim> arm) const {
+        const Lanes<Dim> moved = load_packed<Dim>(q);
+        return turns_ ? back_ * (arm + (moved - shift_)) - arm : moved;
+    }
+
+private:
+    bool turns_;
+    Lanes<Dim> shift_;
+    LaneTensor<Dim> back_;
+};
+
 template <int Dim>
 void BodyFrames<Dim>::displacement(std::span<const std::int32_t> points, std::span<const Vector<Dim>> q,
                                    std::span<const BodyFrame<Dim>> frames, std::span<Vector<Dim>> u) const {
+    std::vector<IntoFrame> into;
+    for (std::size_t body = 0; body < turns_.size(); ++body) into.emplace_back(*this, body, frames[body]);
     parallel_each(static_cast<std::ptrdiff_t>(points.size()), [&](std::ptrdiff_t at) {
         const std::int32_t i = points[at];
-        const std::int32_t body = body_[i];
-        u[i] = in_frame(i, body, frames[body], q[i]);
+        u[i] = unload<Dim>(into[body_[i]](q[i], rest_arm(i)));
     });
 }
 
 template <int Dim>
 double BodyFrames<Dim>::take_midpoints(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                                       std::span<Vector<Dim>> middle) const {
-    return std::sqrt(largest(static_cast<std::ptrdiff_t>(q_0.size()), [&](std::ptrdiff_t at) {
-        const auto i = static_cast<std::int32_t>(at);
-        const std::int32_t body = body_[i];
-        const Vector<Dim> u_0 = in_frame(i, body, start()[body], q_0[i]), u_1 = in_frame(i, body, end()[body], q_1[i]);
-        middle[i] = 0.5 * (u_0 + u_1);
-        return (u_1 - u_0).squaredNorm();
-    }));
+                                       std::vector<double>& packed) const {
+    double farthest = 0.0;
+    for (std::size_t body = 0; body < turns_.size(); ++body) {
+        const IntoFrame from(*this, body, start()[body]), to(*this, body, end()[body]);
+        const std::int32_t begin = begin_[body], n = begin_[body + 1] - begin;
+        const auto take_block = [&](std::ptrdiff_t block) {
+            double square = 0.0;
+            const std::ptrdiff_t first = begin + block * parallel_grain;
+            for (std::ptrdiff_t i = first; i < std::min<std::ptrdiff_t>(begin + n, first + parallel_grain); ++i) {
+                const Lanes<Dim> arm = rest_arm(i), u_0 = from(q_0[i], arm), u_1 = to(q_1[i], arm);
+                store(0.5 * (u_0 + u_1), packed, i);
+                square = largest_bits(square, dot(u_1 - u_0, u_1 - u_0));
+            }
+            return square;
+        };
+        farthest = larger(farthest, largest((n + parallel_grain - 1) / parallel_grain, take_block, 4));
+    }
+    return std::sqrt(farthest);
 }
 
 template <int Dim>
-void BodyFrames<Dim>::to_space(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                               std::span<const BodyPush<Dim>> pushes, std::span<Vector<Dim>> gradient) {
-    using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;  // of f x'^T and f
+void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
+                               std::span<const BodyPush<Dim>> pushes, std::span<const Vector<Dim>> force,
+                               std::span<Vector<Dim>> gradient) {
     for (std::size_t body = 0; body < turns_.size(); ++body) {
-        if (!turns_[body]) continue;
+        const std::int32_t begin = begin_[body], end = begin_[body + 1];
+        if (!turns_[body]) {
+            parallel_each(end - begin, [&](std::ptrdiff_t at) {
+                const std::ptrdiff_t i = begin + at;
+                gradient[i] = force.empty() ? Vector<Dim>(-gradient[i]) : Vector<Dim>(force[i] - gradient[i]);
+            });
+            continue;
+        }
         const BodyPush<Dim> push = pushes.empty() ? BodyPush<Dim>{} : pushes[body];
         const Matrix<Dim>& turn = steps_[body].mean_turn();
-        const Vector<Dim> centre = 0.5 * (start()[body].centre + end()[body].centre);
-        const Sums sums = sum(body, Sums(Sums::Zero()), [&](std::int32_t i) -> Sums {
-            Sums term;
-            const Vector<Dim> arm = rest_position_[i] + (0.5 * (q_0[i] + q_1[i]) - centre);
-            term << gradient[i] * arm.transpose(), gradient[i];
-            return term;
+        const Vector<Dim> mean_centre = 0.5 * (start()[body].centre + this->end()[body].centre);
+        const Lanes<Dim> shift = load_packed<Dim>(Vector<Dim>(mean_centre - rest_[body].centre));
+        const Moments<Dim> sums = sum_moments<Dim>(begin, end, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+            const Lanes<Dim> moved = 0.5 * (load_packed<Dim>(q_0[i]) + load_packed<Dim>(q_1[i])) - shift;
+            sum.add(load_packed<Dim>(gradient[i]), with_one(rest_arm(i) + moved));
         });
-        const Vector<Dim> missing = (push.gradient - turn * sums.template rightCols<1>()) / mass_[body];
-        lambda_[body] = steps_[body].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.template leftCols<Dim>())));
-        const Matrix<Dim> turning = hat<Dim>(lambda_[body]);
-        parallel_each(begin_[body + 1] - begin_[body], [&](std::ptrdiff_t at) {
-            const std::int32_t i = begin_[body] + static_cast<std::int32_t>(at);
-            gradient[i] = turn * (gradient[i] + masses_[i] * (turning * rest_arm(i, body))) + masses_[i] * missing;
+        lambda_[body] = steps_[body].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.product())));
+        // dV/dx = turn f + (turn hat(lambda)) m X' + m missing
+        const LaneTensor<Dim> turning = load_packed<Dim>(turn);
+        const LaneTensor<Dim> carrying = load_packed<Dim>(Matrix<Dim>(turn * hat<Dim>(lambda_[body])));
+        const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.sum()) / mass_[body]));
+        parallel_each(end - begin, [&](std::ptrdiff_t at) {
+            const std::ptrdiff_t i = begin + at;
+            const Register4 weighted = load_four(weighted_arm_, i);
+            Lanes<Dim> sum = turning * load_packed<Dim>(gradient[i]) + weighted[Dim] * missing;
+            for (int k = 0; k < Dim; ++k) sum += weighted[k] * carrying.col[k];
+            gradient[i] = unload<Dim>(force.empty() ? -sum : load_packed<Dim>(force[i]) - sum);
         });
     }
 }
@@ -167,15 +271,8 @@ template <int Dim>
 Vector<Dim> BodyFrames<Dim>::point_to_space(std::int32_t i, const Vector<Dim>& gradient) const {
     const std::int32_t body = body_[i];
     if (!turns_[body]) return gradient;
-    return end()[body].turn * (gradient + masses_[i] * (hat<Dim>(lambda_[body]) * rest_arm(i, body)));
-}
-
-template <int Dim>
-Vector<Dim> BodyFrames<Dim>::in_frame(std::int32_t i, std::size_t body, const BodyFrame<Dim>& frame,
-                                      const Vector<Dim>& q) const {
-    if (!turns_[body]) return q;
-    const Vector<Dim> arm = rest_arm(i, body);
-    return frame.turn.transpose() * (arm + (q - (frame.centre - rest_[body].centre))) - arm;
+    const double mass = weighted_arm_[4 * static_cast<std::size_t>(i) + Dim];
+    return end()[body].turn * (gradient + mass * (hat<Dim>(lambda_[body]) * unload<Dim>(rest_arm(i))));
 }
 
 template class BodyFrames<2>;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/solid/ccg/lanes.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
 
 namespace abut::solid {
@@ -29,8 +30,8 @@ struct BodyPush {
 template <int Dim>
 class BodyFrames {
 public:
-    /// Points of body b are [begin[b], begin[b + 1]); `turns`: whether its frame moves. Arrays of points must outlive this.
-    /// Throws BadInput for a body that turns in space while its points lie on a line, or in a point.
+    /// Points of body b are [begin[b], begin[b + 1]); `turns`: whether its frame moves. Throws BadInput for a body
+    /// that turns in space while its points lie on a line, or in a point.
     BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
                std::vector<bool> turns, std::span<const std::string> names);
 
@@ -60,15 +61,15 @@ public:
     /// u in some frames, as `start` or `end`, of some points; `u` has place for all (n_points) [m].
     void displacement(std::span<const std::int32_t> points, std::span<const Vector<Dim>> q,
                       std::span<const BodyFrame<Dim>> frames, std::span<Vector<Dim>> u) const;
-    /// The mean of u at both ends (n_points) [m]. No point moves farther in its frame than what is returned [m]; NaN if one
-    /// does not move by a number.
+    /// The mean of u at both ends, packed: lane_width numbers per point [m]. No point moves farther in its frame than what is
+    /// returned [m]; NaN if one does not move by a number.
     double take_midpoints(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                          std::span<Vector<Dim>> middle) const;
-    /// dV/dx, from dV/du (both n_points, in one array) and the pushes on each body [N]; without pushes: none. Remembers what
-    /// makes up for missing moments.
-    void to_space(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<const BodyPush<Dim>> pushes,
-                  std::span<Vector<Dim>> gradient);
-    /// The same of one point in one state, with what the last `to_space` remembers: but for terms of the order of a step.
+                          std::vector<double>& packed) const;
+    /// `force` less dV/dx, from dV/du (all n_points) and the pushes on each body [N]; without pushes or force: none. The
+    /// result takes the place of the gradient. Remembers what makes up for missing moments.
+    void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<const BodyPush<Dim>> pushes,
+                  std::span<const Vector<Dim>> force, std::span<Vector<Dim>> gradient);
+    /// dV/dx of one point in one state, with what the last `to_force` remembers: but for terms of the order of a step.
     [[nodiscard]] Vector<Dim> point_to_space(std::int32_t point, const Vector<Dim>& gradient) const;
     /// How far a body has turned [rad], 0 to pi; of one whose frame does not move 0.
     [[nodiscard]] double rotation(std::size_t body) const { return rotation_angle<Dim>(end()[body].turn); }
@@ -77,18 +78,11 @@ private:
     void place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const;
     void stand_in(const std::vector<BodyFrame<Dim>>& frames);
     void set_steps();
-    [[nodiscard]] Vector<Dim> rest_arm(std::int32_t point, std::size_t body) const {
-        return rest_position_[static_cast<std::size_t>(point)] - rest_[body].centre;
-    }
-    /// u of a point that has moved by q.
-    [[nodiscard]] Vector<Dim> in_frame(std::int32_t point, std::size_t body, const BodyFrame<Dim>& frame,
-                                       const Vector<Dim>& q) const;
-    /// Over the points of one body.
-    template <class Value, class Term>
-    Value sum(std::size_t body, const Value& zero, const Term& term) const;
+    [[nodiscard]] Lanes<Dim> rest_arm(std::ptrdiff_t point) const { return load_packed<Dim>(arm_, point); }
+    class IntoFrame;
 
-    std::span<const Vector<Dim>> rest_position_;
-    std::span<const double> masses_;
+    std::vector<double> arm_;           // X', packed, by point
+    std::vector<double> weighted_arm_;  // (m X', m), four numbers per point
     std::vector<std::int32_t> begin_;
     std::vector<bool> turns_;
     bool any_turns_ = false;

@@ -100,7 +100,8 @@ struct AnyBody {
         std::vector<Vector<Dim>> result(n);
         for (int i = 0; i < n; ++i) result[i] = f.segment<Dim>(Dim * i);
         frames->follow(q_0, q_1);
-        frames->to_space(q_0, q_1, pushes, result);
+        frames->to_force(q_0, q_1, pushes, {}, result);
+        for (Vector<Dim>& negative : result) negative = -negative;
         return result;
     }
 
