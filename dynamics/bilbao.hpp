@@ -26,6 +26,7 @@ class Bilbao : public Integrator<Bilbao<S>, S> {
 public:
     static constexpr bool has_half_steps = true;
     static constexpr bool takes_after_step = false;
+    static constexpr bool takes_constraints = false;
     static constexpr bool takes_node_restart = false;
 
     /// Starts from q and p at the same time. The gauge c [J] keeps V + c positive: a scene with free flight needs c > 0. The

@@ -25,6 +25,7 @@ requires(!FollowedSystem<S>) class EnergyMomentum : public Integrator<EnergyMome
 public:
     static constexpr bool has_half_steps = false;
     static constexpr bool takes_after_step = false;
+    static constexpr bool takes_constraints = false;
     static constexpr bool takes_node_restart = false;
 
     /// Starts from q and p at the same time. The system must outlive the integrator. Throws BadInput if dt is

@@ -95,6 +95,8 @@ public:
                                             .arms = system_.moment_arms(),
                                             .dt = dt};
         for (const ContactPatch<Dim>& patch : patches) detail::filter_patch<Dim>(patch, state, kappa_);
+        // Along the lines of the last step: that changes no more of H~, momentum and J~ than the step itself.
+        if constexpr (ConstrainedSystem<S>) system_.constrain_along(q, dt, p_after);
     }
 
 private:

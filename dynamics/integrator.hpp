@@ -23,6 +23,7 @@ namespace detail {
 /// Throw BadInput.
 void check_step(double dt);
 void check_start(std::size_t size, std::span<const double> q, std::span<const double> p);
+[[noreturn]] void refuse_constraints();
 }  // namespace detail
 
 /// What all schemes share: positions q^n, momenta p^{n-1/2} and p^{n+1/2} around them, start-up, changes of dt, energies.
@@ -32,6 +33,7 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     void advance()                      from q_ at time_ to the next node
 ///     double conserved_energy(double V)   the energy that it conserves, V being V(q_) [J]
 ///     has_half_steps                      whether its momenta are at half steps
+///     takes_constraints                whether it runs a ConstrainedSystem that has constraints
 ///     takes_after_step, takes_node_restart    whether `set_after_step` and `set_node_restart` are offered
 /// Static polymorphism: no virtual calls. After an exception from `step`, except for a bad dt, the run is over unless the
 /// scheme says more.
@@ -66,6 +68,8 @@ public:
         const bool changed = dt != dt_;
         dt_ = dt;
         if (changed && change == StepChange::restart) restart();
+        if constexpr (ConstrainedSystem<S>)
+            if (changed && change == StepChange::keep) system_.constrain_along(q_, dt_, p_after_);
         step();
     }
 
@@ -118,6 +122,8 @@ protected:
     /// Throws BadInput if dt is not > 0 and finite, or if sizes disagree or a value is not finite.
     void begin(std::span<const double> p) {
         detail::check_step(dt_);
+        if constexpr (ConstrainedSystem<S> && !Scheme::takes_constraints)
+            if (system_.has_constraints()) detail::refuse_constraints();
         detail::check_start(system_.size(), q_, p);
         for (auto* array : {&p_before_, &p_after_, &q_next_, &force_, &scratch_}) array->resize(q_.size());
         scheme().start(p);
@@ -129,6 +135,10 @@ protected:
         for (std::size_t i = 0; i < q_.size(); ++i) {
             p_before_[i] = p[i] - 0.5 * step_of(i) * force_[i];
             p_after_[i] = p[i] + 0.5 * step_of(i) * force_[i];
+        }
+        if constexpr (ConstrainedSystem<S>) {
+            system_.constrain_at(q_, -dt_, p_before_);
+            system_.constrain_at(q_, dt_, p_after_);
         }
     }
     /// a . M^-1 b

@@ -19,6 +19,7 @@ class Leapfrog : public Integrator<Leapfrog<S>, S> {
 public:
     static constexpr bool has_half_steps = true;
     static constexpr bool takes_after_step = true;
+    static constexpr bool takes_constraints = true;
     static constexpr bool takes_node_restart = false;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
@@ -38,6 +39,7 @@ private:
         std::swap(this->q_, this->q_next_);
         std::swap(this->p_before_, this->p_after_);
         add_scaled(this->p_before_, this->dt_, this->force_, this->p_after_);
+        if constexpr (ConstrainedSystem<S>) this->system_.constrain_at(this->q_, this->dt_, this->p_after_);
     }
     [[nodiscard]] double conserved_energy(double potential) const { return this->staggered_kinetic_energy() + potential; }
 };

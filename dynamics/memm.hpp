@@ -20,6 +20,7 @@ class Memm : public Integrator<Memm<S>, S> {
 public:
     static constexpr bool has_half_steps = true;
     static constexpr bool takes_after_step = true;
+    static constexpr bool takes_constraints = true;
     static constexpr bool takes_node_restart = true;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt/2 F(q). The system must outlive the integrator.
@@ -38,6 +39,7 @@ private:
         add_scaled_velocity(this->q_, this->dt_, this->system_.inverse_mass(), this->p_after_, this->q_next_);
         mean_force_(this->q_, this->q_next_, this->time_, this->dt_, this->force_);
         add_scaled(this->p_before_, 2.0 * this->dt_, this->force_, this->p_before_);
+        if constexpr (ConstrainedSystem<S>) this->system_.constrain_along(this->q_next_, this->dt_, this->p_before_);
         std::swap(this->p_before_, this->p_after_);
         std::swap(this->q_, this->q_next_);
     }

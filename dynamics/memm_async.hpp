@@ -36,6 +36,7 @@ class MemmAsync : public Integrator<MemmAsync<S>, S> {
 public:
     static constexpr bool has_half_steps = true;
     static constexpr bool takes_after_step = false;
+    static constexpr bool takes_constraints = false;
     static constexpr bool takes_node_restart = false;
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt_i/2 F(q). The system must outlive the integrator.

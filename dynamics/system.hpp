@@ -37,6 +37,16 @@ concept FollowedSystem = PathMeanSystem<S> &&
     { system.is_autonomous() } -> std::convertible_to<bool>;  ///< whether V depends on q alone, not on time
 };
 
+/// A system some points of which stay at the distances that they have. What holds them are impulses along the lines between
+/// them: as these lie in the middle of a step they do no work on it and have no moment about its mean positions. Only schemes
+/// that call this may run it where `has_constraints`.
+template <class S>
+concept ConstrainedSystem = System<S> && requires(S& system, std::span<const double> q, std::span<double> p, double dt) {
+    { system.has_constraints() } -> std::convertible_to<bool>;
+    system.constrain_along(q, dt, p);  ///< p of the next half step from q, along the lines of the last `mean_force`
+    system.constrain_at(q, dt, p);     ///< the same along the lines in q; dt < 0: of the half step before
+};
+
 /// F(q_1), where a step from q_0 at time t has ended.
 template <System S>
 void force_after_step(S& system, std::span<const double> q_0, std::span<const double> q_1, double t, double dt,

@@ -20,9 +20,9 @@ Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
 /// v = M^-1 (p^- + p^+)/2 by cell [m/s].
 template <int Dim>
 std::vector<Vector<Dim>> velocities(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-    std::vector<Vector<Dim>> velocity;
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) velocity.push_back(run.momentum(c) / solid.masses()[c]);
-    return velocity;
+    std::vector<double> momentum(run.p_before.begin(), run.p_before.end());
+    for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + run.p_after[i]);
+    return solid.cell_velocity(run.q, momentum);
 }
 
 std::vector<double> finite_or_nan(std::vector<double> values) {
@@ -82,7 +82,8 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
     const Stresses<Dim> stresses(solid);
     const auto velocity = velocities(run, solid);
-    mesh::Frame<Dim> frame{.time = run.time, .displacement = as_vectors<Dim>(run.q)};
+    const auto displacement = solid.cell_displacement(run.q);
+    mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement};
     frame.cell_fields = {
         {"velocity [m/s]", velocity}, {"stress [Pa]", stresses.stress}, {"von Mises [Pa]", stresses.equivalent}};
     if constexpr (Dim == 2) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});

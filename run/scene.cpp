@@ -16,26 +16,27 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
 }
 
 template <int Dim>
-std::vector<double> displacement_at_start(const Scene<Dim>& scene) {
-    std::vector<double> q(Dim * scene.mesh.cell_centroid.size(), 0.0);
-    if (!scene.displacement) return q;
-    const auto u = as_vectors<Dim>(std::span<double>(q));
-    for (std::size_t c = 0; c < u.size(); ++c) u[c] = scene.displacement(scene.mesh.cell_centroid[c]);
-    return q;
+std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
+    if (!scene.displacement) return std::vector<double>(solid.size(), 0.0);
+    std::vector<Vector<Dim>> of_cells;
+    for (const Vector<Dim>& x : scene.mesh.cell_centroid) of_cells.push_back(scene.displacement(x));
+    return solid.displacement_of_points(of_cells);
 }
 
 template <int Dim>
 std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     std::vector<double> momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
     if (!scene.added_velocity) return momentum;
-    const auto p = as_vectors<Dim>(std::span<double>(momentum));
-    for (std::size_t c = 0; c < p.size(); ++c) p[c] += solid.masses()[c] * scene.added_velocity(scene.mesh.cell_centroid[c]);
+    std::vector<Vector<Dim>> of_cells;
+    for (const Vector<Dim>& x : scene.mesh.cell_centroid) of_cells.push_back(scene.added_velocity(x));
+    const std::vector<double> added = solid.momentum_of_points(of_cells);
+    for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] += added[i];
     return momentum;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                   \
-    template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&); \
-    template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&);                 \
+#define ABUT_INSTANTIATE(Dim)                                                                             \
+    template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);           \
+    template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&); \
     template std::vector<double> momentum_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -83,10 +83,10 @@ struct RunResult {
 /// What the solid of a scene is made with.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
-/// Of the cells, (n_cells, Dim) [m].
+/// Of the points of the scene's solid, (n_points, Dim) [m].
 template <int Dim>
-[[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene);
-/// Of the cells of the scene's solid, (n_cells, Dim) [kg m/s]. Throws BadInput for another number of velocities than bodies.
+[[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
+/// Of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities than bodies.
 template <int Dim>
 [[nodiscard]] std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
 

@@ -64,7 +64,7 @@ struct Start {
         result.contact_faces_left_out = solid.contact_faces_left_out();
         result.blind_corners = solid.blind_corners();
         result.unseen_edges = solid.unseen_edges();
-        q = displacement_at_start(scene);
+        q = displacement_at_start(scene, solid);
         momentum = momentum_at_start(scene, solid);
     }
 

@@ -9,10 +9,10 @@ namespace abut::solid {
 template <int Dim>
 std::vector<BodyMotion<Dim>> body_motions(const dynamics::RunView<Dim>& run, const Solid<Dim>& solid) {
     std::vector<BodyMotion<Dim>> motions(static_cast<std::size_t>(solid.mesh().n_bodies()), {0.0, Vector<Dim>::Zero(), 0.0});
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-        BodyMotion<Dim>& body = motions[solid.mesh().cell_body[c]];
-        body.mass += solid.masses()[c];
-        body.velocity += run.momentum(c);
+    for (std::size_t i = 0; i < solid.masses().size(); ++i) {
+        BodyMotion<Dim>& body = motions[solid.body_of_points()[i]];
+        body.mass += solid.masses()[i];
+        body.velocity += run.momentum(static_cast<std::ptrdiff_t>(i));
     }
     const std::vector<double> rotations = solid.rotations(run.q);
     for (std::size_t body = 0; body < motions.size(); ++body) {
@@ -31,8 +31,7 @@ std::vector<double> uniform_momentum(const Solid<Dim>& solid, std::span<const Ve
                        {.value = static_cast<double>(body_velocity.size()), .allowed = static_cast<double>(n_bodies)});
     std::vector<double> momentum(solid.size());
     const auto p = as_vectors<Dim>(std::span<double>(momentum));
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
-        p[c] = solid.masses()[c] * body_velocity[solid.mesh().cell_body[c]];
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = solid.masses()[i] * body_velocity[solid.body_of_points()[i]];
     return momentum;
 }
 

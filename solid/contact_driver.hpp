@@ -58,6 +58,8 @@ public:
     [[nodiscard]] virtual FaceCorrections<Dim> corrections() const = 0;
     /// On each body; empty where no body turns.
     [[nodiscard]] virtual std::span<const BodyPush<Dim>> pushes() const { return {}; }
+    /// On each rigid body, with moments about arms at rest; empty where there is none.
+    [[nodiscard]] virtual std::span<const BodyPush<Dim>> rigid_pushes() const { return {}; }
     /// What V has beside the energy of the cells with these corrections [J].
     [[nodiscard]] virtual double energy() const { return 0.0; }
     /// Sets the forces on the obstacles, and adds the work of these in the step: `share` of it [J].

@@ -10,28 +10,29 @@ namespace {
 
 constexpr double smallest_part = 1e-6;  // of a unit vector in a prescribed direction
 
-/// Cells by their position in an increasing list, joined to patches.
+/// Points by their position in an increasing list, joined to patches.
 template <int Dim>
 class PatchFinder {
 public:
-    PatchFinder(const Ccg<Dim>& ccg, std::span<const TouchingFaces<Dim>> touching)
-        : ccg_(ccg), touching_(touching), cells_(cells_of_faces()), sets_(cells_.size()), patch_of_root_(cells_.size(), -1) {
-        for (const auto& [face_1, face_2, at, normal] : touching_) {
-            join_cells_of(face_1);
-            join_cells_of(face_2);
-            if (face_1 != no_face && face_2 != no_face) sets_.join(position(face_1), position(face_2));
+    PatchFinder(const Ccg<Dim>& ccg, std::span<const TouchingPoints<Dim>> touching)
+        : ccg_(ccg), touching_(touching), points_(all_points()), sets_(points_.size()), patch_of_root_(points_.size(), -1) {
+        for (const TouchingPoints<Dim>& pair : touching_) {
+            const std::int32_t first = any_position(pair);
+            for (const auto& side : {pair.points_1, pair.points_2})
+                for (const std::int32_t point : side) sets_.join(first, position_of(point));
         }
     }
 
     std::vector<dynamics::ContactPatch<Dim>> find() {
-        for (std::size_t i = 0; i < cells_.size(); ++i) {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
             dynamics::ContactPatch<Dim>& patch = patch_of(static_cast<std::int32_t>(i));
-            patch.points.push_back(cells_[i]);
-            for (const BoundaryFace face : ccg_.prescribed_faces_of(cells_[i])) append_holds(patch, face);
+            patch.points.push_back(points_[i]);
+            if (points_[i] >= ccg_.n_cells()) continue;
+            for (const BoundaryFace face : ccg_.prescribed_faces_of(points_[i])) append_holds(patch, face);
         }
-        for (const auto& [face_1, face_2, at, normal] : touching_)
-            if (face_1 == no_face || face_2 == no_face)
-                patch_of(position(std::max(face_1, face_2))).holds.push_back({at, normal});
+        for (const TouchingPoints<Dim>& pair : touching_)
+            if (pair.points_1.empty() || pair.points_2.empty())
+                patch_of(any_position(pair)).holds.push_back({pair.position, pair.normal});
         return std::move(patches_);
     }
 
@@ -44,26 +45,19 @@ private:
                 patch.holds.push_back({ccg_.centroid(face), kept.normalized()});
     }
 
-    std::vector<std::int32_t> cells_of_faces() const {
-        std::vector<std::int32_t> cells;
-        for (const auto& [face_1, face_2, at, normal] : touching_)
-            for (const BoundaryFace face : {face_1, face_2}) {
-                if (face == no_face) continue;
-                const auto of_face = ccg_.cells_of(face);
-                cells.insert(cells.end(), of_face.begin(), of_face.end());
-            }
-        sort_unique(cells);
-        return cells;
+    std::vector<std::int32_t> all_points() const {
+        std::vector<std::int32_t> points;
+        for (const TouchingPoints<Dim>& pair : touching_)
+            for (const auto& side : {pair.points_1, pair.points_2}) points.insert(points.end(), side.begin(), side.end());
+        sort_unique(points);
+        return points;
     }
 
-    std::int32_t position_of(std::int32_t cell) const {
-        return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
+    std::int32_t position_of(std::int32_t point) const {
+        return static_cast<std::int32_t>(std::ranges::lower_bound(points_, point) - points_.begin());
     }
-    std::int32_t position(BoundaryFace face) const { return position_of(ccg_.cells_of(face).front()); }
-
-    void join_cells_of(BoundaryFace face) {
-        if (face == no_face) return;
-        for (const std::int32_t cell : ccg_.cells_of(face)) sets_.join(position(face), position_of(cell));
+    std::int32_t any_position(const TouchingPoints<Dim>& pair) const {
+        return position_of(pair.points_1.empty() ? pair.points_2.front() : pair.points_1.front());
     }
 
     dynamics::ContactPatch<Dim>& patch_of(std::int32_t position) {
@@ -76,8 +70,8 @@ private:
     }
 
     const Ccg<Dim>& ccg_;
-    std::span<const TouchingFaces<Dim>> touching_;
-    std::vector<std::int32_t> cells_;
+    std::span<const TouchingPoints<Dim>> touching_;
+    std::vector<std::int32_t> points_;
     DisjointSets sets_;
     std::vector<std::int32_t> patch_of_root_;
     std::vector<dynamics::ContactPatch<Dim>> patches_;
@@ -86,11 +80,12 @@ private:
 }  // namespace
 
 template <int Dim>
-std::vector<dynamics::ContactPatch<Dim>> contact_patches(const Ccg<Dim>& ccg, std::span<const TouchingFaces<Dim>> touching) {
+std::vector<dynamics::ContactPatch<Dim>> contact_patches(const Ccg<Dim>& ccg,
+                                                         std::span<const TouchingPoints<Dim>> touching) {
     return PatchFinder<Dim>(ccg, touching).find();
 }
 
-template std::vector<dynamics::ContactPatch<2>> contact_patches<2>(const Ccg<2>&, std::span<const TouchingFaces<2>>);
-template std::vector<dynamics::ContactPatch<3>> contact_patches<3>(const Ccg<3>&, std::span<const TouchingFaces<3>>);
+template std::vector<dynamics::ContactPatch<2>> contact_patches<2>(const Ccg<2>&, std::span<const TouchingPoints<2>>);
+template std::vector<dynamics::ContactPatch<3>> contact_patches<3>(const Ccg<3>&, std::span<const TouchingPoints<3>>);
 
 }  // namespace abut::solid

@@ -11,7 +11,6 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/contact/nodal_faces.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
 
@@ -20,6 +19,9 @@ namespace {
 
 /// Skins that faces which are far from all other bodies may move before they must be looked at again.
 constexpr double far_skins = 4.0;
+
+/// The largest stretch of a difference of two rotations over its Frobenius norm: sqrt(1/2), and what rounding adds.
+constexpr double difference_stretch = 0.70710679;
 
 template <int Dim>
 contact::NodalOptions nodal_options(const SolidOptions<Dim>& options) {
@@ -41,44 +43,38 @@ contact::NodalOptions nodal_options(const SolidOptions<Dim>& options) {
 }  // namespace
 
 template <int Dim>
-PairPotentialDriver<Dim>::PairPotentialDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                                              const Loads<Dim>& loads, const BodyFrames<Dim>& frames, SolidTimes& times)
-    : mesh_(mesh), ccg_(ccg), loads_(loads), frames_(frames), times_(times), obstacles_(options.obstacles) {
-    contact_.emplace(build_surface(), nodal_options(options));
+PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
+                                              const BodyFrames<Dim>& frames, SolidTimes& times)
+    : bodies_(bodies),
+      mesh_(bodies.deformable()),
+      ccg_(ccg),
+      loads_(loads),
+      frames_(frames),
+      times_(times),
+      obstacles_(bodies.deformable_options().obstacles) {
+    contact_.emplace(build_surface(), nodal_options(bodies.deformable_options()));
     std::vector<std::int32_t> nodes(rest_.size());
     std::iota(nodes.begin(), nodes.end(), 0);
     all_ = list(nodes);
     x_0_ = x_1_ = x_state_ = searched_at_ = rest_;
-    u_.resize(static_cast<std::size_t>(mesh.n_cells()));
+    u_.resize(static_cast<std::size_t>(mesh_.n_cells()));
+    places_.resize(bodies.rigid().size());
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        rigid_points_.emplace_back(RigidBodies<Dim>::points_per_body);
+        std::iota(rigid_points_.back().begin(), rigid_points_.back().end(), bodies.rigid().first_point(i));
+    }
 }
 
 template <int Dim>
 contact::NodalSurface<Dim> PairPotentialDriver<Dim>::build_surface() {
     contact::NodalFaceArrays<Dim> faces;
-    faces.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()), 0.0);
     std::vector<double> stiffness;  // of each face
-    const auto prescribed = ccg_.prescribed();
-    for (const BoundaryFace b : ccg_.boundary_faces()) {
-        if (!prescribed[b].isZero(0.0)) {
-            ++faces_left_out_;
-            continue;
-        }
-        const std::int32_t face = mesh_face(mesh_, b);
-        const double depth = cell_depth(mesh_, face);
-        std::vector<std::int32_t> corners;
-        for (const std::int32_t v : mesh_.face_vertices[face]) {
-            corners.push_back(static_cast<std::int32_t>(rest_.size()));
-            rest_.push_back(mesh_.vertices[v]);
-            face_of_node_.push_back(static_cast<std::int32_t>(boundary_of_surface_.size()));
-            amplification_ = std::max(
-                amplification_, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
-        }
-        faces.append_face(corners, depth, body_of(b));
-        stiffness.push_back(ccg_.normal_stiffness(b));
-        double& of_body = faces.stiffness[static_cast<std::size_t>(body_of(b))];
-        of_body = std::max(of_body, stiffness.back());
-        boundary_of_surface_.push_back(b);
-        corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
+    append_deformable(faces, stiffness);
+    append_rigid(faces, stiffness);
+    faces.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()) + bodies_.rigid().size(), 0.0);
+    for (std::size_t face = 0; face < stiffness.size(); ++face) {
+        double& of_body = faces.stiffness[static_cast<std::size_t>(faces.body[face])];
+        of_body = std::max(of_body, stiffness[face]);
     }
     for (double& of_body : faces.stiffness)
         if (of_body == 0.0) of_body = 1.0;  // all faces are prescribed: nothing touches it
@@ -92,21 +88,75 @@ contact::NodalSurface<Dim> PairPotentialDriver<Dim>::build_surface() {
     return contact::NodalSurface<Dim>(rest_, view);
 }
 
+template <int Dim>
+void PairPotentialDriver<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body,
+                                           contact::NodalFaceArrays<Dim>& faces) {
+    std::vector<std::int32_t> corners;
+    for (const std::int32_t v : mesh.face_vertices[face]) {
+        corners.push_back(static_cast<std::int32_t>(rest_.size()));
+        rest_.push_back(mesh.vertices[v]);
+        face_of_node_.push_back(static_cast<std::int32_t>(faces.body.size()));
+    }
+    faces.append_face(corners, cell_depth(mesh, face), body);
+    corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::append_deformable(contact::NodalFaceArrays<Dim>& faces, std::vector<double>& stiffness) {
+    const auto prescribed = ccg_.prescribed();
+    std::vector<bool> is_rigid(static_cast<std::size_t>(bodies_.mesh().n_bodies()), false);
+    for (std::size_t i = 0; i < bodies_.rigid().size(); ++i) is_rigid[bodies_.rigid().mesh_body(i)] = true;
+    std::vector<BoundaryFace> in_mesh;  // of the boundary faces of bodies that deform
+    for (const BoundaryFace b : boundary_faces(bodies_.mesh()))
+        if (!is_rigid[bodies_.mesh().cell_body[cell_of(bodies_.mesh(), b)]]) in_mesh.push_back(b);
+    for (const BoundaryFace b : ccg_.boundary_faces()) {
+        if (!prescribed[b].isZero(0.0)) {
+            ++faces_left_out_;
+            continue;
+        }
+        const std::int32_t face = mesh_face(mesh_, b);
+        for (const std::int32_t v : mesh_.face_vertices[face])
+            amplification_ = std::max(
+                amplification_, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
+        append_face(mesh_, face, body_of(b), faces);
+        stiffness.push_back(ccg_.normal_stiffness(b));
+        boundary_of_surface_.push_back(b);
+        mesh_boundary_.push_back(in_mesh[static_cast<std::size_t>(b)]);
+    }
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::append_rigid(contact::NodalFaceArrays<Dim>& faces, std::vector<double>& stiffness) {
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    for (std::size_t i = 0; i < bodies_.rigid().size(); ++i)
+        for (const BoundaryFace b : boundary_faces(mesh)) {
+            const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
+            if (mesh.cell_body[cell] != bodies_.rigid().mesh_body(i)) continue;
+            append_face(mesh, face, mesh_.n_bodies() + static_cast<std::int32_t>(i), faces);
+            stiffness.push_back(bodies_.rigid_skin(i) * mesh.face_measure[face] / mesh.cell_measure[cell]);
+            rigid_of_face_.push_back(i);
+            mesh_boundary_.push_back(b);
+        }
+}
+
 // Where the nodes are ------------------------------------------------------------------------------------------------
 
 template <int Dim>
 typename PairPotentialDriver<Dim>::Listed PairPotentialDriver<Dim>::list(std::span<const std::int32_t> nodes) const {
     Listed listed;
     for (const std::int32_t node : nodes)
-        if (static_cast<std::size_t>(node) < face_of_node_.size())
+        if (static_cast<std::size_t>(node) >= face_of_node_.size())
+            listed.obstacles.push_back(node);
+        else if (is_deformable(static_cast<std::size_t>(face_of_node_[node])))
             listed.faces.push_back(face_of_node_[node]);
         else
-            listed.obstacles.push_back(node);
+            listed.rigid.push_back(node);
     sort_unique(listed.faces);
     for (const std::int32_t face : listed.faces) {
         listed.boundary.push_back(boundary_of_surface_[face]);
         for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n) listed.nodes.push_back(n);
     }
+    listed.nodes.insert(listed.nodes.end(), listed.rigid.begin(), listed.rigid.end());
     listed.nodes.insert(listed.nodes.end(), listed.obstacles.begin(), listed.obstacles.end());
     listed.region = ccg_.region_of_tilted_faces(listed.boundary);
     return listed;
@@ -129,6 +179,11 @@ void PairPotentialDriver<Dim>::place(const Listed& listed, std::span<const Vecto
                 x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - ccg_.centroid(b)));
         },
         256);
+    place_rigid(q);
+    for (const std::int32_t n : listed.rigid) {
+        const std::size_t body = rigid_of(static_cast<std::size_t>(face_of_node_[n]));
+        x[n] = places_[body](rest_[n] - bodies_.rigid().rest_centre(body));
+    }
     std::size_t obstacle = obstacles_.size();  // none yet
     contact::Placement<Dim> placement;
     for (const std::int32_t n : listed.obstacles) {
@@ -140,18 +195,31 @@ void PairPotentialDriver<Dim>::place(const Listed& listed, std::span<const Vecto
     }
 }
 
+template <int Dim>
+void PairPotentialDriver<Dim>::place_rigid(std::span<const Vector<Dim>> q) {
+    for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = bodies_.rigid().place(i, q);
+}
+
 // How long the list is valid -----------------------------------------------------------------------------------------
 
 /// At most, at the end of the step [m].
 template <int Dim>
 double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double time) const {
-    double of_frames = 0.0;
-    for (std::size_t body = 0; body < frames_.n_bodies(); ++body) {
+    const auto motion = [](const Vector<Dim>& shift, const Matrix<Dim>& turned, double radius) {
+        return shift.norm() + difference_stretch * turned.norm() * radius;
+    };
+    double of_frames = 0.0, of_rigid = 0.0;
+    const std::size_t n = frames_.n_bodies();
+    for (std::size_t body = 0; body < n; ++body) {
         const BodyFrame<Dim>&from = watch.frames[body], to = frames_.end()[body];
-        const double turned = std::sqrt(0.5) * (to.turn - from.turn).norm();  // the largest stretch of this difference
-        of_frames = larger(of_frames, (to.centre - from.centre).norm() + turned * watch.radius[body]);
+        of_frames = larger(of_frames, motion(to.centre - from.centre, to.turn - from.turn, watch.radius[body]));
     }
-    return watch.moved + larger(of_frames + amplification_ * watch.travelled, obstacles_.motion(watch.time, time));
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        const RigidPlace<Dim>&from = watch.places[i], to = places_[i];
+        of_rigid = larger(of_rigid, motion(to.centre - from.centre, to.map - from.map, watch.radius[n + i]));
+    }
+    of_frames += amplification_ * watch.travelled;
+    return watch.moved + larger(larger(of_frames, of_rigid), obstacles_.motion(watch.time, time));
 }
 
 /// By what no cell and no frame exceeds in the step: nothing is computed but a few sums.
@@ -177,12 +245,15 @@ bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim
 template <int Dim>
 typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(const Listed& listed, const Points& x,
                                                                               double time) const {
-    Watch watch{.frames = {frames_.end().begin(), frames_.end().end()}, .radius = {}, .time = time};
-    watch.radius.assign(frames_.n_bodies(), 0.0);
+    Watch watch{.frames = {frames_.end().begin(), frames_.end().end()}, .places = places_, .radius = {}, .time = time};
+    watch.radius.assign(frames_.n_bodies() + places_.size(), 0.0);
     for (const std::int32_t n : listed.nodes) {
         if (static_cast<std::size_t>(n) >= face_of_node_.size()) break;
-        const auto body = static_cast<std::size_t>(body_of(boundary_of_surface_[face_of_node_[n]]));
-        watch.radius[body] = larger(watch.radius[body], (x[n] - watch.frames[body].centre).squaredNorm());
+        const auto face = static_cast<std::size_t>(face_of_node_[n]);
+        const std::size_t body = is_deformable(face) ? static_cast<std::size_t>(body_of(boundary_of_surface_[face]))
+                                                     : frames_.n_bodies() + rigid_of(face);
+        const Vector<Dim>& centre = is_deformable(face) ? watch.frames[body].centre : places_[rigid_of(face)].centre;
+        watch.radius[body] = larger(watch.radius[body], (x[n] - centre).squaredNorm());
     }
     for (double& radius : watch.radius) radius = std::sqrt(radius);
     watch.moved = std::sqrt(largest(std::ssize(listed.nodes), [&](std::ptrdiff_t i) {
@@ -195,6 +266,7 @@ template <int Dim>
 void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
                                       double time, double dt) {
     end_time_ = time + dt;
+    place_rigid(q_1);
     if (is_surely_valid(cell_motion, time + dt)) {
         const Stopwatch watch(times_.contact);
         return place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
@@ -308,6 +380,7 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
     face_gradient_.clear();
     cell_moment_.clear();
     pushes_.assign(frames_.n_bodies(), {});
+    rigid_pushes_.assign(places_.size(), {});
     const contact::NodalStep<Dim>& step = contact_->last();
     if (!step.is_active()) return;
     face_gradient_.resize(listed_.faces.size(), Vector<Dim>::Zero());
@@ -316,6 +389,12 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
     for (std::size_t i = 0; i < step.nodes.size(); ++i) {
         const std::int32_t node = step.nodes[i];
         if (static_cast<std::size_t>(node) >= face_of_node_.size()) break;
+        const auto face = static_cast<std::size_t>(face_of_node_[node]);
+        if (!is_deformable(face)) {
+            const std::size_t rigid = rigid_of(face);
+            rigid_pushes_[rigid].add(step.gradient[i], rest_[node] - bodies_.rigid().rest_centre(rigid));
+            continue;
+        }
         while (listed_.faces[at] != face_of_node_[node]) ++at;
         const BoundaryFace b = listed_.boundary[at];
         const auto body = static_cast<std::size_t>(body_of(b));
@@ -350,21 +429,30 @@ template <int Dim>
 void PairPotentialDriver<Dim>::keep_touching_faces() {
     touching_.clear();
     for (const contact::PairStep<Dim>& pair : contact_->last().pairs) {
-        const BoundaryFace face_1 = boundary_face(pair.face_1), face_2 = boundary_face(pair.face_2);
-        if (face_1 != no_face && face_2 != no_face)
-            touching_.push_back({face_1, face_2, Vector<Dim>::Zero(), pair.normal});
-        else if (face_1 != no_face)
-            touching_.push_back({face_1, face_2, middle_of(pair.face_1), obstacle_normal(pair.face_2)});
-        else
-            touching_.push_back({face_1, face_2, middle_of(pair.face_2), obstacle_normal(pair.face_1)});
+        TouchingPoints<Dim> touching{points_of(pair.face_1), points_of(pair.face_2), Vector<Dim>::Zero(), pair.normal};
+        const auto hold = [&](contact::SurfaceFace body, contact::SurfaceFace obstacle) {
+            touching.position = middle_of(body);
+            touching.normal = obstacle_normal(obstacle);
+        };
+        if (touching.points_1.empty()) hold(pair.face_2, pair.face_1);
+        if (touching.points_2.empty()) hold(pair.face_1, pair.face_2);
+        touching_.push_back(touching);
     }
+}
+
+template <int Dim>
+std::span<const std::int32_t> PairPotentialDriver<Dim>::points_of(contact::SurfaceFace face) const {
+    const auto i = static_cast<std::size_t>(face);
+    if (is_obstacle(i)) return {};
+    if (is_deformable(i)) return ccg_.cells_of(boundary_of_surface_[i]);
+    return rigid_points_[rigid_of(i)];
 }
 
 /// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::SurfaceFace face) const {
-    if (!frames_.any_turns()) return ccg_.centroid(boundary_face(face));
     const auto i = static_cast<std::size_t>(face);
+    if (!frames_.any_turns() && places_.empty()) return ccg_.centroid(boundary_of_surface_[i]);
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n) sum += 0.5 * (x_0_[n] + x_1_[n]);
     return sum / (corner_offsets_[i + 1] - corner_offsets_[i]);
@@ -384,12 +472,13 @@ Vector<Dim> PairPotentialDriver<Dim>::obstacle_normal(contact::SurfaceFace face)
 
 template <int Dim>
 ContactField PairPotentialDriver<Dim>::field() const {
-    const auto n = static_cast<std::size_t>(ccg_.n_boundary());
+    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
+    const std::size_t n = mesh.boundary_faces.size();
     ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
     for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
         for (const contact::SurfaceFace face : {pair.face_1, pair.face_2})
-            if (const BoundaryFace b = boundary_face(face); b != no_face) {
-                field.pressure[number_of(b)] += pair.normal_force / mesh_.face_measure[mesh_face(mesh_, b)];
+            if (const BoundaryFace b = mesh_boundary(face); b != no_face) {
+                field.pressure[number_of(b)] += pair.normal_force / mesh.face_measure[mesh_face(mesh, b)];
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], pair.gap_1);
             }
     return field;
@@ -400,7 +489,7 @@ std::vector<TouchingPair<Dim>> PairPotentialDriver<Dim>::touching_pairs(double g
     std::vector<TouchingPair<Dim>> touching;
     for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
         if (pair.gap_1 <= gap)
-            touching.push_back({boundary_face(pair.face_1), boundary_face(pair.face_2), pair.normal, pair.gap_1});
+            touching.push_back({mesh_boundary(pair.face_1), mesh_boundary(pair.face_2), pair.normal, pair.gap_1});
     return touching;
 }
 

@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
+#include "abut/contact/nodal_faces.hpp"
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/bodies.hpp"
 #include "abut/solid/contact_driver.hpp"
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/loads.hpp"
-#include "abut/solid/options.hpp"
 
 namespace abut::solid {
 
@@ -18,13 +19,15 @@ namespace abut::solid {
 /// the face and tilts with its cell c, in the frame of its body:
 ///
 ///     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
+///
+/// Faces of rigid bodies move with these; they have the stiffness and depth of the cell behind them, as a skin.
 template <int Dim>
 class PairPotentialDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; `frames` are led along each step before it. Where the time goes is added to
     /// `times`. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
-    PairPotentialDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                        const Loads<Dim>& loads, const BodyFrames<Dim>& frames, SolidTimes& times);
+    PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, const BodyFrames<Dim>& frames,
+                        SolidTimes& times);
 
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion, double time,
                 double dt) override;
@@ -40,6 +43,7 @@ public:
 
     [[nodiscard]] FaceCorrections<Dim> corrections() const override;
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes() const override { return pushes_; }
+    [[nodiscard]] std::span<const BodyPush<Dim>> rigid_pushes() const override { return rigid_pushes_; }
     [[nodiscard]] double energy() const override { return contact_->last().energy; }
     void take_obstacle_forces(double share, double& work) override;
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
@@ -61,23 +65,29 @@ private:
 
     /// Some faces of the surface: those whose corners are placed.
     struct Listed {
-        std::vector<std::int32_t> faces;      // of bodies, by their index in the surface, increasing
+        std::vector<std::int32_t> faces;      // of bodies that deform, by their index in the surface, increasing
         std::vector<BoundaryFace> boundary;   // the same
+        std::vector<std::int32_t> rigid;      // nodes of rigid bodies, increasing
         std::vector<std::int32_t> obstacles;  // nodes of obstacles, increasing
         std::vector<std::int32_t> nodes;      // all of them, increasing
         Region<Dim> region;
     };
 
     [[nodiscard]] contact::NodalSurface<Dim> build_surface();
+    void append_deformable(contact::NodalFaceArrays<Dim>& faces, std::vector<double>& stiffness);
+    void append_rigid(contact::NodalFaceArrays<Dim>& faces, std::vector<double>& stiffness);
+    void append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body,
+                     contact::NodalFaceArrays<Dim>& faces);
     [[nodiscard]] Listed list(std::span<const std::int32_t> nodes) const;
     void place(const Listed& listed, std::span<const Vector<Dim>> q, Frames frames, const BoundaryLoad<Dim>& load,
                double time, Points& x);
     /// What bounds how far some nodes are from where they were at a search: exact in one state, a bound from there on.
     struct Watch {
         std::vector<BodyFrame<Dim>> frames;  // in that state
-        std::vector<double> radius;          // of these nodes about the centre of each body [m]
-        double time = 0.0;                   // of that state [s]
-        double moved = 0.0;                  // the farthest of them from where candidates were searched [m]
+        std::vector<RigidPlace<Dim>> places;
+        std::vector<double> radius;  // of these nodes about the centre of each body, rigid ones last [m]
+        double time = 0.0;           // of that state [s]
+        double moved = 0.0;          // the farthest of them from where candidates were searched [m]
         double travelled = 0.0;  // since then: sum over the steps of the motion in its frame of the cell that moved farthest
     };
 
@@ -90,15 +100,21 @@ private:
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
     void collect(const Points& x_0, const Points& x_1);
     void keep_touching_faces();
-    [[nodiscard]] BoundaryFace boundary_face(contact::SurfaceFace face) const {
-        const auto i = static_cast<std::size_t>(face);
-        return i < boundary_of_surface_.size() ? boundary_of_surface_[i] : no_face;
+    [[nodiscard]] bool is_deformable(std::size_t face) const { return face < boundary_of_surface_.size(); }
+    [[nodiscard]] bool is_obstacle(std::size_t face) const { return face >= mesh_boundary_.size(); }
+    [[nodiscard]] std::size_t rigid_of(std::size_t face) const { return rigid_of_face_[face - boundary_of_surface_.size()]; }
+    /// In the numbering of the whole mesh.
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const {
+        return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
     }
+    [[nodiscard]] std::span<const std::int32_t> points_of(contact::SurfaceFace face) const;
+    void place_rigid(std::span<const Vector<Dim>> q);
     [[nodiscard]] std::int32_t body_of(BoundaryFace face) const { return mesh_.cell_body[cell_of(mesh_, face)]; }
     [[nodiscard]] Vector<Dim> middle_of(contact::SurfaceFace face) const;
     [[nodiscard]] Vector<Dim> obstacle_normal(contact::SurfaceFace face) const;
 
-    const mesh::Mesh<Dim>& mesh_;
+    const Bodies<Dim>& bodies_;
+    const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
     Ccg<Dim>& ccg_;
     const Loads<Dim>& loads_;
     const BodyFrames<Dim>& frames_;
@@ -108,7 +124,11 @@ private:
     std::vector<std::int32_t> corner_offsets_{0};    // of the faces of bodies, into the nodes
     std::vector<std::int32_t> face_of_node_;         // of a body
     std::vector<std::size_t> obstacle_of_node_;      // the others, in order
-    std::vector<BoundaryFace> boundary_of_surface_;  // of each face of a body
+    std::vector<BoundaryFace> boundary_of_surface_;  // of each face of a body that deforms: the first ones
+    std::vector<std::size_t> rigid_of_face_;         // rigid body of those that follow
+    std::vector<BoundaryFace> mesh_boundary_;        // of all these, in the whole mesh
+    std::vector<std::vector<std::int32_t>> rigid_points_;
+    std::vector<RigidPlace<Dim>> places_;  // of the rigid bodies, where nodes were placed last
     std::int64_t faces_left_out_ = 0;
     double amplification_ = 0.0;  // how far a corner moves at most in its frame when no cell moves farther than 1
     std::optional<contact::NodalContact<Dim>> contact_;
@@ -129,7 +149,8 @@ private:
     std::vector<Vector<Dim>> face_gradient_;  // results, in frames (n_listed)
     std::vector<Matrix<Dim>> cell_moment_;
     std::vector<BodyPush<Dim>> pushes_;
-    std::vector<TouchingFaces<Dim>> touching_;
+    std::vector<BodyPush<Dim>> rigid_pushes_;  // arms at rest
+    std::vector<TouchingPoints<Dim>> touching_;
 };
 
 }  // namespace abut::solid

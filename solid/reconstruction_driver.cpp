@@ -167,7 +167,10 @@ void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<D
     touching_.clear();
     for (const contact::PairStep<Dim>& pair : step.pairs) {
         const BoundaryFace face_1 = boundary_face(pair.face_1), face_2 = boundary_face(pair.face_2);
-        touching_.push_back({face_1, face_2, ccg_.centroid(std::max(face_1, face_2)), pair.normal});
+        const auto points = [&](BoundaryFace face) {
+            return face == no_face ? std::span<const std::int32_t>{} : ccg_.cells_of(face);
+        };
+        touching_.push_back({points(face_1), points(face_2), ccg_.centroid(std::max(face_1, face_2)), pair.normal});
     }
 }
 

@@ -104,8 +104,8 @@ private:
     Region<Dim> region_;                            // of the deformable listed faces
     std::vector<BoundaryFace> boundary_of_listed_;  // their boundary faces; they come first in the list
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
-        y_1_;                                   // path of the listed faces; between steps _0 is where the last one ended
-    std::vector<TouchingFaces<Dim>> touching_;  // boundary faces of the pairs that were active in the last step
+        y_1_;                                    // path of the listed faces; between steps _0 is where the last one ended
+    std::vector<TouchingPoints<Dim>> touching_;  // faces of the pairs that were active in the last step
 };
 
 }  // namespace abut::solid

@@ -10,8 +10,8 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
+#include "abut/solid/bodies.hpp"
 #include "abut/solid/body_rotation.hpp"
-#include "abut/solid/kinematics/body_frames.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/midpoint.hpp"
@@ -24,95 +24,30 @@ namespace {
 inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
 
 template <int Dim>
-const SolidOptions<Dim>& checked(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
-    const auto n_bodies = static_cast<std::size_t>(mesh.n_bodies());
-    if (!options.acceleration.empty() && options.acceleration.size() != n_bodies)
-        throw BadInput(
-            mesh.name + ": " + std::to_string(options.acceleration.size()) + " accelerations are given for " +
-                std::to_string(n_bodies) + " bodies. Give one per body, or none.",
-            {.value = static_cast<double>(options.acceleration.size()), .allowed = static_cast<double>(n_bodies)});
-    for (std::size_t body = 0; body < options.acceleration.size(); ++body)
-        if (!options.acceleration[body].allFinite())
-            throw BadInput(mesh.name + ": the acceleration of body " + std::to_string(body) + " ('" + mesh.body_names[body] +
-                           "') is not finite. Correct SolidOptions::acceleration.");
-    if (!options.obstacles.empty() && !options.contact)
-        throw BadInput(mesh.name + ": " + std::to_string(options.obstacles.size()) +
-                       " obstacles are given without contact, so nothing would feel them. Give "
-                       "SolidOptions::contact, or no obstacles.");
-    if (!options.kinematics.empty() && options.kinematics.size() != n_bodies)
-        throw BadInput(mesh.name + ": the kinematics of " + std::to_string(options.kinematics.size()) +
-                           " bodies are given for " + std::to_string(n_bodies) + ". Give one per body, or none.",
-                       {.value = static_cast<double>(options.kinematics.size()), .allowed = static_cast<double>(n_bodies)});
-    return options;
-}
-
-template <int Dim>
-std::vector<bool> turning(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
-    std::vector<bool> turning(static_cast<std::size_t>(mesh.n_bodies()), false);
-    for (std::size_t body = 0; body < options.kinematics.size(); ++body)
-        turning[body] = options.kinematics[body] == Kinematics::floating;
-    return turning;
-}
-
-template <int Dim>
-std::unique_ptr<BodyFrames<Dim>> frames_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                           std::span<const double> masses) {
-    std::vector<std::int32_t> begin;
-    for (std::int32_t body = 0; body <= mesh.n_bodies(); ++body)
-        begin.push_back(static_cast<std::int32_t>(std::ranges::lower_bound(mesh.cell_body, body) - mesh.cell_body.begin()));
-    return std::make_unique<BodyFrames<Dim>>(mesh.cell_centroid, masses, std::move(begin), turning(mesh, options),
-                                             mesh.body_names);
-}
-
-/// A frame that turns has no place for what is given in space.
-template <int Dim>
-void require_free_bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, const Ccg<Dim>& ccg) {
-    const std::vector<bool> turns = turning(mesh, options);
-    const auto refuse = [&](std::int32_t cell, const std::string& what) {
-        const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
-        if (turns[body])
-            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] + "' turns with a frame of its own and has " +
-                           what + ", which only bodies of Kinematics::small can have.");
-    };
-    for (const BoundaryFace b : ccg.boundary_faces())
-        if (!ccg.prescribed()[b].isZero(0.0)) refuse(cell_of(mesh, b), "a prescribed displacement");
-    for (const auto& condition : options.boundary.traction)
-        for (const std::int32_t face : mesh.group(condition.group).faces)
-            refuse(mesh.face_cells[face][0], "a traction ('" + condition.group + "')");
-}
-
-template <int Dim>
-ContactLaw chosen_law(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
-    const std::vector<bool> turns = turning(mesh, options);
-    const bool any_turns =
-        std::ranges::find(turns, true) != turns.end() || Obstacles<Dim>(std::span(options.obstacles)).turn();
-    if (any_turns && options.law == ContactLaw::reconstruction)
-        throw BadInput(mesh.name +
-                       ": a body or an obstacle turns, and the modified reconstruction knows normals at rest alone. Choose "
-                       "ContactLaw::pair_potential or ContactLaw::automatic.");
-    if (options.law != ContactLaw::automatic) return options.law;
-    return any_turns ? ContactLaw::pair_potential : ContactLaw::reconstruction;
+std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
+    std::vector<double> numbers;
+    for (const Vector<Dim>& vector : vectors) numbers.insert(numbers.end(), vector.begin(), vector.end());
+    return numbers;
 }
 
 }  // namespace
 
 template <int Dim>
 Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
-    : mesh_(mesh), options_(checked(mesh, options)), ccg_(mesh, options_.materials, options_.boundary) {
-    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        const double mass = options_.materials[mesh.cell_body[c]].density * mesh.cell_measure[c];
-        masses_.of_cells.push_back(mass);
-        masses_.inverse.insert(masses_.inverse.end(), Dim, 1.0 / mass);
-    }
-    rotation_ = std::make_unique<BodyRotation<Dim>>(mesh, masses_.of_cells);
-    frames_ = frames_of(mesh, options_, masses_.of_cells);
-    require_free_bodies(mesh, options_, ccg_);
-    all_cells_.resize(static_cast<std::size_t>(mesh.n_cells()));
+    : mesh_(mesh),
+      options_(std::move(options)),
+      bodies_(std::make_unique<Bodies<Dim>>(mesh, options_)),
+      ccg_(bodies_->deformable(), bodies_->deformable_options().materials, options_.boundary),
+      rotation_(std::make_unique<BodyRotation<Dim>>(bodies_->deformable(), bodies_->masses())),
+      frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames())),
+      all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
+      rigid_force_(bodies_->rigid_forces()),
+      rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
-    loads_ = std::make_unique<Loads<Dim>>(mesh, options_, masses_.of_cells, ccg_);
+    loads_ = std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_);
     if (!options_.contact) return;
-    if (chosen_law(mesh, options_) == ContactLaw::pair_potential) {
-        contact_ = std::make_unique<PairPotentialDriver<Dim>>(mesh, options_, ccg_, *loads_, *frames_, times_);
+    if (bodies_->law() == ContactLaw::pair_potential) {
+        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_);
     } else {
         auto driver = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_);
         reconstruction_ = driver.get();
@@ -123,12 +58,38 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
 template <int Dim>
 Solid<Dim>::~Solid() = default;
 
+template <int Dim>
+std::span<const double> Solid<Dim>::inverse_mass() const {
+    return bodies_->inverse_masses();
+}
+
+template <int Dim>
+std::span<const double> Solid<Dim>::masses() const {
+    return bodies_->masses();
+}
+
+template <int Dim>
+std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const {
+    return bodies_->rest();
+}
+
+template <int Dim>
+std::span<const std::int32_t> Solid<Dim>::body_of_points() const {
+    return bodies_->body_of_points();
+}
+
+/// The part of what is by point that belongs to cells.
+template <int Dim>
+std::span<const Vector<Dim>> Solid<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
+    return q.first(static_cast<std::size_t>(bodies_->n_cells()));
+}
+
 // One state ----------------------------------------------------------------------------------------------------------
 
 /// Displacements in the frames as they are, of some cells at least.
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::in_frames(std::span<const Vector<Dim>> q, std::span<const std::int32_t> cells) {
-    if (!frames_->any_turns()) return q;
+    if (!frames_->any_turns()) return of_cells(q);
     in_frames_.resize(q.size());
     frames_->displacement(cells, q, frames_->end(), in_frames_);
     return in_frames_;
@@ -138,37 +99,76 @@ std::span<const Vector<Dim>> Solid<Dim>::in_frames(std::span<const Vector<Dim>> 
 template <int Dim>
 void Solid<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                           std::span<Vector<Dim>> gradient) {
-    if (!frames_->any_turns()) return loads_->to_force(gradient);
-    frames_->to_force(q_0, q_1, contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{}, loads_->body_force(),
-                      gradient);
+    if (bodies_->any_rigid()) rigid_to_force(gradient);
+    const auto cells = gradient.first(static_cast<std::size_t>(bodies_->n_cells()));
+    if (!frames_->any_turns()) return loads_->to_force(cells);
+    frames_->to_force(of_cells(q_0), of_cells(q_1), contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{},
+                      loads_->body_force(), cells);
+}
+
+/// On the points of rigid bodies.
+template <int Dim>
+void Solid<Dim>::rigid_to_force(std::span<Vector<Dim>> force) const {
+    const auto pushes = contact_ ? contact_->rigid_pushes() : std::span<const BodyPush<Dim>>{};
+    for (std::size_t i = 0; i < bodies_->rigid().size(); ++i) {
+        const BodyPush<Dim> push = pushes.empty() ? BodyPush<Dim>{} : pushes[i];
+        bodies_->rigid().set_gradient(i, push.gradient, push.moment, force);
+    }
+    for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < force.size(); ++i) force[i] = rigid_force_[i] - force[i];
+}
+
+// Rigid bodies -------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+bool Solid<Dim>::has_constraints() const {
+    return bodies_->any_rigid();
+}
+
+template <int Dim>
+void Solid<Dim>::constrain_along(std::span<const double> q, double dt, std::span<double> p) {
+    bodies_->rigid().constrain_along(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
+}
+
+template <int Dim>
+void Solid<Dim>::constrain_at(std::span<const double> q, double dt, std::span<double> p) {
+    bodies_->rigid().constrain_at(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
 }
 
 template <int Dim>
 void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
     const auto u = as_vectors<Dim>(q);
     const auto gradient = as_vectors<Dim>(force);
-    frames_->stand_at(u);
+    frames_->stand_at(of_cells(u));
     if (contact_) contact_->evaluate(u, time_);
     ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), gradient);
     to_force(u, u, gradient);
+    bodies_->rigid().add_constraint_forces(u, gradient);
 }
 
 template <int Dim>
 double Solid<Dim>::potential(std::span<const double> q) {
     const auto u = as_vectors<Dim>(q);
-    frames_->stand_at(u);
+    frames_->stand_at(of_cells(u));
     if (contact_) contact_->evaluate(u, time_);
-    const double beside = contact_ ? contact_->energy() : 0.0;
-    return ccg_.potential(in_frames(u, all_cells_), loads_->end(), corrections()) + beside - loads_->body_work(u);
+    double energy = ccg_.potential(in_frames(u, all_cells_), loads_->end(), corrections()) - loads_->body_work(of_cells(u));
+    if (contact_) energy += contact_->energy();
+    for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) energy -= rigid_force_[i].dot(u[i]);
+    return energy;
 }
 
 template <int Dim>
 void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> product) {
-    ccg_.gradient(as_vectors<Dim>(q), ccg_.load_free(), {}, as_vectors<Dim>(product));
+    const auto u = as_vectors<Dim>(q);
+    const auto result = as_vectors<Dim>(product);
+    ccg_.gradient(of_cells(u), ccg_.load_free(), {}, result);
+    for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) result[i] = rigid_stiffness_[i] * u[i];
 }
 
 template <int Dim>
-void Solid<Dim>::end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force) {
+void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
+                              std::span<Vector<Dim>> force) {
+    const auto n_cells = std::ranges::lower_bound(points, bodies_->n_cells()) - points.begin();
+    const auto cells = points.first(static_cast<std::size_t>(n_cells));
     if (!std::ranges::equal(cells, patch_region_.cells)) patch_region_ = ccg_.region_of_cells(cells);
     const auto u = as_vectors<Dim>(q);
     frames_->stand_at_end();
@@ -176,6 +176,11 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> cells, std::span<con
     ccg_.evaluate_cells(patch_region_, in_frames(u, patch_region_.input_cells), loads_->end(), corrections(), force);
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = loads_->force_on(cells[i], frames_->point_to_space(cells[i], force[i]));
+    if (cells.size() == points.size()) return;
+    std::vector<Vector<Dim>> of_points(u.size());
+    rigid_to_force(of_points);
+    bodies_->rigid().add_constraint_forces(u, of_points);
+    for (std::size_t i = cells.size(); i < points.size(); ++i) force[i] = of_points[points[i]];
 }
 
 template <int Dim>
@@ -192,7 +197,8 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const auto u_0 = as_vectors<Dim>(q_0);
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
-    const double motion = take_midpoint(u_0, u_1);
+    bodies_->rigid().follow(u_0, u_1);
+    const double motion = take_midpoint(of_cells(u_0), of_cells(u_1));
     if (contact_) {
         contact_->follow(u_0, u_1, motion, time, dt);
         contact_->integrate();
@@ -212,7 +218,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
         take_gradient(loads_->end());
     add_work(1.0);
     to_force(u_0, u_1, gradient);
-    evaluations_ += mesh_.n_cells();
+    evaluations_ += bodies_->n_cells();
     end_step(time + dt);
 }
 
@@ -224,7 +230,8 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const auto u_1 = as_vectors<Dim>(q_1);
     const auto gradient = as_vectors<Dim>(force);
     follow_loads(u_0, time, dt);
-    frames_->follow(u_0, u_1);
+    bodies_->rigid().follow(u_0, u_1);
+    frames_->follow(of_cells(u_0), of_cells(u_1));
     if (contact_) contact_->follow(u_0, u_1, std::numeric_limits<double>::infinity(), time, dt);
     if (!is_autonomous()) {  // the work is shared between the forces at both ends
         frames_->stand_at_start();
@@ -238,7 +245,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
     add_work(0.5);
     to_force(u_1, u_1, gradient);
-    evaluations_ += mesh_.n_cells();
+    evaluations_ += bodies_->n_cells();
     end_step(time + dt);
 }
 
@@ -307,7 +314,7 @@ void Solid<Dim>::end_step(double time) {
 
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
-    if (frames_->any_turns() || (contact_ && !reconstruction_))
+    if (frames_->any_turns() || bodies_->any_rigid() || (contact_ && !reconstruction_))
         throw BadInput(mesh_.name +
                        ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "
                        "body couples all of its cells. Take one step for all (memm), or other kinematics and law.");
@@ -357,16 +364,18 @@ void Solid<Dim>::follow_flight(const dynamics::FreeFlight& flight, double time, 
 template <int Dim>
 ContactField Solid<Dim>::contact_field(std::span<const double> q) {
     if (contact_) {
+        frames_->stand_at(of_cells(as_vectors<Dim>(q)));
         contact_->evaluate(as_vectors<Dim>(q), time_);
         return contact_->field();
     }
-    const auto n = static_cast<std::size_t>(ccg_.n_boundary());
+    const std::size_t n = mesh_.boundary_faces.size();
     return {std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
 }
 
 template <int Dim>
 std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap) {
     if (!contact_) return {};
+    frames_->stand_at(of_cells(as_vectors<Dim>(q)));
     contact_->evaluate(as_vectors<Dim>(q), time_);
     return contact_->touching_pairs(gap);
 }
@@ -428,18 +437,43 @@ std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const {
 
 template <int Dim>
 std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
-    return rotation_->angles(as_vectors<Dim>(q));
+    const auto u = as_vectors<Dim>(q);
+    return bodies_->of_bodies(rotation_->angles(of_cells(u)), [&](std::size_t rigid) {
+        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, u).map));
+    });
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
+    return bodies_->of_cells(as_vectors<Dim>(q));
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> q, std::span<const double> p) const {
+    return bodies_->velocities(as_vectors<Dim>(q), as_vectors<Dim>(p));
+}
+
+template <int Dim>
+std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const {
+    return as_numbers<Dim>(bodies_->of_points(of_cells));
+}
+
+template <int Dim>
+std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const {
+    return as_numbers<Dim>(bodies_->momenta(cell_velocity));
 }
 
 template <int Dim>
 Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const {
-    const Matrix<Dim>& turn = frames_->end()[static_cast<std::size_t>(mesh_.cell_body[cell])].turn;
-    return turn * ccg_.stress(cell) * turn.transpose();
+    const auto [deformable, body] = bodies_->deformable_cell(cell);
+    if (deformable < 0) return Matrix<Dim>::Zero();
+    const Matrix<Dim>& turn = frames_->end()[static_cast<std::size_t>(body)].turn;
+    return turn * ccg_.stress(deformable) * turn.transpose();
 }
 
 template <int Dim>
 dynamics::MomentArms Solid<Dim>::moment_arms() const {
-    return frames_->any_turns() ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
+    return frames_->any_turns() || bodies_->any_rigid() ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
 }
 
 template <int Dim>

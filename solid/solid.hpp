@@ -18,6 +18,8 @@
 namespace abut::solid {
 
 template <int Dim>
+class Bodies;
+template <int Dim>
 class BodyFrames;
 template <int Dim>
 class BodyRotation;
@@ -32,6 +34,9 @@ class ReconstructionDriver;
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
 /// that vary it is for one run, beginning at t = 0: loads, work and contacts go on from one `mean_force` to the next.
+///
+/// Its points are the cells of the bodies that deform, in their order, then Dim + 1 points of each body of Kinematics::rigid,
+/// which stay at their distances (ConstrainedSystem): displacements q, forces and momenta have shape (n_points, Dim).
 ///
 /// Faces with a prescribed displacement (whole or in part) take no part in contact; `contact_faces_left_out` counts them.
 ///
@@ -48,18 +53,18 @@ public:
     Solid& operator=(const Solid&) = delete;
     ~Solid();
 
-    [[nodiscard]] std::size_t size() const { return masses_.inverse.size(); }
-    [[nodiscard]] std::span<const double> inverse_mass() const { return masses_.inverse; }
-    [[nodiscard]] std::span<const double> masses() const { return masses_.of_cells; }  ///< of the cells (n_cells) [kg]
-    [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return mesh_.cell_centroid; }  ///< of the cells [m]
-    [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return mesh_.cell_body; }     ///< (n_cells)
+    [[nodiscard]] std::size_t size() const { return inverse_mass().size(); }
+    [[nodiscard]] std::span<const double> inverse_mass() const;
+    [[nodiscard]] std::span<const double> masses() const;                ///< of the points (n_points) [kg]
+    [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const;   ///< of the points (n_points) [m]
+    [[nodiscard]] std::span<const std::int32_t> body_of_points() const;  ///< (n_points)
     /// Where no body turns strains are linear, and what is free keeps its angular momentum about the positions at rest; bodies
     /// with a frame of their own keep J~.
     [[nodiscard]] dynamics::MomentArms moment_arms() const;
     /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells. docs/method.md, Space.
     [[nodiscard]] double step_margin() const { return contact_ ? 0.85 : 1.0; }
 
-    /// Displacements q are cell by cell, shape (n_cells, Dim) [m].
+    /// With what holds rigid bodies together, at the velocities around the last node.
     void force(std::span<const double> q, std::span<double> force);
     /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the path (docs/method.md, Time).
     /// Throws Misuse where the step should begin when the last one ended but does not, Diverged or TooDeep when the
@@ -72,6 +77,10 @@ public:
     /// Work from outside is taken by the trapezoidal rule. Throws as `mean_force`.
     void end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                    std::span<double> force);
+    // ConstrainedSystem: rigid bodies
+    [[nodiscard]] bool has_constraints() const;
+    void constrain_along(std::span<const double> q, double dt, std::span<double> p);
+    void constrain_at(std::span<const double> q, double dt, std::span<double> p);
     /// Whether V depends on q alone: no condition has a history and no obstacle a path.
     [[nodiscard]] bool is_autonomous() const;
     /// Local time steps: each cell on the level of its degrees of freedom, with their force evaluated as often as the finest
@@ -94,9 +103,9 @@ public:
 
     /// Parts of the bodies that were in contact during the last step; bodies joined by a pair are in one patch.
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches() const;
-    /// F(q) on some cells only (n, Dim) [N], q being where the last step ended. Costs as much as these cells, and the pairs
-    /// of the candidate list.
-    void end_force_on(std::span<const std::int32_t> cells, std::span<const double> q, std::span<Vector<Dim>> force);
+    /// F(q) on some points only (n, Dim) [N], q being where the last step ended. Costs as much as these cells, and the pairs
+    /// of the candidate list. Of bodies that turn the change of their frame during a step is left out.
+    void end_force_on(std::span<const std::int32_t> points, std::span<const double> q, std::span<Vector<Dim>> force);
 
     /// In state q; without contact no face has a partner.
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
@@ -111,6 +120,7 @@ public:
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
+    /// Of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
     [[nodiscard]] Ccg<Dim>& ccg() { return ccg_; }
     [[nodiscard]] const Ccg<Dim>& ccg() const { return ccg_; }
     /// Figures of contact since the start; all zero without contact.
@@ -131,15 +141,23 @@ public:
     /// How far each body has turned in q (n_bodies) [rad], 0 to pi: the angle of the nearest rotation. One of
     /// Kinematics::small grows by 1/cos of it, without a force against that. docs/limits.md.
     [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
-    /// sigma of a cell in space [Pa], of the state that was evaluated last.
+    /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
-private:
-    struct Masses {
-        std::vector<double> of_cells;
-        std::vector<double> inverse;  // of degrees of freedom
-    };
+    // Between the cells of the mesh and the points
 
+    /// Displacement of the cells of the mesh (n_cells) [m] in q.
+    [[nodiscard]] std::vector<Vector<Dim>> cell_displacement(std::span<const double> q) const;
+    /// Their velocity (n_cells) [m/s] at momenta p in q.
+    [[nodiscard]] std::vector<Vector<Dim>> cell_velocity(std::span<const double> q, std::span<const double> p) const;
+    /// q (n_points, Dim) for displacements of the cells: rigid bodies take the rigid motion that is nearest [m].
+    [[nodiscard]] std::vector<double> displacement_of_points(std::span<const Vector<Dim>> of_cells) const;
+    /// p (n_points, Dim) for velocities of the cells where they are at rest: the same [kg m/s].
+    [[nodiscard]] std::vector<double> momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;
+
+private:
+    [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
+    void rigid_to_force(std::span<Vector<Dim>> force) const;
     void require_start(double time, double dt) const;
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
@@ -154,8 +172,8 @@ private:
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
-    Ccg<Dim> ccg_;
-    Masses masses_;
+    std::unique_ptr<Bodies<Dim>> bodies_;
+    Ccg<Dim> ccg_;  // of the bodies that deform
     std::unique_ptr<BodyRotation<Dim>> rotation_;
     std::unique_ptr<BodyFrames<Dim>> frames_;
     SolidTimes times_;
@@ -169,8 +187,10 @@ private:
     std::vector<Vector<Dim>> midpoint_;                    // where no body turns, else
     std::vector<double> packed_midpoint_;                  // in the frames, as the operators take it
     std::vector<Vector<Dim>> in_frames_;
-    std::vector<std::int32_t> all_cells_;
-    Region<Dim> patch_region_;  // of the cells that `end_force_on` was asked for last
+    std::vector<std::int32_t> all_cells_;   // that deform
+    std::vector<Vector<Dim>> rigid_force_;  // on the points of rigid bodies, constant; by point
+    std::vector<double> rigid_stiffness_;   // of the same, for the stable step; by point
+    Region<Dim> patch_region_;              // of the cells that `end_force_on` was asked for last
 };
 
 }  // namespace abut::solid

@@ -210,7 +210,7 @@ public:
           options_(checked(scene_, given)),
           solid_(scene_.mesh, run::solid_options(scene_, options_)),
           stable_dt_(dynamics::stable_step(solid_).dt),
-          memm_(solid_, run::displacement_at_start(scene_), run::momentum_at_start(scene_, solid_),
+          memm_(solid_, run::displacement_at_start(scene_, solid_), run::momentum_at_start(scene_, solid_),
                 run::choose_step(options_, stable_dt_)),
           filter_(solid_) {
         if (options_.filter)

@@ -6,6 +6,7 @@ namespace abut::solid {
 enum class Kinematics {
     small,     ///< linear elasticity in one frame: exact where nothing turns; a body that turns by a grows by 1/cos a
     floating,  ///< linear elasticity in a frame that turns with the body: any turn, small strains and small turns inside it
+    rigid,     ///< no deformation but the skin that contact presses in: six degrees of freedom in space, three in the plane
 };
 
 /// What acts between faces in contact.

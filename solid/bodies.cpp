@@ -1,0 +1,298 @@
+#include "abut/solid/bodies.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/mesh/extract.hpp"
+#include "abut/solid/obstacles.hpp"
+
+namespace abut::solid {
+namespace {
+
+/// Rigid bodies bounce in 12 steps at least where the stable step allows it: a longer one feeds the alternating mode.
+constexpr double frequency_margin = 5.0;
+
+/// Cells [begin, end) of a body.
+template <int Dim>
+std::pair<std::int32_t, std::int32_t> cells_of_body(const mesh::Mesh<Dim>& mesh, std::int32_t body) {
+    const auto [begin, end] = std::ranges::equal_range(mesh.cell_body, body);
+    return {static_cast<std::int32_t>(begin - mesh.cell_body.begin()),
+            static_cast<std::int32_t>(end - mesh.cell_body.begin())};
+}
+
+/// One value per body that is chosen; none where none are given.
+template <class Value>
+std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std::int32_t> bodies) {
+    std::vector<Value> result;
+    if (values.empty()) return result;
+    for (const std::int32_t body : bodies) result.push_back(values[static_cast<std::size_t>(body)]);
+    return result;
+}
+
+/// The spin that fits velocities best, from their angular momentum and second moments; none about axes without any.
+template <int Dim>
+AxialVector<Dim> best_spin(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum) {
+    if constexpr (Dim == 2) {
+        const double inertia = second_moment.trace();
+        return inertia > 0.0 ? AxialVector<2>(angular_momentum / inertia) : AxialVector<2>(AxialVector<2>::Zero());
+    } else {
+        const Eigen::Matrix3d inertia = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
+        const double cut = 1e-12 * eigen.eigenvalues().maxCoeff();
+        const Eigen::Vector3d inverse =
+            eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
+        return eigen.eigenvectors() * inverse.cwiseProduct(eigen.eigenvectors().transpose() * angular_momentum);
+    }
+}
+
+}  // namespace
+
+template <int Dim>
+Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) : mesh_(mesh), options_(options) {
+    check();
+    std::vector<std::int32_t> rigid;
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
+        (kinematics(body) == Kinematics::rigid ? rigid : deformable_bodies_).push_back(body);
+    if (!rigid.empty()) part_ = mesh::extract_bodies<Dim>(mesh, deformable_bodies_);
+    part_options_ = options;
+    part_options_.materials = chosen(options.materials, deformable_bodies_);
+    part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
+    part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
+    rigid_.emplace(mesh, rigid, options.materials, n_cells());
+
+    const mesh::Mesh<Dim>& part = deformable();
+    rest_ = part.cell_centroid;
+    for (std::int32_t c = 0; c < part.n_cells(); ++c) {
+        masses_.push_back(part_options_.materials[part.cell_body[c]].density * part.cell_measure[c]);
+        body_.push_back(deformable_bodies_[part.cell_body[c]]);
+    }
+    for (std::size_t i = 0; i < rigid_->size(); ++i)
+        for (const Vector<Dim>& point : rigid_->rest_points(i)) {
+            rest_.push_back(point);
+            masses_.push_back(rigid_->mass(i) / RigidBodies<Dim>::points_per_body);
+            body_.push_back(rigid_->mesh_body(i));
+        }
+    for (const double mass : masses_) inverse_masses_.insert(inverse_masses_.end(), Dim, 1.0 / mass);
+}
+
+template <int Dim>
+void Bodies<Dim>::check() const {
+    const auto n_bodies = static_cast<std::size_t>(mesh_.n_bodies());
+    const auto require_one_each = [&](std::size_t given, const std::string& what) {
+        if (given != n_bodies)
+            throw BadInput(mesh_.name + ": " + std::to_string(given) + " " + what + " are given for " +
+                               std::to_string(n_bodies) + " bodies. Give one per body" +
+                               (what == "materials" ? "." : ", or none."),
+                           {.value = static_cast<double>(given), .allowed = static_cast<double>(n_bodies)});
+    };
+    require_one_each(options_.materials.size(), "materials");
+    for (std::size_t body = 0; body < n_bodies; ++body) solid::check(options_.materials[body], static_cast<int>(body));
+    if (!options_.acceleration.empty()) require_one_each(options_.acceleration.size(), "accelerations");
+    if (!options_.kinematics.empty()) require_one_each(options_.kinematics.size(), "kinematics");
+    for (std::size_t body = 0; body < options_.acceleration.size(); ++body)
+        if (!options_.acceleration[body].allFinite())
+            throw BadInput(mesh_.name + ": the acceleration of body " + std::to_string(body) + " ('" +
+                           mesh_.body_names[body] + "') is not finite. Correct SolidOptions::acceleration.");
+    if (!options_.obstacles.empty() && !options_.contact)
+        throw BadInput(mesh_.name + ": " + std::to_string(options_.obstacles.size()) +
+                       " obstacles are given without contact, so nothing would feel them. Give "
+                       "SolidOptions::contact, or no obstacles.");
+    for (const auto& condition : options_.boundary.dirichlet)
+        refuse_conditions_on(condition.group, "a prescribed displacement");
+    for (const auto& condition : options_.boundary.traction) refuse_conditions_on(condition.group, "a traction");
+}
+
+/// A frame that turns has no place for what is given in space.
+template <int Dim>
+void Bodies<Dim>::refuse_conditions_on(const std::string& name, const std::string& what) const {
+    for (const mesh::BoundaryGroup& group : mesh_.groups) {
+        if (group.name != name) continue;
+        for (const std::int32_t face : group.faces)
+            if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; turns(body))
+                throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] + "' may turn, and has " + what + " ('" +
+                               name + "'), which only bodies of Kinematics::small can have.");
+    }
+}
+
+template <int Dim>
+Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
+    return options_.kinematics.empty() ? Kinematics::small : options_.kinematics[static_cast<std::size_t>(body)];
+}
+
+template <int Dim>
+bool Bodies<Dim>::turns(std::int32_t body) const {
+    return kinematics(body) != Kinematics::small;
+}
+
+template <int Dim>
+BodyFrames<Dim> Bodies<Dim>::frames() const {
+    std::vector<std::int32_t> begin{0};
+    std::vector<bool> floating;
+    for (const std::int32_t body : deformable_bodies_) {
+        floating.push_back(kinematics(body) == Kinematics::floating);
+        begin.push_back(cells_of_body(deformable(), static_cast<std::int32_t>(begin.size()) - 1).second);
+    }
+    return BodyFrames<Dim>(deformable().cell_centroid, std::span(masses_).first(static_cast<std::size_t>(n_cells())),
+                           std::move(begin), std::move(floating), deformable().body_names);
+}
+
+template <int Dim>
+ContactLaw Bodies<Dim>::law() const {
+    bool any_turns = Obstacles<Dim>(std::span(options_.obstacles)).turn();
+    for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) any_turns = any_turns || turns(body);
+    if (any_turns && options_.law == ContactLaw::reconstruction)
+        throw BadInput(
+            mesh_.name +
+            ": a body or an obstacle may turn, and the modified reconstruction knows normals at rest alone. Choose "
+            "ContactLaw::pair_potential or ContactLaw::automatic.");
+    if (options_.law != ContactLaw::automatic) return options_.law;
+    return any_turns ? ContactLaw::pair_potential : ContactLaw::reconstruction;
+}
+
+// Cells and points ---------------------------------------------------------------------------------------------------
+
+template <int Dim>
+double Bodies<Dim>::cell_mass(std::int32_t cell) const {
+    return options_.materials[static_cast<std::size_t>(mesh_.cell_body[cell])].density * mesh_.cell_measure[cell];
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
+    std::vector<Vector<Dim>> result(static_cast<std::size_t>(mesh_.n_cells()));
+    auto next = q.begin();
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        std::copy_n(next, end - begin, result.begin() + begin);
+        next += end - begin;
+    }
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const RigidPlace<Dim> place = rigid_->place(i, q);
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        for (std::int32_t c = begin; c < end; ++c)
+            result[c] = place(mesh_.cell_centroid[c] - rigid_->rest_centre(i)) - mesh_.cell_centroid[c];
+    }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> displacement) const {
+    std::vector<Vector<Dim>> q;
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        q.insert(q.end(), displacement.begin() + begin, displacement.begin() + end);
+    }
+    q.resize(rest_.size());
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        Vector<Dim> shift = Vector<Dim>::Zero();
+        Matrix<Dim> moment = Matrix<Dim>::Zero();
+        double largest = 0.0;
+        for (std::int32_t c = begin; c < end; ++c) {
+            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
+            shift += cell_mass(c) / rigid_->mass(i) * displacement[c];
+            moment += cell_mass(c) * (arm + displacement[c]) * arm.transpose();
+            largest = std::max(largest, (displacement[c] - displacement[begin]).norm());
+        }
+        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : nearest_rotation<Dim>(moment);
+        rigid_->set_displacement(i, {rigid_->rest_centre(i) + shift, turn}, q);
+    }
+    return q;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> velocity) const {
+    std::vector<Vector<Dim>> p;
+    for (const std::int32_t body : deformable_bodies_) {
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        for (std::int32_t c = begin; c < end; ++c) p.push_back(cell_mass(c) * velocity[c]);
+    }
+    p.resize(rest_.size());
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        Vector<Dim> mean = Vector<Dim>::Zero();
+        AxialVector<Dim> angular = AxialVector<Dim>::Zero();
+        Matrix<Dim> second_moment = Matrix<Dim>::Zero();
+        for (std::int32_t c = begin; c < end; ++c) {
+            const Vector<Dim> arm = mesh_.cell_centroid[c] - rigid_->rest_centre(i);
+            mean += cell_mass(c) / rigid_->mass(i) * velocity[c];
+            angular += cell_mass(c) * moment<Dim>(arm, Vector<Dim>(velocity[c] - velocity[begin]));
+            second_moment += cell_mass(c) * arm * arm.transpose();
+        }
+        rigid_->set_momentum(i, mean, best_spin<Dim>(second_moment, angular), p);
+    }
+    return p;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> p) const {
+    std::vector<Vector<Dim>> of_points(p.begin(), p.end());
+    for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] /= masses_[i];
+    // Cells of rigid bodies move as their points do: affinely.
+    std::vector<Vector<Dim>> moved(q.begin(), q.end());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += of_points[i];
+    std::vector<Vector<Dim>> result = of_cells(moved);
+    if (!any_rigid()) return of_points;
+    const std::vector<Vector<Dim>> before = of_cells(q);
+    for (std::size_t c = 0; c < result.size(); ++c) result[c] -= before[c];
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::rigid_forces() const {
+    std::vector<Vector<Dim>> forces(rest_.size(), Vector<Dim>::Zero());
+    if (options_.acceleration.empty() && !options_.body_load) return forces;
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const std::int32_t body = rigid_->mesh_body(i);
+        Vector<Dim> sum = Vector<Dim>::Zero();
+        Matrix<Dim> moment = Matrix<Dim>::Zero();
+        if (!options_.acceleration.empty()) sum = rigid_->mass(i) * options_.acceleration[static_cast<std::size_t>(body)];
+        const auto [begin, end] = cells_of_body(mesh_, body);
+        for (std::int32_t c = begin; options_.body_load && c < end; ++c) {
+            const Vector<Dim> force = mesh_.cell_measure[c] * options_.body_load(mesh_.cell_centroid[c]);
+            sum += force;
+            moment += force * (mesh_.cell_centroid[c] - rigid_->rest_centre(i)).transpose();
+        }
+        rigid_->set_gradient(i, sum, moment, forces);
+    }
+    return forces;
+}
+
+/// The skin of one side as a spring: k of its stiffest face over the largest silhouette; a corner has at most 4 times the
+/// inverse mass of the whole.
+template <int Dim>
+std::vector<double> Bodies<Dim>::rigid_stiffness() const {
+    std::vector<double> stiffness(rest_.size(), 0.0);
+    for (std::size_t i = 0; options_.contact && i < rigid_->size(); ++i) {
+        double skin = 0.0;
+        Vector<Dim> silhouette = Vector<Dim>::Zero();
+        for (const std::int32_t f : mesh_.boundary_faces) {
+            const std::int32_t cell = mesh_.face_cells[f][0];
+            if (mesh_.cell_body[cell] != rigid_->mesh_body(i)) continue;
+            skin = std::max(skin, rigid_skin(i) * mesh_.face_measure[f] / mesh_.cell_measure[cell]);
+            silhouette += 0.5 * mesh_.face_measure[f] * mesh_.face_normal[f].cwiseAbs();
+        }
+        const double square = 4.0 * skin * silhouette.maxCoeff() / rigid_->mass(i);
+        for (int k = 0; k < RigidBodies<Dim>::points_per_body; ++k) {
+            const auto point = static_cast<std::size_t>(rigid_->first_point(i) + k);
+            stiffness[point] = frequency_margin * frequency_margin * square * masses_[point];
+        }
+    }
+    return stiffness;
+}
+
+template <int Dim>
+std::pair<std::int32_t, std::int32_t> Bodies<Dim>::deformable_cell(std::int32_t cell) const {
+    const auto found = std::ranges::find(deformable_bodies_, mesh_.cell_body[cell]);
+    if (found == deformable_bodies_.end()) return {-1, -1};
+    const auto body = static_cast<std::int32_t>(found - deformable_bodies_.begin());
+    return {cell - cells_of_body(mesh_, *found).first + cells_of_body(deformable(), body).first, body};
+}
+
+template class Bodies<2>;
+template class Bodies<3>;
+
+}  // namespace abut::solid

@@ -1,0 +1,90 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/kinematics/body_frames.hpp"
+#include "abut/solid/kinematics/rigid_bodies.hpp"
+#include "abut/solid/options.hpp"
+
+namespace abut::solid {
+
+/// The bodies of a solid, by how they move. Its points are the cells of those that deform, then the points of those that are
+/// rigid; both in the order of the mesh.
+template <int Dim>
+class Bodies {
+public:
+    /// The mesh must outlive it. Throws BadInput for options that do not fit the mesh or each other.
+    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options);
+
+    [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
+    /// Of the bodies that deform: `mesh` itself where all do.
+    [[nodiscard]] const mesh::Mesh<Dim>& deformable() const { return part_ ? *part_ : mesh_; }
+    /// The options of these bodies, by their numbers in `deformable`.
+    [[nodiscard]] const SolidOptions<Dim>& deformable_options() const { return part_options_; }
+    [[nodiscard]] const RigidBodies<Dim>& rigid() const { return *rigid_; }
+    [[nodiscard]] RigidBodies<Dim>& rigid() { return *rigid_; }
+    [[nodiscard]] bool any_rigid() const { return rigid_->size() > 0; }
+    [[nodiscard]] std::int32_t n_cells() const { return deformable().n_cells(); }  ///< that deform
+
+    [[nodiscard]] std::span<const Vector<Dim>> rest() const { return rest_; }                 ///< of the points [m]
+    [[nodiscard]] std::span<const double> masses() const { return masses_; }                  ///< of the points [kg]
+    [[nodiscard]] std::span<const double> inverse_masses() const { return inverse_masses_; }  ///< of degrees of freedom
+    [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return body_; }      ///< in the mesh
+
+    /// Frames of the bodies that deform. Throws BadInput for one that has no width to turn about.
+    [[nodiscard]] BodyFrames<Dim> frames() const;
+    /// The law of contact, `automatic` resolved. Throws BadInput for one that does not know bodies or obstacles that turn.
+    [[nodiscard]] ContactLaw law() const;
+
+    /// A displacement of the cells of the whole mesh [m], from that of the points.
+    [[nodiscard]] std::vector<Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
+    /// That of the points, from the cells': rigid bodies take the motion that is nearest.
+    [[nodiscard]] std::vector<Vector<Dim>> of_points(std::span<const Vector<Dim>> displacement) const;
+    /// Momenta of the points, from velocities of the cells: rigid bodies take momentum and angular momentum of theirs.
+    [[nodiscard]] std::vector<Vector<Dim>> momenta(std::span<const Vector<Dim>> velocity) const;
+    /// Velocities of the cells, from momenta of the points in q.
+    [[nodiscard]] std::vector<Vector<Dim>> velocities(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> p) const;
+    /// What stands for d^2V/dq^2 on the points of rigid bodies, for the stable step [N/m]; 0 on the others.
+    [[nodiscard]] std::vector<double> rigid_stiffness() const;
+    /// The cell of the mesh in `deformable`, and its body there; -1 of rigid bodies.
+    [[nodiscard]] std::pair<std::int32_t, std::int32_t> deformable_cell(std::int32_t cell) const;
+    /// One value per body of the mesh, from those of the bodies that deform and a function of the rigid ones.
+    template <class Rigid>
+    [[nodiscard]] std::vector<double> of_bodies(const std::vector<double>& deformable, const Rigid& rigid) const {
+        std::vector<double> values(static_cast<std::size_t>(mesh_.n_bodies()));
+        for (std::size_t i = 0; i < deformable.size(); ++i) values[deformable_bodies_[i]] = deformable[i];
+        for (std::size_t i = 0; i < rigid_->size(); ++i) values[rigid_->mesh_body(i)] = rigid(i);
+        return values;
+    }
+    /// lambda + 2 mu of a rigid body's material, of which its skin is [Pa].
+    [[nodiscard]] double rigid_skin(std::size_t rigid) const {
+        return options_.materials[static_cast<std::size_t>(rigid_->mesh_body(rigid))].wave_modulus();
+    }
+    /// Constant forces on the points of rigid bodies (n_points of them), from body forces: gravity and others [N].
+    [[nodiscard]] std::vector<Vector<Dim>> rigid_forces() const;
+
+private:
+    void check() const;
+    void refuse_conditions_on(const std::string& group, const std::string& what) const;
+    [[nodiscard]] bool turns(std::int32_t body) const;
+    [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
+    [[nodiscard]] double cell_mass(std::int32_t cell) const;
+
+    const mesh::Mesh<Dim>& mesh_;
+    SolidOptions<Dim> options_;
+    std::optional<mesh::Mesh<Dim>> part_;  // none: all bodies deform
+    SolidOptions<Dim> part_options_;
+    std::vector<std::int32_t> deformable_bodies_;
+    std::optional<RigidBodies<Dim>> rigid_;
+    std::vector<Vector<Dim>> rest_;
+    std::vector<double> masses_;
+    std::vector<double> inverse_masses_;
+    std::vector<std::int32_t> body_;
+};
+
+}  // namespace abut::solid
