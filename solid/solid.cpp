@@ -169,11 +169,13 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
                               std::span<Vector<Dim>> force) {
     const auto n_cells = std::ranges::lower_bound(points, bodies_->n_cells()) - points.begin();
     const auto cells = points.first(static_cast<std::size_t>(n_cells));
-    if (!std::ranges::equal(cells, patch_region_.cells)) patch_region_ = ccg_.region_of_cells(cells);
     const auto u = as_vectors<Dim>(q);
     frames_->stand_at_end();
     if (contact_) contact_->evaluate_last_end(u);
-    ccg_.evaluate_cells(patch_region_, in_frames(u, patch_region_.input_cells), loads_->end(), corrections(), force);
+    if (!cells.empty()) {
+        if (!std::ranges::equal(cells, patch_region_.cells)) patch_region_ = ccg_.region_of_cells(cells);
+        ccg_.evaluate_cells(patch_region_, in_frames(u, patch_region_.input_cells), loads_->end(), corrections(), force);
+    }
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = loads_->force_on(cells[i], frames_->point_to_space(cells[i], force[i]));
     if (cells.size() == points.size()) return;
