@@ -45,8 +45,6 @@ TEMPLATE_TEST_CASE_SIG("a free block that spins for 20 turns keeps H~, momentum 
     CHECK(drifts.momentum <= 1e-13);
     CHECK(drifts.energy_excess <= 1.0);
     if (noise == 0.0) CHECK(scene.stretch() <= 2.0 * spin * spin);  // the centrifugal stretch of E = rho = 1
-                drifts.energy_excess, drifts.momentum, drifts.pseudo_moment, drifts.parasitic, scene.stretch(),
-                scene.memm.steps());
 }
 
 TEST_CASE("discs that spin and collide keep H~, momentum and J~", "[solid][turning]") {
@@ -55,13 +53,11 @@ TEST_CASE("discs that spin and collide keep H~, momentum and J~", "[solid][turni
     scene.run_until(30.0);
     const Drifts drifts = scene.drifts();
     const auto report = scene.solid.contact_report();
-                drifts.pseudo_energy, drifts.energy_excess, drifts.momentum, drifts.pseudo_moment, drifts.parasitic,
-                report.missed_contacts, report.compression_max, report.correction_max, report.events, scene.memm.steps());
-                for (auto m : solid::body_motions<2>(scene.memm, scene.solid)) CHECK(report.active_pairs_max > 0);
-                CHECK(report.missed_contacts == 0);
-                CHECK(drifts.pseudo_energy <= 1e-12);
-                CHECK(drifts.pseudo_moment <= 1e-13);
-                CHECK(drifts.momentum <= 1e-13);
+    CHECK(report.active_pairs_max > 0);
+    CHECK(report.missed_contacts == 0);
+    CHECK(drifts.pseudo_energy <= 1e-12);
+    CHECK(drifts.pseudo_moment <= 1e-13);
+    CHECK(drifts.momentum <= 1e-13);
 }
 
 TEST_CASE("boxes of tetrahedra that collide keep H~, momentum and J~", "[solid][turning]") {
@@ -70,11 +66,9 @@ TEST_CASE("boxes of tetrahedra that collide keep H~, momentum and J~", "[solid][
     scene.run_until(30.0);
     const Drifts drifts = scene.drifts();
     const auto report = scene.solid.contact_report();
-                drifts.pseudo_energy, drifts.energy_excess, drifts.momentum, drifts.pseudo_moment, drifts.parasitic,
-                report.missed_contacts, report.compression_max, report.correction_max, report.events, scene.memm.steps());
-                CHECK(report.active_pairs_max > 0);
-                CHECK(report.missed_contacts == 0);
-                CHECK(drifts.pseudo_energy <= 1e-12);
-                CHECK(drifts.pseudo_moment <= 1e-13);
-                CHECK(drifts.momentum <= 1e-13);
+    CHECK(report.active_pairs_max > 0);
+    CHECK(report.missed_contacts == 0);
+    CHECK(drifts.pseudo_energy <= 1e-12);
+    CHECK(drifts.pseudo_moment <= 1e-13);
+    CHECK(drifts.momentum <= 1e-13);
 }
