@@ -59,7 +59,7 @@ void restart_body(std::span<const std::int32_t> points, const NodeView<Dim>& nod
 /// x + dt/4 M^-1 w', with which J~ is sum arm × p. r' is the rigid motion that carries the momentum and the angular momentum
 /// of the body; sigma makes H~ what it was: the vibration pays for e, the motion as a whole does not, whether something
 /// holds the body or not. theta = 1 takes all of e; it is halved until 1/4 <= sigma^2 <= 1.21. A body in which nothing
-/// vibrates is left as it is, and counted. One force evaluation a restart; the bits do not depend on the number of threads.
+/// vibrates is left as it is, and counted; a rigid one is left as it is. One force evaluation a restart; the bits do not depend on the number of threads.
 template <BodySystem S>
 class NeutralRestart {
 public:
@@ -92,6 +92,8 @@ public:
         for (std::size_t body = 0; body + 1 < bodies_.offset.size(); ++body) {
             const auto begin = static_cast<std::size_t>(bodies_.offset[body]);
             const auto end = static_cast<std::size_t>(bodies_.offset[body + 1]);
+            if constexpr (ConstrainedSystem<S>)
+                if (system_.is_constrained(points[begin])) continue;
             detail::restart_body<Dim>(points.subspan(begin, end - begin), node, report_);
         }
     }

@@ -33,6 +33,7 @@ HighestMode highest_mode(std::span<const double> inverse_mass,
         stiffness(x, k_x);
         for (std::size_t i = 0; i < n; ++i) m_x[i] = x[i] / inverse_mass[i];
         const double next = dot_product(x, k_x) / dot_product(x, m_x);
+        if (next == 0.0 && dot_product(k_x, k_x) == 0.0) return {0.0, 0.0, iteration, std::move(x)};  // nothing resists
         change = std::abs(next - quotient) / next;
         quotient = next;
         for (std::size_t i = 0; i < n; ++i) x[i] = inverse_mass[i] * k_x[i];

@@ -43,6 +43,7 @@ concept FollowedSystem = PathMeanSystem<S> &&
 template <class S>
 concept ConstrainedSystem = System<S> && requires(S& system, std::span<const double> q, std::span<double> p, double dt) {
     { system.has_constraints() } -> std::convertible_to<bool>;
+    { system.is_constrained(std::int32_t{}) } -> std::convertible_to<bool>;  ///< whether a point belongs to a rigid body
     system.constrain_along(q, dt, p);  ///< p of the next half step from q, along the lines of the last `mean_force`
     system.constrain_at(q, dt, p);     ///< the same along the lines in q; dt < 0: of the half step before
 };

@@ -54,8 +54,11 @@ inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm",
                                                                         {"memm_async", SolidIntegrator::memm_async},
                                                                         {"leapfrog", SolidIntegrator::leapfrog},
                                                                         {"bilbao", SolidIntegrator::bilbao}}};
-inline constexpr std::array<Word<std::optional<solid::Kinematics>>, 3> kinematics_words{
-    {{"scene", std::nullopt}, {"small", solid::Kinematics::small}, {"floating", solid::Kinematics::floating}}};
+inline constexpr std::array<Word<std::optional<solid::Kinematics>>, 4> kinematics_words{
+    {{"scene", std::nullopt},
+     {"small", solid::Kinematics::small},
+     {"floating", solid::Kinematics::floating},
+     {"rigid", solid::Kinematics::rigid}}};
 inline constexpr std::array<Word<solid::ContactLaw>, 3> law_words{{{"automatic", solid::ContactLaw::automatic},
                                                                    {"reconstruction", solid::ContactLaw::reconstruction},
                                                                    {"pair_potential", solid::ContactLaw::pair_potential}}};

@@ -70,6 +70,7 @@ struct RunResult {
     std::int64_t inadmissible_overlaps_max = 0;          ///< largest number of `inadmissible_overlaps` at any record
     std::vector<Vector<Dim>> blind_corners;              ///< too sharp for contact to see them [m]
     std::optional<contact::EdgePair<Dim>> unseen_edges;  ///< that would cross without contact
+    bool all_may_turn = false;                           ///< no body is of Kinematics::small
     std::int64_t contact_faces_left_out = 0;             ///< their displacement is prescribed
     solid::StencilReport stencils;                       ///< of the faces between cells
     solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined

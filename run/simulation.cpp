@@ -62,6 +62,9 @@ struct Start {
         result.stencils = solid.ccg().stencil_report();
         result.boundary_stencils = solid.ccg().boundary().report;
         result.contact_faces_left_out = solid.contact_faces_left_out();
+        const auto& kinematics = solid.options().kinematics;
+        result.all_may_turn =
+            !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
         result.blind_corners = solid.blind_corners();
         result.unseen_edges = solid.unseen_edges();
         q = displacement_at_start(scene, solid);

@@ -130,13 +130,11 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "cells. At a free edge that is as it should be; elsewhere bodies pass through each other. A lower "
                         "speed prevents it, and so does --overlap frozen, under which H~ drifts",
                         contact.slipped_pairs, contact.slipped_compression_max));
-    if (const double rotation = result.ledger.rotation(); rotation > far_rotation)
+    if (const double rotation = result.ledger.rotation(); rotation > far_rotation && !result.all_may_turn)
         add(WarningKind::rotation, rotation, far_rotation,
-            fmt::format(
-                "a body has turned by {:.2g} rad, {:g} is safe. Strains are linear here: a body that turns grows, by "
-                "{:.2g} % at this angle, and no energy shows it. A shorter run, or bodies that are hit nearer to "
-                "their middle, make it less",
-                rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
+            fmt::format("a body has turned by {:.2g} rad, {:g} is safe. A body of Kinematics::small grows as it turns, by "
+                        "{:.2g} % at this angle, and no energy shows it. --kinematics floating lets bodies turn",
+                        rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were lost, 0 are allowed: the energy is not exact", contact.missed_contacts));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,

@@ -1,6 +1,5 @@
 #include "abut/solid/bodies.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -33,22 +32,6 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
     return result;
 }
 
-/// The spin that fits velocities best, from their angular momentum and second moments; none about axes without any.
-template <int Dim>
-AxialVector<Dim> best_spin(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum) {
-    if constexpr (Dim == 2) {
-        const double inertia = second_moment.trace();
-        return inertia > 0.0 ? AxialVector<2>(angular_momentum / inertia) : AxialVector<2>(AxialVector<2>::Zero());
-    } else {
-        const Eigen::Matrix3d inertia = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
-        const double cut = 1e-12 * eigen.eigenvalues().maxCoeff();
-        const Eigen::Vector3d inverse =
-            eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
-        return eigen.eigenvectors() * inverse.cwiseProduct(eigen.eigenvectors().transpose() * angular_momentum);
-    }
-}
-
 }  // namespace
 
 template <int Dim>
@@ -62,6 +45,8 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.materials = chosen(options.materials, deformable_bodies_);
     part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
+    std::erase_if(part_options_.boundary.traction,
+                  [&](const auto& condition) { return is_on_turning_body(condition.group); });
     rigid_.emplace(mesh, rigid, options.materials, n_cells());
 
     const mesh::Mesh<Dim>& part = deformable();
@@ -101,21 +86,29 @@ void Bodies<Dim>::check() const {
         throw BadInput(mesh_.name + ": " + std::to_string(options_.obstacles.size()) +
                        " obstacles are given without contact, so nothing would feel them. Give "
                        "SolidOptions::contact, or no obstacles.");
-    for (const auto& condition : options_.boundary.dirichlet)
-        refuse_conditions_on(condition.group, "a prescribed displacement");
-    for (const auto& condition : options_.boundary.traction) refuse_conditions_on(condition.group, "a traction");
+    for (const auto& condition : options_.boundary.dirichlet) refuse_conditions_on(condition.group);
 }
 
-/// A frame that turns has no place for what is given in space.
+/// A frame that turns has no place for a displacement that is given in space.
 template <int Dim>
-void Bodies<Dim>::refuse_conditions_on(const std::string& name, const std::string& what) const {
-    for (const mesh::BoundaryGroup& group : mesh_.groups) {
-        if (group.name != name) continue;
-        for (const std::int32_t face : group.faces)
-            if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; turns(body))
-                throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] + "' may turn, and has " + what + " ('" +
-                               name + "'), which only bodies of Kinematics::small can have.");
-    }
+void Bodies<Dim>::refuse_conditions_on(const std::string& name) const {
+    for (const std::int32_t face : mesh_.group(name).faces)
+        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; turns(body))
+            throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
+                           "' may turn, and has a prescribed displacement ('" + name +
+                           "'), which only bodies of Kinematics::small can have. Hold it by SolidOptions::springs.");
+}
+
+/// Throws BadInput for a group on bodies of both kinds.
+template <int Dim>
+bool Bodies<Dim>::is_on_turning_body(const std::string& name) const {
+    const auto on_turning = [&](std::int32_t face) { return turns(mesh_.cell_body[mesh_.face_cells[face][0]]); };
+    const std::vector<std::int32_t>& faces = mesh_.group(name).faces;
+    if (std::ranges::none_of(faces, on_turning)) return false;
+    if (!std::ranges::all_of(faces, on_turning))
+        throw BadInput(mesh_.name + ": the traction on '" + name +
+                       "' acts on bodies of Kinematics::small and on others. Give each kind a group of its own.");
+    return true;
 }
 
 template <int Dim>
@@ -222,7 +215,7 @@ std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> veloc
             angular += cell_mass(c) * moment<Dim>(arm, Vector<Dim>(velocity[c] - velocity[begin]));
             second_moment += cell_mass(c) * arm * arm.transpose();
         }
-        rigid_->set_momentum(i, mean, best_spin<Dim>(second_moment, angular), p);
+        rigid_->set_momentum(i, mean, spin_of<Dim>(second_moment, angular), p);
     }
     return p;
 }
@@ -282,6 +275,21 @@ std::vector<double> Bodies<Dim>::rigid_stiffness() const {
         }
     }
     return stiffness;
+}
+
+template <int Dim>
+Matrix<Dim> Bodies<Dim>::mean_turn(std::int32_t body, const BodyFrames<Dim>& frames) const {
+    for (std::size_t i = 0; i < rigid_->size(); ++i)
+        if (rigid_->mesh_body(i) == body) return rigid_->mean_turn(i);
+    const auto found = std::ranges::find(deformable_bodies_, body);
+    return frames.step(static_cast<std::size_t>(found - deformable_bodies_.begin())).mean_turn();
+}
+
+template <int Dim>
+std::pair<std::int32_t, std::int32_t> Bodies<Dim>::points_of(std::int32_t body) const {
+    const auto found = std::ranges::find(body_, body);
+    const auto end = std::find_if(found, body_.end(), [&](std::int32_t of_point) { return of_point != body; });
+    return {static_cast<std::int32_t>(found - body_.begin()), static_cast<std::int32_t>(end - body_.begin())};
 }
 
 template <int Dim>

@@ -24,6 +24,11 @@ public:
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do.
     [[nodiscard]] const mesh::Mesh<Dim>& deformable() const { return part_ ? *part_ : mesh_; }
+    [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
+    [[nodiscard]] bool turns(std::int32_t body) const;  ///< whether it may: it is not `small`
+    [[nodiscard]] bool is_rigid(std::int32_t body) const { return kinematics(body) == Kinematics::rigid; }
+    /// Its points are [first, second).
+    [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
     [[nodiscard]] const SolidOptions<Dim>& deformable_options() const { return part_options_; }
     [[nodiscard]] const RigidBodies<Dim>& rigid() const { return *rigid_; }
@@ -49,6 +54,8 @@ public:
     [[nodiscard]] std::vector<Vector<Dim>> momenta(std::span<const Vector<Dim>> velocity) const;
     /// Velocities of the cells, from momenta of the points in q.
     [[nodiscard]] std::vector<Vector<Dim>> velocities(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> p) const;
+    /// Of a body's rotation at both ends of what `frames` and the rigid bodies follow; the identity of a small one.
+    [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body, const BodyFrames<Dim>& frames) const;
     /// What stands for d^2V/dq^2 on the points of rigid bodies, for the stable step [N/m]; 0 on the others.
     [[nodiscard]] std::vector<double> rigid_stiffness() const;
     /// The cell of the mesh in `deformable`, and its body there; -1 of rigid bodies.
@@ -70,8 +77,8 @@ public:
 
 private:
     void check() const;
-    void refuse_conditions_on(const std::string& group, const std::string& what) const;
-    [[nodiscard]] bool turns(std::int32_t body) const;
+    void refuse_conditions_on(const std::string& group) const;
+    [[nodiscard]] bool is_on_turning_body(const std::string& group) const;
     [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;
 

@@ -47,11 +47,14 @@ struct DirichletCondition {
     Field<Dim> history;                       ///< u_D(t, x) [m] if it varies; then `value` is not used
 };
 
+/// On a body that may turn it is a force at the centroid of each face, whose work is booked; the reconstruction of the face
+/// takes it as free.
 template <int Dim>
 struct TractionCondition {
     std::string group;
     Vector<Dim> value = Vector<Dim>::Zero();  ///< t [Pa]
     Field<Dim> history;                       ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
+    bool follows = false;  ///< it turns with the body, as a pressure does: of bodies of Kinematics::small no difference
 };
 
 template <int Dim>

@@ -6,6 +6,7 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
+#include "abut/solid/attachments.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material.hpp"
@@ -20,7 +21,9 @@ struct SolidOptions {
     BoundaryConditions<Dim> boundary;
     std::vector<Vector<Dim>> acceleration;  ///< of gravity, one per body [m/s^2]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)>
-        body_load;                                   ///< force density [N/m^3], constant in time; empty: none
+        body_load;  ///< force density [N/m^3], constant in time; empty: none
+    std::vector<Spring<Dim>> springs;
+    std::vector<BodyMoment<Dim>> moments;
     std::optional<contact::ContactOptions> contact;  ///< empty: bodies pass through each other, at no cost
     ContactLaw law = ContactLaw::automatic;
     geometry::FacingFade facing;                         ///< of `pair_potential` (contact::NodalOptions)

@@ -16,6 +16,7 @@
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/midpoint.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
+#include "abut/solid/point_loads.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
 
 namespace abut::solid {
@@ -37,9 +38,10 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
     : mesh_(mesh),
       options_(std::move(options)),
       bodies_(std::make_unique<Bodies<Dim>>(mesh, options_)),
-      ccg_(bodies_->deformable(), bodies_->deformable_options().materials, options_.boundary),
+      ccg_(bodies_->deformable(), bodies_->deformable_options().materials, bodies_->deformable_options().boundary),
       rotation_(std::make_unique<BodyRotation<Dim>>(bodies_->deformable(), bodies_->masses())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames())),
+      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_)),
       all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {
@@ -117,11 +119,31 @@ void Solid<Dim>::rigid_to_force(std::span<Vector<Dim>> force) const {
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < force.size(); ++i) force[i] = rigid_force_[i] - force[i];
 }
 
+/// With their work.
+template <int Dim>
+void Solid<Dim>::add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
+                                 contact::TakenForce take, std::span<Vector<Dim>> force) {
+    if (!point_loads_->any()) return;
+    point_loads_->add(
+        q_0, q_1, time, dt, take, [this](std::int32_t body) { return mean_turn(body); }, force, work_);
+}
+
+/// Of the frame of a body or of a rigid one, between both ends of the step or in the state that is evaluated.
+template <int Dim>
+Matrix<Dim> Solid<Dim>::mean_turn(std::int32_t body) const {
+    return bodies_->mean_turn(body, *frames_);
+}
+
 // Rigid bodies -------------------------------------------------------------------------------------------------------
 
 template <int Dim>
 bool Solid<Dim>::has_constraints() const {
     return bodies_->any_rigid();
+}
+
+template <int Dim>
+bool Solid<Dim>::is_constrained(std::int32_t point) const {
+    return point >= bodies_->n_cells();
 }
 
 template <int Dim>
@@ -142,6 +164,9 @@ void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
     if (contact_) contact_->evaluate(u, time_);
     ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), gradient);
     to_force(u, u, gradient);
+    if (point_loads_->any())
+        point_loads_->add_at(
+            u, time_, [this](std::int32_t body) { return mean_turn(body); }, gradient);
     bodies_->rigid().add_constraint_forces(u, gradient);
 }
 
@@ -152,6 +177,7 @@ double Solid<Dim>::potential(std::span<const double> q) {
     if (contact_) contact_->evaluate(u, time_);
     double energy = ccg_.potential(in_frames(u, all_cells_), loads_->end(), corrections()) - loads_->body_work(of_cells(u));
     if (contact_) energy += contact_->energy();
+    energy += point_loads_->energy(u);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) energy -= rigid_force_[i].dot(u[i]);
     return energy;
 }
@@ -162,6 +188,7 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
     const auto result = as_vectors<Dim>(product);
     ccg_.gradient(of_cells(u), ccg_.load_free(), {}, result);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) result[i] = rigid_stiffness_[i] * u[i];
+    point_loads_->add_stiffness(u, result);
 }
 
 template <int Dim>
@@ -178,10 +205,13 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
     }
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = loads_->force_on(cells[i], frames_->point_to_space(cells[i], force[i]));
-    if (cells.size() == points.size()) return;
-    std::vector<Vector<Dim>> of_points(u.size());
+    if (cells.size() == points.size() && !point_loads_->any()) return;
+    std::vector<Vector<Dim>> of_points(u.size(), Vector<Dim>::Zero());
     rigid_to_force(of_points);
+    point_loads_->add_at(
+        u, time_, [this](std::int32_t body) { return mean_turn(body); }, of_points);
     bodies_->rigid().add_constraint_forces(u, of_points);
+    for (std::size_t i = 0; i < cells.size(); ++i) force[i] += of_points[points[i]];
     for (std::size_t i = cells.size(); i < points.size(); ++i) force[i] = of_points[points[i]];
 }
 
@@ -220,6 +250,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
         take_gradient(loads_->end());
     add_work(1.0);
     to_force(u_0, u_1, gradient);
+    add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
     evaluations_ += bodies_->n_cells();
     end_step(time + dt);
 }
@@ -247,13 +278,14 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
     add_work(0.5);
     to_force(u_1, u_1, gradient);
+    add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
     evaluations_ += bodies_->n_cells();
     end_step(time + dt);
 }
 
 template <int Dim>
 bool Solid<Dim>::is_autonomous() const {
-    return !loads_->vary() && !(contact_ && contact_->obstacles().move());
+    return !loads_->vary() && !point_loads_->do_work() && !(contact_ && contact_->obstacles().move());
 }
 
 template <int Dim>

@@ -30,6 +30,8 @@ class Loads;
 template <int Dim>
 class LocalLevels;
 template <int Dim>
+class PointLoads;
+template <int Dim>
 class ReconstructionDriver;
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
@@ -79,6 +81,7 @@ public:
                    std::span<double> force);
     // ConstrainedSystem: rigid bodies
     [[nodiscard]] bool has_constraints() const;
+    [[nodiscard]] bool is_constrained(std::int32_t point) const;
     void constrain_along(std::span<const double> q, double dt, std::span<double> p);
     void constrain_at(std::span<const double> q, double dt, std::span<double> p);
     /// Whether V depends on q alone: no condition has a history and no obstacle a path.
@@ -158,6 +161,9 @@ public:
 private:
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
     void rigid_to_force(std::span<Vector<Dim>> force) const;
+    void add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
+                         contact::TakenForce take, std::span<Vector<Dim>> force);
+    [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body) const;
     void require_start(double time, double dt) const;
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
@@ -176,6 +182,7 @@ private:
     Ccg<Dim> ccg_;  // of the bodies that deform
     std::unique_ptr<BodyRotation<Dim>> rotation_;
     std::unique_ptr<BodyFrames<Dim>> frames_;
+    std::unique_ptr<PointLoads<Dim>> point_loads_;
     SolidTimes times_;
     std::int64_t evaluations_ = 0;
     double work_ = 0.0;

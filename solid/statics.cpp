@@ -300,6 +300,8 @@ std::string text(Ending ending, const StaticOptions& options) {
 
 template <int Dim>
 void check_start(const Solid<Dim>& solid, std::span<const double> q) {
+    if (solid.moment_arms() != dynamics::MomentArms::rest)
+        throw BadInput("statics: a body is floating or rigid; bodies at rest are sought for Kinematics::small alone.");
     if (q.size() != solid.size())
         throw BadInput("statics: q_0 has " + std::to_string(q.size()) + " numbers, the solid has " +
                            std::to_string(solid.size()) + " degrees of freedom. Give one per component of each cell.",

@@ -23,6 +23,11 @@ template <int Dim>
         return {m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)};
 }
 
+/// The spin of a body with these second moments sum m x' x'^T that carries an angular momentum; none about axes without
+/// inertia.
+template <int Dim>
+[[nodiscard]] AxialVector<Dim> spin_of(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum);
+
 /// The rotation Q for which Q^T B is symmetric and its trace largest; for B = F M with a positive M the nearest one to F.
 template <int Dim>
 [[nodiscard]] Matrix<Dim> nearest_rotation(const Matrix<Dim>& b);

@@ -91,7 +91,7 @@ private:
     std::vector<std::int32_t> body_;  // of each point
     std::vector<BodyFrame<Dim>> start_, end_, state_;
     std::vector<FrameStep<Dim>> steps_;
-    std::vector<AxialVector<Dim>> lambda_;  // of each body, in the last `to_space`
+    std::vector<AxialVector<Dim>> lambda_;  // of each body, in the last `to_force`
     bool has_stepped_ = false;
     bool is_standing_ = false;
 };

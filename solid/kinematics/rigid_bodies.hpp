@@ -58,6 +58,10 @@ public:
 
     /// A step from q_0 to q_1: what constrains the next half step lies between.
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
+    /// Of the rotations at both ends of that step.
+    [[nodiscard]] Matrix<Dim> mean_turn(std::size_t body) const {
+        return 0.5 * (bodies_[body].turn_0 + bodies_[body].turn_1);
+    }
     /// Adds to p (n_points) the impulses that keep all distances from q over dt (< 0: back), along the lines of the last
     /// step. Throws Diverged where there are none.
     void constrain_along(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p);

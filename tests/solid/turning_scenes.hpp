@@ -16,6 +16,14 @@ struct Motion {
 };
 
 template <int Dim>
+Motion<Dim> moving(const Vector<Dim>& velocity, const AxialVector<Dim>& spin = AxialVector<Dim>::Zero()) {
+    Motion<Dim> motion;
+    motion.velocity = velocity;
+    motion.spin = spin;
+    return motion;
+}
+
+template <int Dim>
 std::vector<double> momentum_of(const solid::Solid<Dim>& solid, const std::vector<Motion<Dim>>& motion) {
     std::vector<double> p(solid.size());
     const auto points = solid.rest_positions();
@@ -44,7 +52,7 @@ struct Drifts {
     double parasitic = 0.0;      // |e|/m
 };
 
-/// A run of bodies that turn, under MEMM.
+/// A run of bodies that turn, under MEMM. `cfl` < 0: less the time step.
 template <int Dim>
 struct TurningScene {
     mesh::Mesh<Dim> mesh;
@@ -60,7 +68,7 @@ struct TurningScene {
         : mesh(std::move(made)),
           solid(mesh, with(std::move(options), std::move(kinematics))),
           memm(solid, std::vector<double>(solid.size(), 0.0), noisy(momentum_of(solid, motion), noise),
-               cfl * dynamics::stable_step(solid).dt / solid.step_margin()) {
+               cfl > 0.0 ? cfl * dynamics::stable_step(solid).dt / solid.step_margin() : -cfl) {
         sum_of_moments = sum_of_momenta = 0.0;
         for (std::size_t i = 0; i < solid.masses().size(); ++i) {
             const Vector<Dim> p = view().momentum(static_cast<std::ptrdiff_t>(i));

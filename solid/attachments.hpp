@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+
+#include "abut/base/vector.hpp"
+
+namespace abut::solid {
+
+/// Where an anchor is that stands still.
+inline constexpr std::int32_t ground = -1;
+
+/// A place on a body, or on the ground. Of a body that deforms it is a mean of cells around that place, weighted so that it
+/// moves exactly with them where they move affinely.
+template <int Dim>
+struct Anchor {
+    std::int32_t body = ground;                  ///< number in the mesh
+    Vector<Dim> position = Vector<Dim>::Zero();  ///< at rest [m]
+    /// Of a body that deforms [m]: held by cells with their centre that near, and by as many of the next ones as span space
+    double radius = 0.0;
+};
+
+/// A spring and a dashpot between two anchors: with r from the first to the second, V = k/2 (|r| - L)^2. With L = 0 it is a
+/// hinge, as stiff as k: it holds two places together, or one to the ground, and lets them turn. The dashpot acts along r, of
+/// a hinge in all directions; its work is booked.
+template <int Dim>
+struct Spring {
+    Anchor<Dim> first;
+    Anchor<Dim> second;
+    double stiffness = 0.0;  ///< k [N/m], >= 0
+    double length = 0.0;     ///< L [m], >= 0
+    double damping = 0.0;    ///< c [N s/m], >= 0
+};
+
+/// A moment on a body as a whole, as of a drive or a brake: a constant part and one against its spin. Its work is booked.
+template <int Dim>
+struct BodyMoment {
+    std::int32_t body = 0;                               ///< number in the mesh
+    AxialVector<Dim> moment = AxialVector<Dim>::Zero();  ///< [N m]
+    double damping = 0.0;                                ///< >= 0 [N m s]
+};
+
+}  // namespace abut::solid

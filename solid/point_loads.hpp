@@ -1,0 +1,108 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/contact/step.hpp"
+#include "abut/solid/bodies.hpp"
+
+namespace abut::solid {
+
+/// A place that moves with some points: x = sum w (X + q).
+template <int Dim>
+struct HeldPlace {
+    std::vector<std::int32_t> points;  ///< none: it stands still
+    std::vector<double> weights;
+    Vector<Dim> rest = Vector<Dim>::Zero();  ///< [m]
+
+    [[nodiscard]] Vector<Dim> at(std::span<const Vector<Dim>> q) const {
+        Vector<Dim> x = rest;
+        for (std::size_t i = 0; i < points.size(); ++i) x += weights[i] * q[points[i]];
+        return x;
+    }
+    void push(const Vector<Dim>& force, std::span<Vector<Dim>> of_points) const {
+        for (std::size_t i = 0; i < points.size(); ++i) of_points[points[i]] += weights[i] * force;
+    }
+};
+
+/// Springs, dashpots, moments and tractions on bodies that turn: what acts on places that move with points. Springs are part
+/// of V; of all others the work is booked. In a step every force is the one whose work is exactly the change of V, or that
+/// which is booked, and has no other moment about the mean positions than it should.
+template <int Dim>
+class PointLoads {
+public:
+    using TurnOf = std::function<Matrix<Dim>(std::int32_t body)>;
+
+    /// The bodies must outlive it. Throws BadInput for a body that does not exist, or a value out of range.
+    explicit PointLoads(const Bodies<Dim>& bodies);
+
+    [[nodiscard]] bool any() const { return !springs_.empty() || !moments_.empty() || !tractions_.empty(); }
+    /// Whether V does not tell all forces.
+    [[nodiscard]] bool do_work() const;
+    /// Energy of the springs [J].
+    [[nodiscard]] double energy(std::span<const Vector<Dim>> q) const;
+    /// Adds the forces of a step from q_0 at `time` to q_1 [N], and the work of what is booked to `work` [J]: means, or of
+    /// springs those at its end. `turn_of(body)`: the mean of its rotations at both ends.
+    ///
+    /// With the mean, dashpots act on the rates of the step before: on those of the step itself a two-step scheme answers with
+    /// an alternating mode that grows.
+    void add(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
+             contact::TakenForce take, const TurnOf& turn_of, std::span<Vector<Dim>> force, double& work);
+    /// Adds the forces of one state [N], dashpots at the last rates.
+    void add_at(std::span<const Vector<Dim>> q, double time, const TurnOf& turn_of, std::span<Vector<Dim>> force) const;
+    /// Adds what springs resist a displacement with, all in one direction or the other: for the stable step [N].
+    void add_stiffness(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> product) const;
+
+private:
+    struct HeldSpring {
+        HeldPlace<Dim> first, second;
+        Spring<Dim> law;
+        std::optional<Vector<Dim>> rate = {};  // of r in the last step [m/s]
+    };
+    struct HeldMoment {
+        BodyMoment<Dim> law;
+        std::optional<AxialVector<Dim>> spin = {};  // in the last step [rad/s]
+    };
+    struct HeldTraction {
+        HeldPlace<Dim> place;
+        double area;
+        std::int32_t body;
+        std::size_t condition;
+    };
+
+    [[nodiscard]] HeldPlace<Dim> place_of(const Anchor<Dim>& anchor) const;
+    struct Cloud;
+    [[nodiscard]] std::vector<std::int32_t> cells_around(const Anchor<Dim>& anchor) const;
+    [[nodiscard]] HeldPlace<Dim> held_by(std::vector<std::int32_t> points, const Vector<Dim>& position) const;
+    void hold_springs();
+    void hold_tractions();
+    void check_moments() const;
+    void push(const HeldSpring& spring, const Vector<Dim>& tension, std::span<Vector<Dim>> force) const;
+    void add_springs(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double dt, contact::TakenForce take,
+                     std::span<Vector<Dim>> force, double& work);
+    double add_tractions(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
+                         const TurnOf& turn_of, std::span<Vector<Dim>> force) const;
+    /// A body in the middle of a step.
+    struct Middle {
+        Vector<Dim> centre;
+        Matrix<Dim> second_moment;
+        AxialVector<Dim> angular;  ///< sum m x' × (q_1 - q_0)
+    };
+    [[nodiscard]] Middle middle_of(std::int32_t body, std::span<const Vector<Dim>> q_0,
+                                   std::span<const Vector<Dim>> q_1) const;
+    double add_moment(const BodyMoment<Dim>& law, const AxialVector<Dim>& spin, const Middle& middle,
+                      std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
+                      std::span<Vector<Dim>> force) const;
+
+    const Bodies<Dim>& bodies_;
+    const SolidOptions<Dim>& options_;
+    std::vector<HeldSpring> springs_;
+    std::vector<HeldMoment> moments_;
+    std::vector<HeldTraction> tractions_;
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,185 @@
+// Springs, dashpots, hinges, moments and tractions on bodies that turn.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "abut/dynamics/leapfrog.hpp"
+#include "solid/turning_scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using solid::Anchor;
+using solid::Kinematics;
+using solid::Spring;
+
+namespace {
+
+using std::numbers::pi;
+
+template <int Dim>
+solid::SolidOptions<Dim> free_bodies(int n) {
+    auto options = bodies<Dim>(n);
+    options.contact.reset();
+    return options;
+}
+
+/// A bar from x = 0 to 1.
+mesh::Mesh<2> bar() { return mesh::structured_box<2>({0.0, -0.05}, {1.0, 0.05}, {20, 2}, CellShape::quadrangle); }
+
+template <int Dim>
+mesh::Mesh<Dim> two_blocks() {
+    std::array<int, Dim> counts;
+    counts.fill(3);
+    const Vector<Dim> half = Vector<Dim>::Constant(0.5), apart = 2.0 * Vector<Dim>::Unit(0);
+    const CellShape shape = Dim == 2 ? CellShape::triangle : CellShape::tetrahedron;
+    return together(mesh::structured_box<Dim>(-half, half, counts, shape, "left"),
+                    mesh::structured_box<Dim>(apart - half, apart + half, counts, shape, "right"));
+}
+
+}  // namespace
+
+TEST_CASE("a hinged bar swings with the period of a physical pendulum", "[solid][attachments]") {
+    const Kinematics kinematics = GENERATE(Kinematics::rigid, Kinematics::floating);
+    const double gravity = 1e-3;
+    auto options = free_bodies<2>(1);
+    options.springs = {{.first = {}, .second = {.body = 0, .position = {0.0, 0.0}}, .stiffness = 10.0}};
+    // Hangs from its end at rest, turned to the side by a small angle: I/(m d) = (1/3 + 0.1^2/12)/0.5.
+    const double angle = 0.01, arm = (1.0 / 3.0 + 0.01 / 12.0) / 0.5;
+    options.acceleration = {{gravity * std::cos(angle), -gravity * std::sin(angle)}};
+    options.kinematics = {kinematics};
+    const auto mesh = bar();
+    solid::Solid<2> solid(mesh, options);
+    dynamics::Memm memm(solid, std::vector<double>(solid.size(), 0.0), std::vector<double>(solid.size(), 0.0), 0.02);
+    const double energy = memm.pseudo_energy();
+    double drift = 0.0, crossed = 0.0;
+    for (double before = 0.0; crossed == 0.0;) {
+        memm.step();
+        raise(drift, std::abs(memm.pseudo_energy() - energy));
+        const auto q = solid.cell_displacement(memm.q());
+        const Vector<2> rest = mesh.cell_centroid.back() - mesh.cell_centroid.front(), now = rest + q.back() - q.front();
+        const double down = std::atan2(moment<2>(rest, now)[0], rest.dot(now)) + angle;
+        if (before > 0.0 && down <= 0.0) crossed = memm.time();
+        before = down;
+        REQUIRE(memm.steps() < 100000);
+    }
+    CHECK(4.0 * crossed == Approx(2.0 * pi * std::sqrt(arm / gravity)).epsilon(5e-3));
+    CHECK(drift <= 1e-12 * gravity * 0.1);  // of the weight at rest
+}
+
+TEMPLATE_TEST_CASE_SIG("bodies joined by springs keep H~, momentum and J~, and dashpots take what they book",
+                       "[solid][attachments]", ((int Dim), Dim), 2, 3) {
+    const double length = GENERATE(0.0, 0.8), damping = GENERATE(0.0, 0.02);
+    const auto kinematics = GENERATE(std::vector{Kinematics::floating, Kinematics::floating},
+                                     std::vector{Kinematics::rigid, Kinematics::floating});
+    auto options = free_bodies<Dim>(2);
+    options.springs = {{.first = {.body = 0, .position = 0.5 * Vector<Dim>::Unit(0), .radius = 0.3},
+                        .second = {.body = 1, .position = 1.5 * Vector<Dim>::Unit(0)},
+                        .stiffness = 0.05,
+                        .length = length,
+                        .damping = damping}};
+    TurningScene<Dim> scene(
+        two_blocks<Dim>(), options,
+        {{.velocity = Vector<Dim>::Constant(0.02), .spin = some_spin<Dim>(0.1)}, {.velocity = -0.03 * Vector<Dim>::Unit(1)}},
+        0.6, kinematics);
+    scene.run_until(100.0);
+    const Drifts drifts = scene.drifts();
+    CAPTURE(length, damping);
+    CHECK(drifts.pseudo_energy <= 1e-12);
+    CHECK(drifts.momentum <= 1e-13);
+    // A dashpot of no length acts across it, too.
+    if (length > 0.0 || damping == 0.0) CHECK(drifts.pseudo_moment <= 1e-13);
+    if (damping == 0.0)
+        CHECK(scene.solid.work() == 0.0);
+    else
+        CHECK(scene.solid.work() < -1e-4 * scene.ledger.largest_energy());
+}
+
+TEMPLATE_TEST_CASE_SIG("a moment turns a body as its inertia says, and its work is booked", "[solid][attachments]",
+                       ((int Dim), Dim), 2, 3) {
+    const Kinematics kinematics = GENERATE(Kinematics::rigid, Kinematics::floating);
+    auto options = free_bodies<Dim>(1);
+    AxialVector<Dim> moment = AxialVector<Dim>::Zero();
+    moment[moment.size() - 1] = 1e-4;
+    options.moments = {{.body = 0, .moment = moment}};
+    std::array<int, Dim> counts;
+    counts.fill(4);
+    TurningScene<Dim> scene(mesh::structured_box<Dim>(-Vector<Dim>::Constant(0.5), Vector<Dim>::Constant(0.5), counts,
+                                                      Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron),
+                            options, {moving<Dim>(Vector<Dim>::Zero())}, -0.05, kinematics);
+    scene.run_until(90.0);
+    const double time = scene.memm.time(), inertia = 1.0 / 6.0;  // of the unit square and the unit cube
+    CHECK(scene.pseudo_moment()[moment.size() - 1] == Approx(moment[moment.size() - 1] * time).epsilon(1e-3));
+    const double turned = 0.5 * moment[moment.size() - 1] / inertia * time * time;
+    // Points of cells have less inertia than the cells: by 1/n^2 of n cells along a side.
+    const double lacking = kinematics == Kinematics::rigid ? 0.0 : 1.0 / 16.0;
+    CHECK(scene.solid.rotations(scene.memm.q())[0] == Approx(turned / (1.0 - lacking)).epsilon(5e-3));
+    CHECK(scene.drifts().pseudo_energy <= 1e-12);
+    CHECK(scene.solid.work() == Approx(moment[moment.size() - 1] * turned / (1.0 - lacking)).epsilon(5e-3));
+}
+
+TEMPLATE_TEST_CASE_SIG("a traction that follows turns with its body, a dead one does not; both book their work",
+                       "[solid][attachments]", ((int Dim), Dim), 2, 3) {
+    const Kinematics kinematics = GENERATE(Kinematics::rigid, Kinematics::floating);
+    const bool follows = GENERATE(false, true);
+    auto options = free_bodies<Dim>(1);
+    const double pressure = 1e-4, spin = 0.1;
+    const Vector<Dim> push = pressure * Vector<Dim>::Unit(0);
+    // On both ends of the axis about which it does not turn away: force on one side, along the outer normal of the other.
+    options.boundary.traction = {{.group = "xmin", .value = push, .follows = follows}};
+    std::array<int, Dim> counts;
+    counts.fill(3);
+    const auto mesh = mesh::structured_box<Dim>(-Vector<Dim>::Constant(0.5), Vector<Dim>::Constant(0.5), counts,
+                                                Dim == 2 ? CellShape::triangle : CellShape::tetrahedron);
+    AxialVector<Dim> about_last = AxialVector<Dim>::Zero();
+    about_last[about_last.size() - 1] = spin;
+    TurningScene<Dim> scene(mesh, options, {moving<Dim>(Vector<Dim>::Zero(), about_last)}, -0.05, kinematics);
+    const double time = 0.5 * pi / spin;
+    scene.run_until(time);
+    CHECK(scene.drifts().pseudo_energy <= 1e-12);
+    Vector<Dim> impulse = Vector<Dim>::Zero();
+    for (const auto& body : solid::body_motions<Dim>(scene.memm, scene.solid)) impulse += body.mass * body.velocity;
+    if (follows) {  // the integral of (cos, sin)(spin t), the centre of pressure being behind the centre
+        CHECK(impulse[0] == Approx(pressure / spin).epsilon(0.02));
+        CHECK(impulse[1] == Approx(pressure / spin).epsilon(0.02));
+    } else {
+        CHECK(impulse[0] == Approx(pressure * scene.memm.time()).epsilon(1e-3));
+        CHECK(std::abs(impulse[1]) <= 1e-12);
+    }
+}
+
+TEST_CASE("leapfrog with springs keeps energy with order 2", "[solid][attachments]") {
+    auto options = free_bodies<2>(2);
+    options.kinematics = {Kinematics::floating, Kinematics::rigid};
+    options.springs = {{.first = {.body = 0, .position = {0.5, 0.3}},
+                        .second = {.body = 1, .position = {1.5, 0.1}},
+                        .stiffness = 0.05,
+                        .length = 0.4}};
+    const auto mesh = two_blocks<2>();
+    const auto drift_at = [&](double dt) {
+        solid::Solid<2> solid(mesh, options);
+        dynamics::Leapfrog leapfrog(
+            solid, std::vector<double>(solid.size(), 0.0),
+            momentum_of<2>(solid, {moving<2>({0.0, 0.0}, some_spin<2>(0.05)), moving<2>({0.0, 0.02})}), dt);
+        const double start = leapfrog.energy();
+        double drift = 0.0;
+        while (leapfrog.time() < 40.0) {
+            leapfrog.step();
+            raise(drift, std::abs(leapfrog.energy() - start));
+        }
+        return drift;
+    };
+    CHECK(std::log2(drift_at(0.04) / drift_at(0.02)) == Approx(2.0).margin(0.3));
+}
+
+TEST_CASE("springs and moments that cannot be are refused", "[solid][attachments]") {
+    const auto mesh = two_blocks<2>();
+    auto options = free_bodies<2>(2);
+    SECTION("no such body") { options.springs = {{.first = {.body = 2}, .second = {}, .stiffness = 1.0}}; }
+    SECTION("a stiffness below 0") { options.springs = {{.first = {.body = 0}, .second = {}, .stiffness = -1.0}}; }
+    SECTION("a moment on no body") { options.moments = {{.body = -1}}; }
+    SECTION("a prescribed displacement on a body that turns") {
+        options.kinematics = {Kinematics::floating, Kinematics::small};
+        options.boundary.dirichlet = {{.group = "left.xmin"}};
+    }
+    CHECK_THROWS_AS(solid::Solid<2>(mesh, options), BadInput);
+}
