@@ -321,7 +321,8 @@ constexpr const char* scene_text =
     "same shape; held: {group: displacement [m]}; rollers: groups held along their normals; traction: {group: traction "
     "[Pa]}; "
     "displacement(x), added_velocity(x): at the start, by position; contact: False lets bodies pass through each other. "
-    "Options are those of the programs' command lines, with _ for -: time, steps, cfl, dt, integrator, filter, restart, ...";
+    "Options are those of the programs' command lines, with _ for -: time, steps, cfl, dt, integrator, filter, restart, "
+    "kinematics ('floating' lets all bodies turn), law (of contact), ...";
 
 template <int Dim>
 void add_dimension(py::module_& module, const std::string& suffix) {
