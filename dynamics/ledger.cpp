@@ -27,6 +27,7 @@ std::vector<std::string> ledger_columns() {
     names.insert(names.end(), {"parasitic", "active_pairs", "events", "restart_jumps", "rotation"});
     append_names<Dim>(names, "rest_angular_momentum", n_rotations<Dim>);
     names.insert(names.end(), {"restarts", "restarts_shortened", "restarts_skipped", "restart_paid"});
+    append_names<Dim>(names, "pseudo_angular_momentum", n_rotations<Dim>);
     return names;
 }
 
@@ -47,6 +48,7 @@ std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
     const RestartReport& restarts = entry.restarts;
     values.insert(values.end(), {static_cast<double>(restarts.restarts), static_cast<double>(restarts.shortened),
                                  static_cast<double>(restarts.skipped), restarts.paid});
+    values.insert(values.end(), entry.pseudo_angular_momentum.begin(), entry.pseudo_angular_momentum.end());
     return values;
 }
 
@@ -98,6 +100,7 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     raise(momentum_drift_, (entry.linear_momentum - first.linear_momentum).norm());
     raise(angular_momentum_drift_, (entry.angular_momentum - first.angular_momentum).norm());
     raise(rest_angular_momentum_drift_, (entry.rest_angular_momentum - first.rest_angular_momentum).norm());
+    raise(pseudo_angular_momentum_drift_, (entry.pseudo_angular_momentum - first.pseudo_angular_momentum).norm());
     raise(rotation_, entry.rotation);
     for (const double energy : {entry.energy, entry.kinetic, entry.potential}) raise(largest_energy_, std::abs(energy));
 }

@@ -44,6 +44,8 @@ struct LedgerEntry {
     double restart_jumps;                        ///< what restarts with another step have added to H~ so far [J]
     double rotation;                             ///< of the body that has turned farthest [rad]
     RestartReport restarts;                      ///< so far
+    /// J~, which MEMM conserves where bodies may turn [kg m^2/s]: see `pseudo_angular_momentum`
+    AngularMomentum<Dim> pseudo_angular_momentum;
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
@@ -118,6 +120,8 @@ template <class Scheme, PointSystem S>
     if constexpr (requires { system.rotations(integrator.q()); })
         entry.rotation = detail::largest_angle(system.rotations(integrator.q()));
     detail::add_motion<Dim>(entry, integrator, e, system.rest_positions(), system.masses());
+    entry.pseudo_angular_momentum =
+        pseudo_angular_momentum<Dim>(integrator, integrator.dt(), system.rest_positions(), system.masses());
     return entry;
 }
 
@@ -142,6 +146,8 @@ public:
     [[nodiscard]] double angular_momentum_drift() const { return angular_momentum_drift_; }
     /// The same with positions at rest [kg m^2/s].
     [[nodiscard]] double rest_angular_momentum_drift() const { return rest_angular_momentum_drift_; }
+    /// The same of J~ [kg m^2/s].
+    [[nodiscard]] double pseudo_angular_momentum_drift() const { return pseudo_angular_momentum_drift_; }
     /// How far any body had turned at most [rad].
     [[nodiscard]] double rotation() const { return rotation_; }
     /// Largest of |H|, kinetic energy and |V| in the run [J]: what drifts of loaded runs are quoted on.
@@ -156,6 +162,7 @@ private:
     double momentum_drift_ = 0.0;
     double angular_momentum_drift_ = 0.0;
     double rest_angular_momentum_drift_ = 0.0;
+    double pseudo_angular_momentum_drift_ = 0.0;
     double rotation_ = 0.0;
     double largest_energy_ = 0.0;
 };

@@ -76,7 +76,8 @@ struct RunResult {
     solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
-    solid::SolidTimes times;  ///< of the steps
+    std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
+    solid::SolidTimes times;              ///< of the steps
     RunSeconds seconds;
     std::vector<Finding> findings;  ///< of the scene
 };

@@ -137,6 +137,7 @@ public:
             observer_.look(integrator_, solid_);
         }
         result_.end = solid::body_motions<Dim>(integrator_, solid_);
+        result_.local_rotations = solid_.local_rotations(integrator_.q());
         result_.contact = solid_.contact_report();
         result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();

@@ -26,11 +26,15 @@ template <int Dim>
 Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Json bodies = Json::array();
     for (std::size_t body = 0; body < result.start.size(); ++body)
-        bodies.push_back({{"name", scene.mesh.body_names[body]},
-                          {"mass", result.start[body].mass},
-                          {"velocity_initial", numbers<Dim>(result.start[body].velocity)},
-                          {"velocity_final", numbers<Dim>(result.end[body].velocity)},
-                          {"rotation_final", result.end[body].rotation}});
+        bodies.push_back(
+            {{"name", scene.mesh.body_names[body]},
+             {"mass", result.start[body].mass},
+             {"velocity_initial", numbers<Dim>(result.start[body].velocity)},
+             {"velocity_final", numbers<Dim>(result.end[body].velocity)},
+             {"rotation_final", result.end[body].rotation},
+             {"spin_initial", std::vector<double>(result.start[body].spin.begin(), result.start[body].spin.end())},
+             {"spin_final", std::vector<double>(result.end[body].spin.begin(), result.end[body].spin.end())},
+             {"local_rotation_final", result.local_rotations[body]}});
     return bodies;
 }
 
@@ -83,6 +87,7 @@ Json energies_json(const RunResult<Dim>& result) {
             {"momentum_drift_max", ledger.momentum_drift()},
             {"angular_momentum_drift_max", ledger.angular_momentum_drift()},
             {"rest_angular_momentum_drift_max", ledger.rest_angular_momentum_drift()},
+            {"pseudo_angular_momentum_drift_max", ledger.pseudo_angular_momentum_drift()},
             {"rotation_max", ledger.rotation()}};
 }
 
@@ -160,6 +165,8 @@ std::string energy_lines(const RunResult<Dim>& result) {
            table_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", ledger.parasitic())) +
            table_line("drift of linear momentum", fmt::format("{:.2e} kg m/s", ledger.momentum_drift())) +
            table_line("drift of angular momentum", fmt::format("{:.2e} kg m^2/s", ledger.angular_momentum_drift())) +
+           table_line("the same of J~, as MEMM has it",
+                      fmt::format("{:.2e} kg m^2/s", ledger.pseudo_angular_momentum_drift())) +
            table_line("rotation of a body, at most", fmt::format("{:.2g} rad", ledger.rotation()));
 }
 

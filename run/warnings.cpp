@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -135,6 +136,12 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
             fmt::format("a body has turned by {:.2g} rad, {:g} is safe. A body of Kinematics::small grows as it turns, by "
                         "{:.2g} % at this angle, and no energy shows it. --kinematics floating lets bodies turn",
                         rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
+    if (const auto most = std::ranges::max_element(result.local_rotations);
+        result.all_may_turn && most != result.local_rotations.end() && *most > far_rotation)
+        add(WarningKind::local_rotation, *most, far_rotation,
+            fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
+                        "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
+                        *most, far_rotation));
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were lost, 0 are allowed: the energy is not exact", contact.missed_contacts));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,

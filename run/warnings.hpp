@@ -31,12 +31,13 @@ enum class WarningKind {
     extrapolated_faces,    ///< faces that extrapolate from the cells around them: the stable step is shorter
     faces_out_of_contact,  ///< note: faces with a prescribed displacement
     blind_corners,         ///< corners too sharp for contact to see
-    unseen_edges,   ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
-    hidden_mode,    ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart
-    compression,    ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
-    stiff_sliding,  ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
-    deep_slip,      ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
-    rotation,       ///< Ledger::rotation [rad]; threshold: far_rotation
+    unseen_edges,    ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
+    hidden_mode,     ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart
+    compression,     ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
+    stiff_sliding,   ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
+    deep_slip,       ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
+    rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
+    local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     missed_contacts,        ///< contacts that were lost: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };

@@ -478,6 +478,18 @@ std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
 }
 
 template <int Dim>
+std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
+    static_cast<void>(potential(q));  // leaves the displacement gradients of this state behind
+    const mesh::Mesh<Dim>& part = bodies_->deformable();
+    std::vector<double> largest(static_cast<std::size_t>(part.n_bodies()), 0.0);
+    for (std::int32_t c = 0; c < part.n_cells(); ++c) {
+        double& of_body = largest[static_cast<std::size_t>(part.cell_body[c])];
+        of_body = larger(of_body, 0.5 * axial<Dim>(ccg_.displacement_gradient(c)).norm());
+    }
+    return bodies_->of_bodies(largest, [](std::size_t) { return 0.0; });
+}
+
+template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
     return bodies_->of_cells(as_vectors<Dim>(q));
 }

@@ -144,6 +144,9 @@ public:
     /// How far each body has turned in q (n_bodies) [rad], 0 to pi: the angle of the nearest rotation. One of
     /// Kinematics::small grows by 1/cos of it, without a force against that. docs/limits.md.
     [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
+    /// By how much the cell of a body that turns most turns against its frame in q (n_bodies) [rad]; of a small body against
+    /// space, of a rigid one 0. Strains are linear: beyond 0.1 a body should be split, or be another model.
+    [[nodiscard]] std::vector<double> local_rotations(std::span<const double> q);
     /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
