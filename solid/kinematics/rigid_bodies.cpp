@@ -173,7 +173,10 @@ template <int Dim>
 void RigidBodies<Dim>::constrain_at(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) {
     for (Body& body : bodies_) {
         const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, q));
-        constrain(body, turn, turn, q, dt, p);
+        const Matrix<Dim> other_end = constrain(body, turn, turn, q, dt, p);
+        if (dt > 0.0) continue;
+        body.turn_0 = other_end;
+        body.turn_1 = turn;
     }
 }
 
@@ -181,8 +184,8 @@ void RigidBodies<Dim>::constrain_at(std::span<const Vector<Dim>> q, double dt, s
 /// is B + dt (P - Fm S) with B = sum m x' X'^T and P = sum p X'^T: R is the rotation for which Fm^-1 (B + dt P - R J) is
 /// symmetric.
 template <int Dim>
-void RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess,
-                                 std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) const {
+Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess,
+                                        std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) const {
     using AxialMatrix = Eigen::Matrix<double, Dim*(Dim - 1) / 2, Dim*(Dim - 1) / 2, Eigen::DontAlign>;
     const double mass = body.mass / points_per_body;
     Matrix<Dim> momenta = Matrix<Dim>::Zero();
@@ -223,6 +226,7 @@ void RigidBodies<Dim>::add_constraint_forces(std::span<const Vector<Dim>> q, std
         const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, q));
         const Matrix<Dim> in_space = turn * body.second_moment * turn.transpose();
         const AxialVector<Dim> spin =
+    return turn;
             0.5 * axial<Dim>(Matrix<Dim>(0.5 * (body.rate_before + body.rate_after) * turn.transpose()));
         AxialVector<Dim> torque = axial<Dim>(Matrix<Dim>(moments * turn.transpose()));
         if constexpr (Dim == 3) torque -= moment<3>(spin, Vector<3>(inertia_of<3>(in_space) * spin));

@@ -65,7 +65,7 @@ public:
     /// Adds to p (n_points) the impulses that keep all distances from q over dt (< 0: back), along the lines of the last
     /// step. Throws Diverged where there are none.
     void constrain_along(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p);
-    /// The same, along the lines in q.
+    /// The same, along the lines in q. Where it goes back, the step that lies there is the last one from now on.
     void constrain_at(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p);
     /// Adds to the forces on the points what holds the distances in q, at the mean of the velocities before and after.
     void add_constraint_forces(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> force) const;
@@ -84,8 +84,9 @@ private:
     };
 
     [[nodiscard]] Vector<Dim> rest_arm(const Body& body, int i) const { return body.rest[i] - body.centre; }
-    void constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess, std::span<const Vector<Dim>> q, double dt,
-                   std::span<Vector<Dim>> p) const;
+    /// Gives the turn of the body at the other end.
+    Matrix<Dim> constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess, std::span<const Vector<Dim>> q,
+                          double dt, std::span<Vector<Dim>> p) const;
     [[nodiscard]] Matrix<Dim> map_of(const Body& body, std::span<const Vector<Dim>> q) const;
 
     std::vector<Body> bodies_;
