@@ -93,7 +93,7 @@ public:
             const auto begin = static_cast<std::size_t>(bodies_.offset[body]);
             const auto end = static_cast<std::size_t>(bodies_.offset[body + 1]);
             if constexpr (ConstrainedSystem<S>)
-                if (system_.is_constrained(points[begin])) continue;
+                if (system_.is_constrained(points[begin])) continue;  // nothing in it vibrates, and it would not stay rigid
             detail::restart_body<Dim>(points.subspan(begin, end - begin), node, report_);
         }
     }

@@ -41,9 +41,10 @@ concept FollowedSystem = PathMeanSystem<S> &&
 /// them: as these lie in the middle of a step they do no work on it and have no moment about its mean positions. Only schemes
 /// that call this may run it where `has_constraints`.
 template <class S>
-concept ConstrainedSystem = System<S> && requires(S& system, std::span<const double> q, std::span<double> p, double dt) {
+concept ConstrainedSystem = System<S> &&
+    requires(S& system, std::int32_t point, std::span<const double> q, std::span<double> p, double dt) {
     { system.has_constraints() } -> std::convertible_to<bool>;
-    { system.is_constrained(std::int32_t{}) } -> std::convertible_to<bool>;  ///< whether a point belongs to a rigid body
+    { system.is_constrained(point) } -> std::convertible_to<bool>;  ///< whether it belongs to a rigid body
     system.constrain_along(q, dt, p);  ///< p of the next half step from q, along the lines of the last `mean_force`
     system.constrain_at(q, dt, p);     ///< the same along the lines in q; dt < 0: of the half step before
 };
