@@ -264,8 +264,10 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const auto gradient = as_vectors<Dim>(force);
     follow_loads(u_0, time, dt);
     bodies_->rigid().follow(u_0, u_1);
-    frames_->follow(of_cells(u_0), of_cells(u_1));
-    if (contact_) contact_->follow(u_0, u_1, std::numeric_limits<double>::infinity(), time, dt);
+    if (contact_)
+        contact_->follow(u_0, u_1, take_midpoint(of_cells(u_0), of_cells(u_1)), time, dt);
+    else
+        frames_->follow(of_cells(u_0), of_cells(u_1));
     if (!is_autonomous()) {  // the work is shared between the forces at both ends
         frames_->stand_at_start();
         if (contact_) contact_->take_start();
