@@ -231,13 +231,15 @@ bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) 
     return contact_->is_valid_for(motion_since(near_watch_, time)) && motion_since(far_watch_, time) <= far_reach_;
 }
 
-/// Places the nodes near other bodies at the end of the step; what is far must not have come near.
+/// Places the nodes near other bodies at the end of the step; what is far must not have come near. Loads that vary move faces
+/// without their cells: then all nodes are looked at.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
-    if (!has_stepped_ || loads_.vary() || !contact_->is_valid_for(0.0) || !(motion_since(far_watch_, time) <= far_reach_))
-        return false;
-    place(near_, q_1, frames_.end(), loads_.end(), time, x_1_);
-    near_watch_ = watch_from(near_, x_1_, time);
+    if (!has_stepped_ || !contact_->is_valid_for(0.0)) return false;
+    if (!loads_.vary() && !(motion_since(far_watch_, time) <= far_reach_)) return false;
+    const Listed& looked_at = loads_.vary() ? all_ : near_;
+    place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_);
+    near_watch_ = watch_from(looked_at, x_1_, time);
     return contact_->is_valid_for(near_watch_.moved);
 }
 
