@@ -1,5 +1,7 @@
 #include "abut/solid/bodies.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -30,6 +32,17 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
     if (values.empty()) return result;
     for (const std::int32_t body : bodies) result.push_back(values[static_cast<std::size_t>(body)]);
     return result;
+}
+
+/// The rotation that fits sum m x' X'^T best; of points on a line, about which it is not known, the least one.
+template <int Dim>
+Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
+    if constexpr (Dim == 3) {
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        if (svd.singularValues()[1] <= 1e-10 * svd.singularValues()[0])
+            return Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix();
+    }
+    return nearest_rotation<Dim>(moment);
 }
 
 }  // namespace
@@ -190,7 +203,7 @@ std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> dis
             moment += cell_mass(c) * (arm + displacement[c]) * arm.transpose();
             largest = std::max(largest, (displacement[c] - displacement[begin]).norm());
         }
-        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : nearest_rotation<Dim>(moment);
+        const Matrix<Dim> turn = largest == 0.0 ? Matrix<Dim>(Matrix<Dim>::Identity()) : least_rotation<Dim>(moment);
         rigid_->set_displacement(i, {rigid_->rest_centre(i) + shift, turn}, q);
     }
     return q;
