@@ -265,6 +265,10 @@ std::vector<Vector<Dim>> Bodies<Dim>::rigid_forces() const {
         rigid_->set_gradient(i, sum, moment, forces);
     }
     return forces;
+            if (!force.allFinite())
+                throw BadInput(mesh_.name + ": the force on cell " + std::to_string(mesh_.cell_label[c]) +
+                                   " is not finite. Correct SolidOptions::body_load.",
+                               {.cell = c});
 }
 
 /// The skin of one side as a spring: k of its stiffest face over the largest silhouette; a corner has at most 4 times the
