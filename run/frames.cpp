@@ -22,7 +22,7 @@ template <int Dim>
 std::vector<Vector<Dim>> velocities(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
     std::vector<double> momentum(run.p_before.begin(), run.p_before.end());
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + run.p_after[i]);
-    return solid.cell_velocity(run.q, momentum);
+    return solid.cell_velocity(momentum);
 }
 
 std::vector<double> finite_or_nan(std::vector<double> values) {

@@ -166,15 +166,22 @@ double Bodies<Dim>::cell_mass(std::int32_t cell) const {
     return options_.materials[static_cast<std::size_t>(mesh_.cell_body[cell])].density * mesh_.cell_measure[cell];
 }
 
+/// Of the cells of the whole mesh; those of rigid bodies are left open.
 template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
+std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector<Dim>> of_points) const {
     std::vector<Vector<Dim>> result(static_cast<std::size_t>(mesh_.n_cells()));
-    auto next = q.begin();
+    auto next = of_points.begin();
     for (const std::int32_t body : deformable_bodies_) {
         const auto [begin, end] = cells_of_body(mesh_, body);
         std::copy_n(next, end - begin, result.begin() + begin);
         next += end - begin;
     }
+    return result;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
+    std::vector<Vector<Dim>> result = of_deformable_cells(q);
     for (std::size_t i = 0; i < rigid_->size(); ++i) {
         const RigidPlace<Dim> place = rigid_->place(i, q);
         const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
@@ -234,16 +241,15 @@ std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> veloc
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> p) const {
+std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> p) const {
     std::vector<Vector<Dim>> of_points(p.begin(), p.end());
     for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] /= masses_[i];
-    // Cells of rigid bodies move as their points do: affinely.
-    std::vector<Vector<Dim>> moved(q.begin(), q.end());
-    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] += of_points[i];
-    std::vector<Vector<Dim>> result = of_cells(moved);
-    if (!any_rigid()) return of_points;
-    const std::vector<Vector<Dim>> before = of_cells(q);
-    for (std::size_t c = 0; c < result.size(); ++c) result[c] -= before[c];
+    std::vector<Vector<Dim>> result = of_deformable_cells(of_points);
+    for (std::size_t i = 0; i < rigid_->size(); ++i) {
+        const RigidPlace<Dim> velocity = rigid_->velocity(i, of_points);
+        const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
+        for (std::int32_t c = begin; c < end; ++c) result[c] = velocity(mesh_.cell_centroid[c] - rigid_->rest_centre(i));
+    }
     return result;
 }
 
@@ -259,16 +265,16 @@ std::vector<Vector<Dim>> Bodies<Dim>::rigid_forces() const {
         const auto [begin, end] = cells_of_body(mesh_, body);
         for (std::int32_t c = begin; options_.body_load && c < end; ++c) {
             const Vector<Dim> force = mesh_.cell_measure[c] * options_.body_load(mesh_.cell_centroid[c]);
+            if (!force.allFinite())
+                throw BadInput(mesh_.name + ": the force on cell " + std::to_string(mesh_.cell_label[c]) +
+                                   " is not finite. Correct SolidOptions::body_load.",
+                               {.cell = c});
             sum += force;
             moment += force * (mesh_.cell_centroid[c] - rigid_->rest_centre(i)).transpose();
         }
         rigid_->set_gradient(i, sum, moment, forces);
     }
     return forces;
-            if (!force.allFinite())
-                throw BadInput(mesh_.name + ": the force on cell " + std::to_string(mesh_.cell_label[c]) +
-                                   " is not finite. Correct SolidOptions::body_load.",
-                               {.cell = c});
 }
 
 /// The skin of one side as a spring: k of its stiffest face over the largest silhouette; a corner has at most 4 times the

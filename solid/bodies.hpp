@@ -52,8 +52,8 @@ public:
     [[nodiscard]] std::vector<Vector<Dim>> of_points(std::span<const Vector<Dim>> displacement) const;
     /// Momenta of the points, from velocities of the cells: rigid bodies take momentum and angular momentum of theirs.
     [[nodiscard]] std::vector<Vector<Dim>> momenta(std::span<const Vector<Dim>> velocity) const;
-    /// Velocities of the cells, from momenta of the points in q.
-    [[nodiscard]] std::vector<Vector<Dim>> velocities(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> p) const;
+    /// Velocities of the cells, from momenta of the points.
+    [[nodiscard]] std::vector<Vector<Dim>> velocities(std::span<const Vector<Dim>> p) const;
     /// Of a body's rotation at both ends of what `frames` and the rigid bodies follow; the identity of a small one.
     [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body, const BodyFrames<Dim>& frames) const;
     /// What stands for d^2V/dq^2 on the points of rigid bodies, for the stable step [N/m]; 0 on the others.
@@ -81,6 +81,7 @@ private:
     [[nodiscard]] bool is_on_turning_body(const std::string& group) const;
     [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;
+    [[nodiscard]] std::vector<Vector<Dim>> of_deformable_cells(std::span<const Vector<Dim>> of_points) const;
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;

@@ -497,8 +497,8 @@ std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> q, std::span<const double> p) const {
-    return bodies_->velocities(as_vectors<Dim>(q), as_vectors<Dim>(p));
+std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const {
+    return bodies_->velocities(as_vectors<Dim>(p));
 }
 
 template <int Dim>

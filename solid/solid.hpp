@@ -154,8 +154,8 @@ public:
 
     /// Displacement of the cells of the mesh (n_cells) [m] in q.
     [[nodiscard]] std::vector<Vector<Dim>> cell_displacement(std::span<const double> q) const;
-    /// Their velocity (n_cells) [m/s] at momenta p in q.
-    [[nodiscard]] std::vector<Vector<Dim>> cell_velocity(std::span<const double> q, std::span<const double> p) const;
+    /// Their velocity (n_cells) [m/s] at momenta p.
+    [[nodiscard]] std::vector<Vector<Dim>> cell_velocity(std::span<const double> p) const;
     /// q (n_points, Dim) for displacements of the cells: rigid bodies take the rigid motion that is nearest [m].
     [[nodiscard]] std::vector<double> displacement_of_points(std::span<const Vector<Dim>> of_cells) const;
     /// p (n_points, Dim) for velocities of the cells where they are at rest: the same [kg m/s].

@@ -101,13 +101,19 @@ RigidBodies<Dim>::RigidBodies(const mesh::Mesh<Dim>& mesh, std::span<const std::
     }
 }
 
+/// `begin` and sum m q X'^T, q being differences to that of the first point.
 template <int Dim>
-Matrix<Dim> RigidBodies<Dim>::map_of(const Body& body, std::span<const Vector<Dim>> q) const {
+Matrix<Dim> RigidBodies<Dim>::moment_of(const Body& body, const Matrix<Dim>& begin, std::span<const Vector<Dim>> q) const {
     const double mass = body.mass / points_per_body;
-    Matrix<Dim> moment = body.second_moment;
+    Matrix<Dim> moment = begin;
     for (int i = 0; i < points_per_body; ++i)
         moment += mass * (q[body.first_point + i] - q[body.first_point]) * rest_arm(body, i).transpose();
-    return moment * body.inverse;
+    return moment;
+}
+
+template <int Dim>
+Matrix<Dim> RigidBodies<Dim>::map_of(const Body& body, std::span<const Vector<Dim>> q) const {
+    return moment_of(body, body.second_moment, q) * body.inverse;
 }
 
 template <int Dim>
@@ -116,6 +122,14 @@ RigidPlace<Dim> RigidBodies<Dim>::place(std::size_t index, std::span<const Vecto
     Vector<Dim> shift = Vector<Dim>::Zero();
     for (int i = 0; i < points_per_body; ++i) shift += q[body.first_point + i] - q[body.first_point];
     return {body.centre + q[body.first_point] + shift / points_per_body, map_of(body, q)};
+}
+
+template <int Dim>
+RigidPlace<Dim> RigidBodies<Dim>::velocity(std::size_t index, std::span<const Vector<Dim>> v) const {
+    const Body& body = bodies_[index];
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (int i = 0; i < points_per_body; ++i) sum += v[body.first_point + i];
+    return {sum / points_per_body, moment_of(body, Matrix<Dim>::Zero(), v) * body.inverse};
 }
 
 template <int Dim>
@@ -212,6 +226,7 @@ Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, co
     const Matrix<Dim> impulse = lines * (0.5 / dt * (held + held.transpose())) * body.inverse;
     (dt > 0.0 ? body.rate_after : body.rate_before) = momenta * body.inverse - impulse;
     for (int i = 0; i < points_per_body; ++i) p[body.first_point + i] -= mass * (impulse * rest_arm(body, i));
+    return turn;
 }
 
 template <int Dim>
@@ -226,7 +241,6 @@ void RigidBodies<Dim>::add_constraint_forces(std::span<const Vector<Dim>> q, std
         const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, q));
         const Matrix<Dim> in_space = turn * body.second_moment * turn.transpose();
         const AxialVector<Dim> spin =
-    return turn;
             0.5 * axial<Dim>(Matrix<Dim>(0.5 * (body.rate_before + body.rate_after) * turn.transpose()));
         AxialVector<Dim> torque = axial<Dim>(Matrix<Dim>(moments * turn.transpose()));
         if constexpr (Dim == 3) torque -= moment<3>(spin, Vector<3>(inertia_of<3>(in_space) * spin));

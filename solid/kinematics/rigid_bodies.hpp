@@ -45,6 +45,8 @@ public:
 
     /// For displacements q of all points of the system (n_points) [m].
     [[nodiscard]] RigidPlace<Dim> place(std::size_t body, std::span<const Vector<Dim>> q) const;
+    /// A point at X' from the centre moves with centre + map X' [m/s], for velocities of all points of the system (n_points).
+    [[nodiscard]] RigidPlace<Dim> velocity(std::size_t body, std::span<const Vector<Dim>> v) const;
     /// dV/dx of its points [N], from gradients p at X' from the centre: their sum, and that of p X'^T.
     void set_gradient(std::size_t body, const Vector<Dim>& sum, const Matrix<Dim>& moment,
                       std::span<Vector<Dim>> gradient) const;
@@ -87,6 +89,7 @@ private:
     /// Gives the turn of the body at the other end.
     Matrix<Dim> constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess, std::span<const Vector<Dim>> q,
                           double dt, std::span<Vector<Dim>> p) const;
+    [[nodiscard]] Matrix<Dim> moment_of(const Body& body, const Matrix<Dim>& begin, std::span<const Vector<Dim>> q) const;
     [[nodiscard]] Matrix<Dim> map_of(const Body& body, std::span<const Vector<Dim>> q) const;
 
     std::vector<Body> bodies_;
