@@ -1,0 +1,247 @@
+#include "studies/kinematics/cases.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+
+#include "abut/base/error.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/run/result_files.hpp"
+#include "abut/run/simulation.hpp"
+
+namespace abut::studies::kinematics {
+namespace {
+
+template <int Dim>
+std::array<double, Dim> key_of(const Vector<Dim>& x) {
+    std::array<double, Dim> key;
+    for (int d = 0; d < Dim; ++d) key[static_cast<std::size_t>(d)] = x[d];
+    return key;
+}
+
+/// Velocities of the cells at the start [m/s], by their centroids.
+template <int Dim>
+std::map<std::array<double, Dim>, Vector<Dim>> velocities_at_start(const Case<Dim>& one) {
+    const mesh::Mesh<Dim>& mesh = one.scene.mesh;
+    std::vector<Vector<Dim>> centre(one.motion.size(), Vector<Dim>::Zero());
+    std::vector<double> measure(one.motion.size(), 0.0);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
+        centre[body] += mesh.cell_measure[c] * mesh.cell_centroid[c];
+        measure[body] += mesh.cell_measure[c];
+    }
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> noise(-1.0, 1.0);
+    std::map<std::array<double, Dim>, Vector<Dim>> velocity;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
+        const Vector<Dim>& x = mesh.cell_centroid[c];
+        const Vector<Dim> arm = x - centre[body] / measure[body];
+        Vector<Dim> v = one.motion[body].velocity + dynamics::turning_velocity<Dim>(one.motion[body].spin, arm);
+        for (int d = 0; d < Dim && one.noise > 0.0; ++d) v[d] += one.noise * noise(random);
+        velocity[key_of<Dim>(x)] = v;
+    }
+    return velocity;
+}
+
+template <int Dim>
+run::Scene<Dim> scene_of(const Case<Dim>& one) {
+    run::Scene<Dim> scene = one.scene;
+    scene.velocity.assign(one.motion.size(), Vector<Dim>::Zero());
+    scene.added_velocity = [velocity = velocities_at_start(one)](const Vector<Dim>& x) {
+        return velocity.at(key_of<Dim>(x));
+    };
+    return scene;
+}
+
+/// Figures of a run as it goes.
+template <int Dim>
+class Account : public run::Observer<Dim> {
+public:
+    Account(const Case<Dim>& one, const Watch<Dim>& watch) : watch_(watch) {
+        const auto& kinematics = one.scene.solid.kinematics;
+        is_free_ = one.is_free;
+        turns_ = std::ranges::none_of(kinematics, [](Kinematics k) { return k == Kinematics::small; });
+    }
+
+    void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override {
+        dt_ = result.dt;
+        n_steps_ = result.steps;
+    }
+    void record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>&) override { ledger_.record(entry); }
+
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
+        steps_ = run.steps;
+        excess_ = std::max(excess_, excess_of(run, solid));
+        if (is_free_) follow_moment(run, solid);
+        report_ = solid.contact_report();
+        if (watch_) watch_(run, solid);
+        if (run.steps < n_steps_) return;
+        for (const auto& motion : whole_motions<Dim>(run, solid)) velocity_.push_back(motion.velocity);
+    }
+    void after_step(const solid::Solid<Dim>& solid) {
+        if (solid.nodal_contact() == nullptr) return;
+        const contact::NodalStep<Dim>& step = solid.nodal_contact()->last();
+        double forces = 0.0;
+        for (const auto& pair : step.pairs) forces += pair.force.norm();
+        pair_steps_ += static_cast<std::int64_t>(step.pairs.size());
+        forces_ += forces;
+        corrections_ += step.report.correction * forces;
+    }
+
+    [[nodiscard]] CaseResult<Dim> result() const {
+        const double energy = ledger_.largest_energy();
+        Figures figures{.steps = steps_,
+                        .dt = dt_,
+                        .largest_energy = energy,
+                        .drift = ledger_.pseudo_energy_drift() / energy,
+                        .excess = excess_ / energy,
+                        .parasitic = ledger_.parasitic(),
+                        .momentum = is_free_ ? ledger_.momentum_drift() / momentum_scale_ : run::not_given,
+                        .pseudo_angular = is_free_ && turns_ ? moment_drift_ / moment_scale_ : run::not_given,
+                        .events = report_.events,
+                        .missed_contacts = report_.missed_contacts,
+                        .pair_steps = pair_steps_,
+                        .compression = report_.compression_max,
+                        .correction = forces_ > 0.0 ? corrections_ / forces_ : 0.0,
+                        .ending = {}};
+        return {figures, velocity_};
+    }
+
+private:
+    static double excess_of(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < run.q.size(); ++i) {
+            const double jump = run.p_after[i] - run.p_before[i];
+            sum += solid.inverse_mass()[i] * jump * jump;
+        }
+        return 0.125 * sum;
+    }
+
+    void follow_moment(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        const AxialVector<Dim> moment_now =
+            dynamics::pseudo_angular_momentum<Dim>(run, dt_, solid.rest_positions(), solid.masses());
+        if (run.steps == 0) {
+            moment_0_ = moment_now;
+            const auto u = as_vectors<Dim>(run.q);
+            for (std::size_t i = 0; i < u.size(); ++i) {
+                const Vector<Dim> p = run.momentum(static_cast<std::ptrdiff_t>(i));
+                momentum_scale_ += p.norm();
+                moment_scale_ += moment<Dim>(Vector<Dim>(solid.rest_positions()[i] + u[i]), p).norm();
+            }
+        }
+        moment_drift_ = std::max(moment_drift_, (moment_now - moment_0_).norm());
+    }
+
+    const Watch<Dim>& watch_;
+    bool is_free_, turns_;
+    dynamics::Ledger<Dim> ledger_;
+    contact::ContactReport report_;
+    std::vector<Vector<Dim>> velocity_;
+    AxialVector<Dim> moment_0_ = AxialVector<Dim>::Zero();
+    std::int64_t steps_ = 0, n_steps_ = 0, pair_steps_ = 0;
+    double dt_ = 0.0, excess_ = 0.0, momentum_scale_ = 0.0, moment_scale_ = 0.0, moment_drift_ = 0.0;
+    double forces_ = 0.0, corrections_ = 0.0;
+};
+
+}  // namespace
+
+std::string name_of(Kinematics kinematics) {
+    switch (kinematics) {
+        case Kinematics::small:
+            return "small";
+        case Kinematics::floating:
+            return "floating";
+        case Kinematics::rigid:
+            return "rigid";
+    }
+    return "";
+}
+
+template <int Dim>
+Case<Dim> case_of(const std::string& name, const std::vector<mesh::Mesh<Dim>>& meshes, Kinematics kinematics) {
+    Case<Dim> one{.name = name};
+    one.scene.mesh = meshes.size() == 1 ? meshes.front() : mesh::combine<Dim>(meshes);
+    one.scene.solid.materials.resize(meshes.size());
+    one.scene.solid.kinematics.assign(meshes.size(), kinematics);
+    one.motion.resize(meshes.size());
+    return one;
+}
+
+template <int Dim>
+void let_fall(Case<Dim>& one, double gravity) {
+    one.scene.solid.acceleration.assign(one.motion.size(), -gravity * Vector<Dim>::Unit(Dim - 1));
+    one.is_free = false;
+}
+
+template <int Dim>
+std::vector<WholeMotion<Dim>> whole_motions(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+    std::vector<WholeMotion<Dim>> motions(solid.mesh().body_names.size());
+    const auto u = as_vectors<Dim>(run.q);
+    const auto of_point = [&](std::size_t i) -> WholeMotion<Dim>& {
+        return motions[static_cast<std::size_t>(solid.body_of_points()[i])];
+    };
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        WholeMotion<Dim>& body = of_point(i);
+        body.mass += solid.masses()[i];
+        body.centre += solid.masses()[i] * (solid.rest_positions()[i] + u[i]);
+        body.velocity += run.momentum(static_cast<std::ptrdiff_t>(i));
+    }
+    for (auto& body : motions) body.centre /= body.mass, body.velocity /= body.mass;
+    if constexpr (Dim == 2) {
+        std::vector<double> inertia(motions.size(), 0.0);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const Vector<2> arm = solid.rest_positions()[i] + u[i] - of_point(i).centre;
+            of_point(i).spin += moment<2>(arm, run.momentum(static_cast<std::ptrdiff_t>(i)))[0];
+            inertia[static_cast<std::size_t>(solid.body_of_points()[i])] += solid.masses()[i] * arm.squaredNorm();
+        }
+        for (std::size_t body = 0; body < motions.size(); ++body) motions[body].spin /= inertia[body];
+    }
+    return motions;
+}
+
+template <int Dim>
+CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& folder, const Watch<Dim>& watch) {
+    Account<Dim> account(one, watch);
+    run::Scene<Dim> scene = scene_of(one);
+    scene.after_step = [&](const solid::Solid<Dim>& solid, double) { account.after_step(solid); };
+    run::RunOptions options = one.run;
+    options.out = folder;
+    run::Observers<Dim> observers{account};
+    std::optional<run::ResultFiles<Dim>> files;
+    if (!folder.empty()) observers.add(files.emplace(options, one.name, "bodies"));
+    double seconds = 0.0, of_steps = 0.0;
+    std::string ending;
+    {
+        const Stopwatch clock(seconds);
+        try {
+            run::RunResult<Dim> result = run::simulate<Dim>(scene, options, observers);
+            of_steps = result.seconds.total - result.seconds.setup - result.seconds.ledger;
+            if (files) files->finish(scene, result);
+            of_steps -= result.seconds.output;
+        } catch (const Error& error) {
+            ending = error.what();
+        }
+    }
+    CaseResult<Dim> result = account.result();
+    result.figures.is_complete = ending.empty();
+    result.figures.ending = ending;
+    result.figures.seconds = seconds;
+    result.figures.seconds_of_steps = of_steps;
+    return result;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                  \
+    template Case<Dim> case_of<Dim>(const std::string&, const std::vector<mesh::Mesh<Dim>>&, Kinematics);      \
+    template void let_fall<Dim>(Case<Dim>&, double);                                                           \
+    template CaseResult<Dim> run_case<Dim>(const Case<Dim>&, const std::filesystem::path&, const Watch<Dim>&); \
+    template std::vector<WholeMotion<Dim>> whole_motions<Dim>(const dynamics::RunView<Dim>&, const solid::Solid<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::studies::kinematics

@@ -1,0 +1,48 @@
+#include "studies/kinematics/closed_forms.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace abut::studies::kinematics {
+namespace {
+
+Matrix<3> turned(const Vector<3>& rotation) {
+    const double angle = rotation.norm();
+    if (angle == 0.0) return Matrix<3>::Identity();
+    return Eigen::AngleAxisd(angle, Eigen::Vector3d(rotation / angle)).toRotationMatrix();
+}
+
+}  // namespace
+
+Vector<3> inertia_of_box(const Vector<3>& sides) {
+    const Vector<3> squares = sides.cwiseAbs2();
+    return sides.prod() / 12.0 * (squares.sum() * Vector<3>::Ones() - squares);
+}
+
+Matrix<3> symmetric_top(const Vector<3>& inertia, const Vector<3>& spin, double time) {
+    const Vector<3> l = inertia.cwiseProduct(spin);
+    return turned(time / inertia[0] * l) * turned({0.0, 0.0, time * l[2] * (1.0 / inertia[2] - 1.0 / inertia[0])});
+}
+
+double flip_period(const Vector<3>& inertia, const Vector<3>& spin) {
+    const Vector<3> l = inertia.cwiseProduct(spin);
+    const double square = l.squaredNorm(), twice = l.dot(spin);
+    const double i1 = inertia[0], i2 = inertia[1], i3 = inertia[2];
+    const double above = square - twice * i2;  // > 0: nearer to the axis of the largest moment
+    const double rate = std::sqrt(above > 0.0 ? (i3 - i2) * (square - twice * i1) / (i1 * i2 * i3)
+                                              : (i2 - i1) * (twice * i3 - square) / (i1 * i2 * i3));
+    const double complement = above > 0.0 ? (i3 - i1) * above / ((i3 - i2) * (square - twice * i1))
+                                          : (i3 - i1) * -above / ((i2 - i1) * (twice * i3 - square));  // 1 - k^2
+    double a = 1.0, b = std::sqrt(complement);  // the quarter period by the arithmetic-geometric mean
+    for (int i = 0; i < 20; ++i) std::tie(a, b) = std::pair(0.5 * (a + b), std::sqrt(a * b));
+    return std::numbers::pi / (a * rate);
+}
+
+double angle_between(const Matrix<3>& a, const Matrix<3>& b) {
+    return 2.0 * std::asin(std::min(1.0, (a - b).norm() / std::sqrt(8.0)));
+}
+
+}  // namespace abut::studies::kinematics

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "studies/kinematics/rows.hpp"
+#include "studies/kinematics/shapes.hpp"
+
+namespace abut::studies::kinematics {
+namespace {
+
+constexpr double spin = 0.1, noise = 1e-3;
+
+/// How far the distance of two cells is from that at rest, at most: over that.
+template <int Dim>
+double stretch_of(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+    const auto q = as_vectors<Dim>(run.q);
+    double stretch = 0.0;
+    for (std::size_t i = 1; i < q.size(); ++i) {
+        const Vector<Dim> rest = solid.rest_positions()[i] - solid.rest_positions()[0];
+        stretch = std::max(stretch, std::abs((rest + q[i] - q[0]).norm() / rest.norm() - 1.0));
+    }
+    return stretch;
+}
+
+template <int Dim>
+void spin_block(Kinematics kinematics, bool noisy, const Options& options, const Sink& sink) {
+    std::array<int, Dim> cells;
+    cells.fill(options.quick ? 3 : Dim == 2 ? 8 : 4);
+    Case<Dim> one = case_of<Dim>(Dim == 2 ? "square" : "cube", {block<Dim>({.cells = cells})}, kinematics);
+    one.scene.contact = false;
+    one.motion[0].velocity = Vector<Dim>::Constant(0.02);
+    if constexpr (Dim == 2)
+        one.motion[0].spin = AxialVector<2>(spin);
+    else
+        one.motion[0].spin = spin * Vector<3>(0.3, -0.5, 0.8).normalized();
+    one.noise = noisy ? noise : 0.0;
+    const double turns = options.quick ? 2.0 : 20.0;
+    one.scene.time = turns * 2.0 * std::numbers::pi / spin;
+    double stretch = 0.0;
+    const Watch<Dim> watch = [&](const auto& run, const auto& solid) {
+        stretch = std::max(stretch, stretch_of<Dim>(run, solid));
+    };
+    const std::string setting = name_of(kinematics) + (noisy ? ", noise 1e-3" : "");
+    Row row = row_of<Dim>(one, setting, options, nullptr, watch);
+    const std::string name = "largest change of a distance, over that at rest";
+    if (kinematics == Kinematics::small) {
+        // Each point flies straight on: in the plane by spin t |X|.
+        const double flight = one.scene.time * spin;
+        row.quantities.push_back(near(name, stretch, std::sqrt(1.0 + flight * flight) - 1.0, Dim == 2 ? 0.02 : no_target));
+    } else {
+        const double centrifugal = 2.0 * spin * spin;  // of E = rho = 1, and of noise nothing is known
+        row.quantities.push_back(at_most(name, stretch, noisy ? no_target : centrifugal));
+        row.quantities.push_back(at_most("H - H~", row.run.excess, noisy ? 1.0 : 1e-3));
+    }
+    sink(row);
+}
+
+}  // namespace
+
+void run_free(const Options& options, const Sink& sink) {
+    for (const bool noisy : {false, true}) {
+        spin_block<2>(Kinematics::floating, noisy, options, sink);
+        spin_block<3>(Kinematics::floating, noisy, options, sink);
+    }
+    spin_block<2>(Kinematics::small, false, options, sink);
+    spin_block<3>(Kinematics::small, false, options, sink);
+}
+
+}  // namespace abut::studies::kinematics

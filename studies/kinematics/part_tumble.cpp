@@ -1,0 +1,41 @@
+#include "studies/kinematics/rows.hpp"
+#include "studies/kinematics/shapes.hpp"
+
+namespace abut::studies::kinematics {
+namespace {
+
+template <int Dim>
+void tumble(Kinematics kinematics, bool filter, const Options& options, const Sink& sink) {
+    std::array<int, Dim> cells;
+    cells.fill(options.quick ? 2 : Dim == 2 ? 8 : 4);
+    Vector<Dim> sides = Vector<Dim>::Constant(0.7);
+    sides[0] = 1.0;
+    sides[Dim - 1] = Dim == 2 ? 0.7 : 0.5;
+    Case<Dim> one = case_of<Dim>(Dim == 2 ? "tumbling block" : "tumbling cuboid",
+                                 {block<Dim>({.sides = sides, .cells = cells})}, kinematics);
+    let_fall<Dim>(one, 0.002);
+    one.scene.solid.obstacles = {
+        contact::plane_obstacle<Dim>(Vector<Dim>(-Vector<Dim>::Unit(Dim - 1)), Vector<Dim>::Unit(Dim - 1), 20.0)};
+    if constexpr (Dim == 2)
+        one.motion[0].spin = AxialVector<2>(0.06);
+    else
+        one.motion[0].spin = {0.03, 0.05, 0.02};
+    one.scene.time = options.quick ? 60.0 : 400.0;
+    one.run.filter = filter;
+    Row row = row_of<Dim>(one, name_of(kinematics) + (filter ? ", filter" : ""), options);
+    row.quantities.push_back(at_most("H - H~", row.run.excess, filter ? 0.05 : no_target));
+    row.quantities.push_back(at_most("never touches", row.run.pair_steps > 0 ? 0.0 : 1.0, 0.0));
+    sink(row);
+}
+
+}  // namespace
+
+void run_tumble(const Options& options, const Sink& sink) {
+    for (const Kinematics kinematics : {Kinematics::floating, Kinematics::rigid})
+        for (const bool filter : {false, true}) {
+            tumble<2>(kinematics, filter, options, sink);
+            tumble<3>(kinematics, filter, options, sink);
+        }
+}
+
+}  // namespace abut::studies::kinematics

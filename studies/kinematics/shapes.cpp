@@ -1,0 +1,84 @@
+#include "studies/kinematics/shapes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "abut/mesh/shapes/shapes.hpp"
+
+namespace abut::studies::kinematics {
+namespace {
+
+/// Vertices of a polygon: the centre, then ring by ring from corner 0 on, `ring` of them on each side.
+struct Rings {
+    int corners;
+    [[nodiscard]] std::int32_t vertex(int ring, int side, int place) const {
+        if (ring == 0) return 0;
+        return 1 + corners * ring * (ring - 1) / 2 + (side * ring + place) % (corners * ring);
+    }
+};
+
+}  // namespace
+
+template <int Dim>
+mesh::Mesh<Dim> block(const Block<Dim>& block) {
+    const auto shape = Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron;
+    const Vector<Dim> half = 0.5 * block.sides;
+    const auto upright = mesh::structured_box<Dim>(-half, half, block.cells, shape, block.name);
+    mesh::CellSoup<Dim> soup;
+    soup.name = block.name;
+    soup.body_names = {block.name};
+    soup.cell_shape = upright.cell_shape;
+    soup.cell_vertices = upright.cell_vertices;
+    soup.cell_body = upright.cell_body;
+    for (const Vector<Dim>& x : upright.vertices) soup.vertices.push_back(block.centre + block.turn * x);
+    return mesh::build_mesh(std::move(soup));
+}
+
+Matrix<2> rotation(double angle) {
+    Matrix<2> turn;
+    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    return turn;
+}
+
+mesh::Mesh<2> polygon(const Polygon& polygon) {
+    mesh::CellSoup<2> soup;
+    soup.name = polygon.name;
+    soup.body_names = {polygon.name};
+    const auto corner = [&](int i) -> Vector<2> {
+        const double angle = polygon.turn + 2.0 * std::numbers::pi * i / polygon.corners;
+        return polygon.radius * Vector<2>(std::cos(angle), std::sin(angle));
+    };
+    soup.vertices.push_back(polygon.centre);
+    for (int ring = 1; ring <= polygon.cuts; ++ring)
+        for (int side = 0; side < polygon.corners; ++side)
+            for (int i = 0; i < ring; ++i) {
+                const double share = static_cast<double>(i) / ring;
+                const Vector<2> x = (1.0 - share) * corner(side) + share * corner(side + 1);
+                soup.vertices.push_back(polygon.centre + static_cast<double>(ring) / polygon.cuts * x);
+            }
+    const auto append = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+        soup.cell_vertices.append(std::array<std::int32_t, 3>{a, b, c});
+        soup.cell_shape.push_back(mesh::CellShape::triangle);
+        soup.cell_body.push_back(0);
+    };
+    const Rings rings{polygon.corners};
+    for (int ring = 0; ring < polygon.cuts; ++ring)
+        for (int side = 0; side < polygon.corners; ++side)
+            for (int i = 0; i <= ring; ++i) {
+                const std::int32_t inner = rings.vertex(ring, side, i);
+                append(inner, rings.vertex(ring + 1, side, i), rings.vertex(ring + 1, side, i + 1));
+                if (i < ring) append(inner, rings.vertex(ring + 1, side, i + 1), rings.vertex(ring, side, i + 1));
+            }
+    return mesh::build_mesh(std::move(soup));
+}
+
+contact::RigidObstacle<2> wall_along(const std::vector<Vector<2>>& points) {
+    contact::RigidObstacle<2> obstacle;  // the outside is on the right of a face
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) obstacle.faces.push_back({points[i + 1], points[i]});
+    return obstacle;
+}
+
+template mesh::Mesh<2> block<2>(const Block<2>&);
+template mesh::Mesh<3> block<3>(const Block<3>&);
+
+}  // namespace abut::studies::kinematics
