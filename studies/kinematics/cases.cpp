@@ -65,6 +65,7 @@ public:
     Account(const Case<Dim>& one, const Watch<Dim>& watch) : watch_(watch) {
         const auto& kinematics = one.scene.solid.kinematics;
         is_free_ = one.is_free;
+        filter_ = one.run.filter;
         turns_ = std::ranges::none_of(kinematics, [](Kinematics k) { return k == Kinematics::small; });
     }
 
@@ -107,7 +108,10 @@ public:
                         .missed_contacts = report_.missed_contacts,
                         .pair_steps = pair_steps_,
                         .compression = report_.compression_max,
-                        .correction = forces_ > 0.0 ? corrections_ / forces_ : 0.0,
+                        .correction = filter_         ? run::not_given
+                                      : forces_ > 0.0 ? corrections_ / forces_
+                                                      : 0.0,
+                        .correction_max = report_.correction_max,
                         .ending = {}};
         return {figures, velocity_};
     }
@@ -138,7 +142,7 @@ private:
     }
 
     const Watch<Dim>& watch_;
-    bool is_free_, turns_;
+    bool is_free_, turns_, filter_;
     dynamics::Ledger<Dim> ledger_;
     contact::ContactReport report_;
     std::vector<Vector<Dim>> velocity_;

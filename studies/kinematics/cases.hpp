@@ -53,7 +53,8 @@ struct Figures {
     std::int64_t missed_contacts = 0;  ///< must stay 0
     std::int64_t pair_steps = 0;       ///< of the pair potential alone
     double compression = 0.0;          ///< largest |g|/D
-    double correction = 0.0;           ///< sum of corrections over sum of forces
+    double correction = 0.0;           ///< sum of corrections over sum of forces; a filter looks at contact again: not known
+    double correction_max = 0.0;       ///< the largest of a step
     bool is_complete = false;
     std::string ending;  ///< why it is not
     double seconds = 0.0;

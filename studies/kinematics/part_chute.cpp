@@ -83,7 +83,7 @@ void slide_around(int corners, const Options& options, const Sink& sink) {
 }  // namespace
 
 void run_chute(const Options& options, const Sink& sink) {
-    for (const bool on_side : {true, false}) slide_straight(0.0, on_side, 0.8, 1e-10, options, sink);
+    for (const bool on_side : {true, false}) slide_straight(0.0, on_side, 0.8, 1e-12, options, sink);
     for (const double cfl : {0.8, 0.4, 0.2}) slide_straight(30.0, true, cfl, 1e-5 * cfl * cfl, options, sink);
     slide_straight(30.0, false, 0.8, 1e-5, options, sink);
     for (const int corners : {24, 48, 96, 192})
