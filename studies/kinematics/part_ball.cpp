@@ -88,12 +88,12 @@ void bounce(const Size& size, Kinematics kinematics, double allowed, const Optio
 
 void run_ball(const Options& options, const Sink& sink) {
     if (options.quick) return bounce({.block = 0.15, .ball = 0.15, .extent = 3.0}, Kinematics::floating, 0.2, options, sink);
-    for (const double size : {0.1, 0.06, 0.04})
-        bounce({.block = size, .ball = size, .extent = 7.0}, Kinematics::floating, size < 0.05 ? 0.03 : no_target, options,
+    for (const double size : {0.1, 0.06})
+        bounce({.block = size, .ball = size, .extent = 7.0}, Kinematics::floating, size < 0.08 ? 0.03 : no_target, options,
                sink);
-    bounce({.block = 0.06, .ball = 0.06, .extent = 4.0}, Kinematics::floating, no_target, options, sink);
-    bounce({.block = 0.06, .ball = 0.03, .extent = 7.0}, Kinematics::floating, no_target, options, sink);
-    bounce({.block = 0.06, .ball = 0.06, .extent = 7.0}, Kinematics::small, no_target, options, sink);
+    bounce({.block = 0.1, .ball = 0.1, .extent = 4.0}, Kinematics::floating, no_target, options, sink);
+    bounce({.block = 0.1, .ball = 0.05, .extent = 7.0}, Kinematics::floating, no_target, options, sink);
+    bounce({.block = 0.1, .ball = 0.1, .extent = 7.0}, Kinematics::small, no_target, options, sink);
 }
 
 }  // namespace abut::studies::kinematics
