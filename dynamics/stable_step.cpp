@@ -8,9 +8,6 @@
 namespace abut::dynamics::detail {
 
 void require_settled(const HighestMode& mode) {
-    if (mode.quotient == 0.0)
-        throw BadInput("stable step: nothing resists a displacement, as of rigid bodies that touch nothing: every step is "
-                       "stable. Give one, a hundredth of a turn or shorter.");
     if (!(mode.change <= settled_change) || !(mode.quotient > 0.0))
         throw BadInput("stable step: the power iteration has not settled after " + std::to_string(mode.iterations) +
                            " iterations (relative change " + number(mode.change) + ", allowed " + number(settled_change) +

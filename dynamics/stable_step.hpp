@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "abut/dynamics/power_iteration.hpp"
 
 namespace abut::dynamics {
@@ -32,10 +34,12 @@ void require_settled(const HighestMode& mode);
 }  // namespace detail
 
 /// Power iteration on M^-1 K from a fixed start: at least 50 iterations and until the Rayleigh quotient changes by less than
-/// 1e-4, at most 2,000. docs/method.md, Space. Throws BadInput if it does not settle.
+/// 1e-4, at most 2,000. docs/method.md, Space. Throws BadInput if it does not settle. Infinite where
+/// nothing resists, as of free rigid bodies.
 template <StiffnessProductSystem S>
 [[nodiscard]] StableStep stable_step(S& system) {
     const HighestMode mode = highest_mode(system);
+    if (mode.quotient == 0.0) return {0.0, std::numeric_limits<double>::infinity(), mode.iterations, 0.0};
     detail::require_settled(mode);
     const double omega = bound_of(mode);
     return {omega, stable_step_of(system, omega), mode.iterations, mode.change};

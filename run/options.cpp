@@ -48,6 +48,10 @@ std::int64_t steps_until(double time, double dt) {
 
 double choose_step(const RunOptions& options, double stable_dt) {
     const bool by_cfl = std::isnan(options.dt);
+    if (by_cfl && !std::isfinite(stable_dt))
+        throw BadInput(
+            "--cfl: nothing resists a displacement, as of rigid bodies that touch nothing, and every step is stable. "
+            "Give one by --dt, a hundredth of a turn or shorter.");
     const double dt = by_cfl ? options.cfl * stable_dt : options.dt;
     if (!(dt <= stable_dt) && !options.allow_unstable)
         throw BadInput(

@@ -10,10 +10,11 @@ namespace abut::solid {
 /// Mass, mean velocity and rotation of a body.
 template <int Dim>
 struct BodyMotion {
-    double mass;            ///< [kg]
-    Vector<Dim> velocity;   ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
-    double rotation;        ///< from its position at rest [rad], 0 to pi
-    AxialVector<Dim> spin;  ///< angular velocity as of a rigid body with its angular momentum [rad/s]
+    double mass;           ///< [kg]
+    Vector<Dim> velocity;  ///< of the centre of mass, from p = (p^- + p^+)/2 [m/s]
+    double rotation;       ///< from its position at rest [rad], 0 to pi
+    AxialVector<Dim> spin =
+        AxialVector<Dim>::Zero();  ///< angular velocity as of a rigid body with its angular momentum [rad/s]
 };
 /// That of each body, at the node of `run`; `solid` is that of the run.
 template <int Dim>
