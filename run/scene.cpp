@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "abut/base/error.hpp"
+
 namespace abut::run {
 
 template <int Dim>
@@ -27,6 +29,10 @@ template <int Dim>
 std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     std::vector<double> momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
     if (!scene.added_velocity) return momentum;
+    if (scene.displacement && solid.has_constraints())
+        throw BadInput(
+            "Scene::added_velocity: a rigid body takes its spin from velocities of its cells at rest, and "
+            "Scene::displacement moves it from there. Turn its mesh instead, and leave the displacement out.");
     std::vector<Vector<Dim>> of_cells;
     for (const Vector<Dim>& x : scene.mesh.cell_centroid) of_cells.push_back(scene.added_velocity(x));
     const std::vector<double> added = solid.momentum_of_points(of_cells);

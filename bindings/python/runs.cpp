@@ -47,19 +47,20 @@ public:
 
     [[nodiscard]] std::int64_t steps() const { return view_.steps; }
     [[nodiscard]] double time() const { return view_.time; }
-    [[nodiscard]] py::array_t<double> displacement() const { return copy_of_vectors<Dim>(as_vectors<Dim>(view_.q)); }
+    [[nodiscard]] py::array_t<double> displacement() const {
+        return copy_of_vectors<Dim>(solid_.cell_displacement(view_.q));
+    }
     [[nodiscard]] py::array_t<double> velocity() const {
-        std::vector<Vector<Dim>> velocity;
-        for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c)
-            velocity.push_back(view_.momentum(c) / solid_.masses()[static_cast<std::size_t>(c)]);
-        return copy_of_vectors<Dim>(velocity);
+        std::vector<double> momentum(view_.p_before.begin(), view_.p_before.end());
+        for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + view_.p_after[i]);
+        return copy_of_vectors<Dim>(solid_.cell_velocity(momentum));
     }
     [[nodiscard]] py::array_t<double> stress() const {
         static_cast<void>(solid_.potential(view_.q));  // leaves the stresses of this state behind
         const py::ssize_t n = solid_.mesh().n_cells();
         py::array_t<double> stress({n, py::ssize_t{Dim}, py::ssize_t{Dim}});
         for (py::ssize_t c = 0; c < n; ++c)  // symmetric: the order of rows and columns is free
-            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.ccg().stress(static_cast<std::int32_t>(c));
+            Eigen::Map<Matrix<Dim>>(stress.mutable_data(c)) = solid_.stress(static_cast<std::int32_t>(c));
         return stress;
     }
     [[nodiscard]] py::array_t<double> von_mises() const {
@@ -67,7 +68,7 @@ public:
         std::vector<double> equivalent;
         for (std::int32_t c = 0; c < solid_.mesh().n_cells(); ++c) {
             const auto body = static_cast<std::size_t>(solid_.mesh().cell_body[static_cast<std::size_t>(c)]);
-            equivalent.push_back(run::von_mises<Dim>(solid_.ccg().stress(c), solid_.options().materials[body].poisson));
+            equivalent.push_back(run::von_mises<Dim>(solid_.stress(c), solid_.options().materials[body].poisson));
         }
         return copy_of(equivalent);
     }
@@ -117,7 +118,7 @@ public:
 
     void begin(const run::Scene<Dim>&, const run::RunResult<Dim>& result) override { result_ = &result; }
     void look(const dynamics::RunView<Dim>& view, solid::Solid<Dim>& solid) override {
-        if (view.steps == result_->steps) final_displacement.assign(view.q.begin(), view.q.end());
+        if (view.steps == result_->steps) final_displacement = solid.cell_displacement(view.q);
         if (!has_look_) return;
         const py::gil_scoped_acquire lock;
         auto glance = std::make_shared<Glance<Dim>>();
@@ -137,7 +138,7 @@ public:
         return stops_;
     }
 
-    std::vector<double> final_displacement;
+    std::vector<Vector<Dim>> final_displacement;  // of the cells
 
 private:
     py::object look_;
@@ -190,13 +191,12 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
     for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, *result)))
         warnings.append(warning.text);
     for (const run::Warning& warning : run::without_notes(run::warnings_after(*result))) warnings.append(warning.text);
-    return py::dict(
-        "ledger"_a = table_of(result->ledger),
-        "displacement"_a = copy_of_vectors<Dim>(as_vectors<Dim>(std::span<const double>(python.final_displacement))),
-        "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,
-        "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
-        "energy_scale"_a = result->scale.value, "contact"_a = report_of(result->contact), "warnings"_a = warnings,
-        "seconds"_a = result->seconds.total);
+    return py::dict("ledger"_a = table_of(result->ledger),
+                    "displacement"_a = copy_of_vectors<Dim>(python.final_displacement),
+                    "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,
+                    "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
+                    "energy_scale"_a = result->scale.value, "contact"_a = report_of(result->contact),
+                    "warnings"_a = warnings, "seconds"_a = result->seconds.total);
 }
 
 constexpr const char* run_in_use = "this run takes steps in another thread. Use one thread at a time.";

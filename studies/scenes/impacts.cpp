@@ -32,13 +32,13 @@ Bodies<Dim> add_up(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& s
     Bodies<Dim> bodies;
     const auto u = as_vectors<Dim>(run.q);
     const auto before = as_vectors<Dim>(run.p_before), after = as_vectors<Dim>(run.p_after);
-    for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-        const auto body = static_cast<std::size_t>(solid.mesh().cell_body[c]);
-        const double mass = solid.masses()[c];
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        const auto body = static_cast<std::size_t>(solid.body_of_points()[i]);
+        const double mass = solid.masses()[i];
         bodies.mass[body] += mass;
-        bodies.displacement[body] += mass * u[c];
-        bodies.momentum[body] += run.momentum(c);
-        if (body == 0) bodies.impulse += after[c] - before[c];
+        bodies.displacement[body] += mass * u[i];
+        bodies.momentum[body] += run.momentum(static_cast<std::ptrdiff_t>(i));
+        if (body == 0) bodies.impulse += after[i] - before[i];
     }
     for (std::size_t body = 0; body < 2; ++body)
         if (bodies.mass[body] > 0.0) bodies.displacement[body] /= bodies.mass[body];
