@@ -118,7 +118,8 @@ TEST_CASE("energy.csv holds a row for every record and what the summary says", "
                                                     "restarts",
                                                     "restarts_shortened",
                                                     "restarts_skipped",
-                                                    "restart_paid"});
+                                                    "restart_paid",
+                                                    "pseudo_angular_momentum"});
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
     CHECK(table.rows.back().front() == static_cast<double>(steps));
 
