@@ -38,8 +38,9 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 }
 
 void refuse_constraints() {
-    throw BadInput("integrator: rigid bodies are held together by constraints, which this scheme does not know. Take Memm or "
-                   "Leapfrog, or bodies that deform.");
+    throw BadInput(
+        "integrator: rigid bodies are held together by constraints, which this scheme does not know. Take Memm or "
+        "Leapfrog, or bodies that deform.");
 }
 
 }  // namespace abut::dynamics::detail

@@ -1,6 +1,5 @@
 #include "abut/dynamics/neutral_restart.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,6 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/dynamics/angular_velocity.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -15,11 +15,7 @@ namespace {
 constexpr double rounding = 1e-12;  // |e| over the momenta that it is a difference of: there is nothing to take
 constexpr int most_halvings = 20;
 constexpr double least_scale = 0.25, largest_scale = 1.21;  // of sigma^2
-constexpr double no_inertia = 1e-12;                        // over the largest: points on a line have none about it
 constexpr double lost_moment = 1e-13;  // of angular momentum, that a body without inertia about an axis cannot carry
-
-template <int Dim>
-using Inertia = Eigen::Matrix<double, n_rotations<Dim>, n_rotations<Dim>, Eigen::DontAlign>;
 
 template <int Dim>
 Inertia<Dim> inertia_of(double mass, const Vector<Dim>& arm) {
@@ -27,23 +23,6 @@ Inertia<Dim> inertia_of(double mass, const Vector<Dim>& arm) {
         return mass * (arm.squaredNorm() * Inertia<3>::Identity() - arm * arm.transpose());
     else
         return Inertia<Dim>::Constant(mass * arm.squaredNorm());
-}
-
-/// The angular velocity that carries a moment; none about axes without inertia.
-template <int Dim>
-AngularMomentum<Dim> angular_velocity(const Inertia<Dim>& inertia, const AngularMomentum<Dim>& carried) {
-    if constexpr (Dim == 1) {
-        return carried;
-    } else if constexpr (Dim == 2) {
-        if (inertia(0, 0) == 0.0) return AngularMomentum<2>::Zero();
-        return carried / inertia(0, 0);
-    } else {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
-        const double cut = no_inertia * eigen.eigenvalues().maxCoeff();
-        const Eigen::Vector3d inverse =
-            eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
-        return eigen.eigenvectors() * inverse.cwiseProduct(eigen.eigenvectors().transpose() * carried);
-    }
 }
 
 /// Momenta of one body at the node. Products are those of M^-1.

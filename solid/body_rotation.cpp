@@ -2,9 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
+
+#include "abut/solid/body_cells.hpp"
+#include "abut/solid/kinematics/body_frame.hpp"
 
 namespace abut::solid {
 namespace {
@@ -19,26 +20,13 @@ Matrix<Dim> pseudo_inverse(const Matrix<Dim>& matrix) {
     return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-double rotation_angle(const Matrix<2>& f) { return std::abs(std::atan2(f(1, 0) - f(0, 1), f(0, 0) + f(1, 1))); }
-
-double rotation_angle(const Matrix<3>& f) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU();
-    if ((u * svd.matrixV().transpose()).determinant() < 0.0) u.col(2) *= -1.0;
-    const Eigen::Matrix3d r = u * svd.matrixV().transpose();
-    const Vector<3> twice_sine(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
-    return std::atan2(twice_sine.norm(), r.trace() - 1.0);
-}
-
 }  // namespace
 
 template <int Dim>
 BodyRotation<Dim>::BodyRotation(const mesh::Mesh<Dim>& mesh, std::span<const double> masses) : mesh_(mesh), masses_(masses) {
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
-        const auto [begin, end] = std::ranges::equal_range(mesh.cell_body, body);
-        Body& added = bodies_.emplace_back(static_cast<std::int32_t>(begin - mesh.cell_body.begin()),
-                                           static_cast<std::int32_t>(end - mesh.cell_body.begin()), Vector<Dim>::Zero(),
-                                           Matrix<Dim>::Zero());
+        const auto [begin, end] = cells_of_body(mesh, body);
+        Body& added = bodies_.emplace_back(begin, end, Vector<Dim>::Zero(), Matrix<Dim>::Zero());
         double mass = 0.0;
         for (std::int32_t c = added.begin; c < added.end; ++c) {
             mass += masses[c];
@@ -61,7 +49,7 @@ std::vector<double> BodyRotation<Dim>::angles(std::span<const Vector<Dim>> u) co
         Matrix<Dim> moment = Matrix<Dim>::Zero();  // sum m u (x - centre)^T
         for (std::int32_t c = body.begin; c < body.end; ++c)
             moment += (masses_[c] * u[c]) * (mesh_.cell_centroid[c] - body.centre).transpose();
-        angles.push_back(rotation_angle(Matrix<Dim>(Matrix<Dim>::Identity() + moment * body.inverse)));
+        angles.push_back(rotation_angle<Dim>(nearest_rotation<Dim>(Matrix<Dim>::Identity() + moment * body.inverse)));
     }
     return angles;
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -46,159 +45,18 @@ template <int Dim>
 PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
                                               const BodyFrames<Dim>& frames, SolidTimes& times)
     : bodies_(bodies),
-      mesh_(bodies.deformable()),
       ccg_(ccg),
       loads_(loads),
       frames_(frames),
       times_(times),
-      obstacles_(bodies.deformable_options().obstacles) {
-    contact_.emplace(build_surface(), nodal_options(bodies.deformable_options()));
-    std::vector<std::int32_t> nodes(rest_.size());
-    std::iota(nodes.begin(), nodes.end(), 0);
-    all_ = list(nodes);
-    x_0_ = x_1_ = x_state_ = searched_at_ = rest_;
-    u_.resize(static_cast<std::size_t>(mesh_.n_cells()));
-    places_.resize(bodies.rigid().size());
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        rigid_points_.emplace_back(RigidBodies<Dim>::points_per_body);
-        std::iota(rigid_points_.back().begin(), rigid_points_.back().end(), bodies.rigid().first_point(i));
-    }
-}
-
-template <int Dim>
-contact::NodalSurface<Dim> PairPotentialDriver<Dim>::build_surface() {
-    contact::NodalFaceArrays<Dim> faces;
-    std::vector<double> stiffness;  // of each face
-    append_deformable(faces, stiffness);
-    append_rigid(faces, stiffness);
-    faces.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()) + bodies_.rigid().size(), 0.0);
-    for (std::size_t face = 0; face < stiffness.size(); ++face) {
-        double& of_body = faces.stiffness[static_cast<std::size_t>(faces.body[face])];
-        of_body = std::max(of_body, stiffness[face]);
-    }
-    for (double& of_body : faces.stiffness)
-        if (of_body == 0.0) of_body = 1.0;  // all faces are prescribed: nothing touches it
-    for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-        faces.append_obstacle(obstacles_[i], rest_);
-        obstacle_of_node_.resize(rest_.size() - face_of_node_.size(), i);
-    }
-    stiffness.resize(faces.body.size(), std::numeric_limits<double>::infinity());
-    contact::NodalFaces<Dim> view = faces.view();
-    view.face_stiffness = stiffness;
-    return contact::NodalSurface<Dim>(rest_, view);
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body,
-                                           contact::NodalFaceArrays<Dim>& faces) {
-    std::vector<std::int32_t> corners;
-    for (const std::int32_t v : mesh.face_vertices[face]) {
-        corners.push_back(static_cast<std::int32_t>(rest_.size()));
-        rest_.push_back(mesh.vertices[v]);
-        face_of_node_.push_back(static_cast<std::int32_t>(faces.body.size()));
-    }
-    faces.append_face(corners, cell_depth(mesh, face), body);
-    corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::append_deformable(contact::NodalFaceArrays<Dim>& faces, std::vector<double>& stiffness) {
-    const auto prescribed = ccg_.prescribed();
-    std::vector<bool> is_rigid(static_cast<std::size_t>(bodies_.mesh().n_bodies()), false);
-    for (std::size_t i = 0; i < bodies_.rigid().size(); ++i) is_rigid[bodies_.rigid().mesh_body(i)] = true;
-    std::vector<BoundaryFace> in_mesh;  // of the boundary faces of bodies that deform
-    for (const BoundaryFace b : boundary_faces(bodies_.mesh()))
-        if (!is_rigid[bodies_.mesh().cell_body[cell_of(bodies_.mesh(), b)]]) in_mesh.push_back(b);
-    for (const BoundaryFace b : ccg_.boundary_faces()) {
-        if (!prescribed[b].isZero(0.0)) {
-            ++faces_left_out_;
-            continue;
-        }
-        const std::int32_t face = mesh_face(mesh_, b);
-        for (const std::int32_t v : mesh_.face_vertices[face])
-            amplification_ = std::max(
-                amplification_, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
-        append_face(mesh_, face, body_of(b), faces);
-        stiffness.push_back(ccg_.normal_stiffness(b));
-        boundary_of_surface_.push_back(b);
-        mesh_boundary_.push_back(in_mesh[static_cast<std::size_t>(b)]);
-    }
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::append_rigid(contact::NodalFaceArrays<Dim>& faces, std::vector<double>& stiffness) {
-    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
-    for (std::size_t i = 0; i < bodies_.rigid().size(); ++i)
-        for (const BoundaryFace b : boundary_faces(mesh)) {
-            const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
-            if (mesh.cell_body[cell] != bodies_.rigid().mesh_body(i)) continue;
-            append_face(mesh, face, mesh_.n_bodies() + static_cast<std::int32_t>(i), faces);
-            stiffness.push_back(bodies_.rigid_skin(i) * mesh.face_measure[face] / mesh.cell_measure[cell]);
-            rigid_of_face_.push_back(i);
-            mesh_boundary_.push_back(b);
-        }
-}
-
-// Where the nodes are ------------------------------------------------------------------------------------------------
-
-template <int Dim>
-typename PairPotentialDriver<Dim>::Listed PairPotentialDriver<Dim>::list(std::span<const std::int32_t> nodes) const {
-    Listed listed;
-    for (const std::int32_t node : nodes)
-        if (static_cast<std::size_t>(node) >= face_of_node_.size())
-            listed.obstacles.push_back(node);
-        else if (is_deformable(static_cast<std::size_t>(face_of_node_[node])))
-            listed.faces.push_back(face_of_node_[node]);
-        else
-            listed.rigid.push_back(node);
-    sort_unique(listed.faces);
-    for (const std::int32_t face : listed.faces) {
-        listed.boundary.push_back(boundary_of_surface_[face]);
-        for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n) listed.nodes.push_back(n);
-    }
-    listed.nodes.insert(listed.nodes.end(), listed.rigid.begin(), listed.rigid.end());
-    listed.nodes.insert(listed.nodes.end(), listed.obstacles.begin(), listed.obstacles.end());
-    listed.region = ccg_.region_of_tilted_faces(listed.boundary);
-    return listed;
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::place(const Listed& listed, std::span<const Vector<Dim>> q, Frames frames,
-                                     const BoundaryLoad<Dim>& load, double time, Points& x) {
-    displacement_.resize(listed.faces.size());
-    tilt_.resize(listed.faces.size());
-    frames_.displacement(listed.region.input_cells, q, frames, u_);
-    ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_);
-    parallel_each(
-        std::ssize(listed.faces),
-        [&](std::ptrdiff_t i) {
-            const BoundaryFace b = listed.boundary[i];
-            const auto body = static_cast<std::size_t>(body_of(b));
-            const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body);
-            for (std::int32_t n = corner_offsets_[listed.faces[i]]; n < corner_offsets_[listed.faces[i] + 1]; ++n)
-                x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - ccg_.centroid(b)));
-        },
-        256);
-    place_rigid(q);
-    for (const std::int32_t n : listed.rigid) {
-        const std::size_t body = rigid_of(static_cast<std::size_t>(face_of_node_[n]));
-        x[n] = places_[body](rest_[n] - bodies_.rigid().rest_centre(body));
-    }
-    std::size_t obstacle = obstacles_.size();  // none yet
-    contact::Placement<Dim> placement;
-    for (const std::int32_t n : listed.obstacles) {
-        if (const std::size_t of_node = obstacle_of_node_[n - face_of_node_.size()]; of_node != obstacle) {
-            obstacle = of_node;
-            placement = obstacles_.placement(obstacle, time);
-        }
-        x[n] = placement(rest_[n]);
-    }
-}
-
-template <int Dim>
-void PairPotentialDriver<Dim>::place_rigid(std::span<const Vector<Dim>> q) {
-    for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = bodies_.rigid().place(i, q);
-}
+      obstacles_(bodies.deformable_options().obstacles),
+      corners_(bodies, ccg, frames, obstacles_),
+      contact_(corners_.for_contact(), nodal_options(bodies.deformable_options())),
+      all_(corners_.list_all()),
+      x_0_(corners_.rest()),
+      x_1_(x_0_),
+      x_state_(x_0_),
+      searched_at_(x_0_) {}
 
 // How long the list is valid -----------------------------------------------------------------------------------------
 
@@ -214,11 +72,11 @@ double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double time) c
         const BodyFrame<Dim>&from = watch.frames[body], to = frames_.end()[body];
         of_frames = larger(of_frames, motion(to.centre - from.centre, to.turn - from.turn, watch.radius[body]));
     }
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        const RigidPlace<Dim>&from = watch.places[i], to = places_[i];
+    for (std::size_t i = 0; i < watch.places.size(); ++i) {
+        const RigidPlace<Dim>&from = watch.places[i], to = corners_.rigid_places()[i];
         of_rigid = larger(of_rigid, motion(to.centre - from.centre, to.map - from.map, watch.radius[n + i]));
     }
-    of_frames += amplification_ * watch.travelled;
+    of_frames += corners_.amplification() * watch.travelled;
     return watch.moved + larger(larger(of_frames, of_rigid), obstacles_.motion(watch.time, time));
 }
 
@@ -228,33 +86,37 @@ bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) 
     near_watch_.travelled += cell_motion;
     far_watch_.travelled += cell_motion;
     if (!has_stepped_ || loads_.vary()) return false;
-    return contact_->is_valid_for(motion_since(near_watch_, time)) && motion_since(far_watch_, time) <= far_reach_;
+    return contact_.is_valid_for(motion_since(near_watch_, time)) && motion_since(far_watch_, time) <= far_reach_;
 }
 
 /// Places the nodes near other bodies at the end of the step; what is far must not have come near. Loads that vary move faces
 /// without their cells: then all nodes are looked at.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
-    if (!has_stepped_ || !contact_->is_valid_for(0.0)) return false;
+    if (!has_stepped_ || !contact_.is_valid_for(0.0)) return false;
     if (!loads_.vary() && !(motion_since(far_watch_, time) <= far_reach_)) return false;
     const Listed& looked_at = loads_.vary() ? all_ : near_;
-    place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_);
+    corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_);
     near_watch_ = watch_from(looked_at, x_1_, time);
-    return contact_->is_valid_for(near_watch_.moved);
+    return contact_.is_valid_for(near_watch_.moved);
 }
 
 /// From here, where the nodes listed are placed: at the end of the step.
 template <int Dim>
 typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(const Listed& listed, const Points& x,
                                                                               double time) const {
-    Watch watch{.frames = {frames_.end().begin(), frames_.end().end()}, .places = places_, .radius = {}, .time = time};
-    watch.radius.assign(frames_.n_bodies() + places_.size(), 0.0);
+    Watch watch{.frames = {frames_.end().begin(), frames_.end().end()},
+                .places = corners_.rigid_places(),
+                .radius = {},
+                .time = time};
+    watch.radius.assign(frames_.n_bodies() + watch.places.size(), 0.0);
     for (const std::int32_t n : listed.nodes) {
-        if (static_cast<std::size_t>(n) >= face_of_node_.size()) break;
-        const auto face = static_cast<std::size_t>(face_of_node_[n]);
-        const std::size_t body = is_deformable(face) ? static_cast<std::size_t>(body_of(boundary_of_surface_[face]))
-                                                     : frames_.n_bodies() + rigid_of(face);
-        const Vector<Dim>& centre = is_deformable(face) ? watch.frames[body].centre : places_[rigid_of(face)].centre;
+        if (corners_.is_of_obstacle(n)) break;
+        const std::size_t face = corners_.face_of(n);
+        const bool deforms = corners_.is_deformable(face);
+        const std::size_t body =
+            deforms ? corners_.body_of(corners_.boundary(face)) : frames_.n_bodies() + corners_.rigid_of(face);
+        const Vector<Dim>& centre = deforms ? watch.frames[body].centre : watch.places[corners_.rigid_of(face)].centre;
         watch.radius[body] = larger(watch.radius[body], (x[n] - centre).squaredNorm());
     }
     for (double& radius : watch.radius) radius = std::sqrt(radius);
@@ -268,10 +130,10 @@ template <int Dim>
 void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion,
                                       double time, double dt) {
     end_time_ = time + dt;
-    place_rigid(q_1);
+    corners_.place_rigid(q_1);
     if (is_surely_valid(cell_motion, time + dt)) {
         const Stopwatch watch(times_.contact);
-        return place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+        return corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
     }
     const Stopwatch watch(times_.search);
     if (!is_valid_at_near_nodes(q_1, time + dt)) search(q_0, q_1, time, dt);
@@ -280,14 +142,14 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
 template <int Dim>
 void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
                                       double dt) {
-    place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
-    place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
-    contact_->search(x_0_, x_1_);
+    corners_.place(all_, q_0, frames_.start(), loads_.start(), time, x_0_);
+    corners_.place(all_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+    contact_.search(x_0_, x_1_);
     searched_at_ = x_0_;
-    far_reach_ = far_skins * contact_->skin();
-    listed_nodes_ = contact_->last().nodes;
-    listed_ = list(listed_nodes_);
-    near_ = list(near_nodes());
+    far_reach_ = far_skins * contact_.skin();
+    listed_nodes_ = contact_.last().nodes;
+    listed_ = corners_.list(listed_nodes_);
+    near_ = corners_.list(near_nodes());
     near_watch_ = watch_from(near_, x_1_, time + dt);
     far_watch_ = watch_from(all_, x_1_, time + dt);
 }
@@ -296,20 +158,20 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
 /// itself looks ahead.
 template <int Dim>
 std::vector<std::int32_t> PairPotentialDriver<Dim>::near_nodes() const {
-    const contact::SurfaceView<Dim> facets = contact_->surface().facets().view();
+    const contact::SurfaceView<Dim> facets = contact_.surface().facets().view();
     const auto box_of = [&](std::int32_t facet) {
         geometry::Box<Dim> box;
         for (const std::int32_t n : facets.vertices_of(facet))
             box.extend(geometry::Box<Dim>{x_0_[n].cwiseMin(x_1_[n]), x_0_[n].cwiseMax(x_1_[n])});
         return box;
     };
-    std::vector<geometry::Box<Dim>> box_of_body(static_cast<std::size_t>(contact_->surface().n_bodies()));
+    std::vector<geometry::Box<Dim>> box_of_body(static_cast<std::size_t>(contact_.surface().n_bodies()));
     double deepest = 0.0;
     for (std::int32_t facet = 0; facet < facets.size(); ++facet) {
         box_of_body[facets.body[facet]].extend(box_of(facet));
         deepest = std::max(deepest, facets.cell_depth[facet]);
     }
-    const double margin = 2.0 * far_reach_ + contact_->skin() + 4.0 * deepest;
+    const double margin = 2.0 * far_reach_ + contact_.skin() + 4.0 * deepest;
     std::vector<std::vector<geometry::Box<Dim>>> others(box_of_body.size());  // that a body may come near to
     for (std::size_t body = 0; body < others.size(); ++body)
         for (std::size_t other = 0; other < others.size(); ++other)
@@ -338,14 +200,14 @@ template <int Dim>
 void PairPotentialDriver<Dim>::integrate() {
     const Stopwatch watch(times_.contact);
     has_stepped_ = false;  // until the step has ended well
-    contact_->step_listed(x_0_, x_1_, contact::TakenForce::mean);
+    contact_.step_listed(x_0_, x_1_, contact::TakenForce::mean);
     collect(x_0_, x_1_);
     keep_touching_faces();
 }
 
 template <int Dim>
 void PairPotentialDriver<Dim>::take_start() {
-    contact_->evaluate_listed(x_0_);
+    contact_.evaluate_listed(x_0_);
     collect(x_0_, x_0_);
 }
 
@@ -353,25 +215,25 @@ template <int Dim>
 void PairPotentialDriver<Dim>::take_end() {
     const Stopwatch watch(times_.contact);
     has_stepped_ = false;
-    contact_->step_listed(x_0_, x_1_, contact::TakenForce::end);
+    contact_.step_listed(x_0_, x_1_, contact::TakenForce::end);
     collect(x_1_, x_1_);
     keep_touching_faces();
 }
 
 template <int Dim>
 void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q) {
-    if (!contact_->is_valid_for(0.0)) return evaluate(q, end_time_);
-    contact_->evaluate_listed(x_0_);
+    if (!contact_.is_valid_for(0.0)) return evaluate(q, end_time_);
+    contact_.evaluate_listed(x_0_);
     collect(x_0_, x_0_);
 }
 
 template <int Dim>
 void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
-    place(all_, q, frames_.end(), loads_.end(), time, x_state_);
-    contact_->evaluate(x_state_);
-    if (contact_->last().nodes != listed_nodes_) {
-        listed_nodes_ = contact_->last().nodes;
-        listed_ = list(listed_nodes_);
+    corners_.place(all_, q, frames_.end(), loads_.end(), time, x_state_);
+    contact_.evaluate(x_state_);
+    if (contact_.last().nodes != listed_nodes_) {
+        listed_nodes_ = contact_.last().nodes;
+        listed_ = corners_.list(listed_nodes_);
         has_stepped_ = false;
     }
     collect(x_state_, x_state_);
@@ -382,28 +244,28 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
     face_gradient_.clear();
     cell_moment_.clear();
     pushes_.assign(frames_.n_bodies(), {});
-    rigid_pushes_.assign(places_.size(), {});
-    const contact::NodalStep<Dim>& step = contact_->last();
+    rigid_pushes_.assign(bodies_.rigid().size(), {});
+    const contact::NodalStep<Dim>& step = contact_.last();
     if (!step.is_active()) return;
     face_gradient_.resize(listed_.faces.size(), Vector<Dim>::Zero());
     cell_moment_.resize(listed_.faces.size(), Matrix<Dim>::Zero());
     std::size_t at = 0;  // nodes and faces are in the same order
     for (std::size_t i = 0; i < step.nodes.size(); ++i) {
         const std::int32_t node = step.nodes[i];
-        if (static_cast<std::size_t>(node) >= face_of_node_.size()) break;
-        const auto face = static_cast<std::size_t>(face_of_node_[node]);
-        if (!is_deformable(face)) {
-            const std::size_t rigid = rigid_of(face);
-            rigid_pushes_[rigid].add(step.gradient[i], rest_[node] - bodies_.rigid().rest_centre(rigid));
+        if (corners_.is_of_obstacle(node)) break;
+        const std::size_t face = corners_.face_of(node);
+        const Vector<Dim>&p = step.gradient[i], rest = corners_.rest()[node];
+        if (!corners_.is_deformable(face)) {
+            const std::size_t rigid = corners_.rigid_of(face);
+            rigid_pushes_[rigid].add(p, rest - bodies_.rigid().rest_centre(rigid));
             continue;
         }
-        while (listed_.faces[at] != face_of_node_[node]) ++at;
+        while (static_cast<std::size_t>(listed_.faces[at]) != face) ++at;
         const BoundaryFace b = listed_.boundary[at];
-        const auto body = static_cast<std::size_t>(body_of(b));
-        const Vector<Dim>& p = step.gradient[i];
+        const std::size_t body = corners_.body_of(b);
         const Vector<Dim> in_frame = frames_.step(body).force_turn().transpose() * p;
         face_gradient_[at] += in_frame;
-        cell_moment_[at] += in_frame * (rest_[node] - ccg_.centroid(b)).transpose();
+        cell_moment_[at] += in_frame * (rest - ccg_.centroid(b)).transpose();
         pushes_[body].add(p, 0.5 * (x_0[node] - frames_.start()[body].centre + x_1[node] - frames_.end()[body].centre));
     }
 }
@@ -417,12 +279,12 @@ FaceCorrections<Dim> PairPotentialDriver<Dim>::corrections() const {
 template <int Dim>
 void PairPotentialDriver<Dim>::take_obstacle_forces(double share, double& work) {
     obstacles_.clear_forces();
-    const contact::NodalStep<Dim>& step = contact_->last();
+    const contact::NodalStep<Dim>& step = contact_.last();
     if (!step.is_active()) return;
-    const auto first = std::ranges::lower_bound(step.nodes, static_cast<std::int32_t>(face_of_node_.size()));
+    const auto first = std::ranges::lower_bound(step.nodes, corners_.n_body_nodes());
     for (auto i = static_cast<std::size_t>(first - step.nodes.begin()); i < step.nodes.size(); ++i) {
         const std::int32_t node = step.nodes[i];
-        obstacles_.add_force(obstacle_of_node_[node - face_of_node_.size()], -step.gradient[i]);
+        obstacles_.add_force(corners_.obstacle_of(node), -step.gradient[i]);
         work += share * step.gradient[i].dot(x_1_[node] - x_0_[node]);
     }
 }
@@ -430,8 +292,9 @@ void PairPotentialDriver<Dim>::take_obstacle_forces(double share, double& work) 
 template <int Dim>
 void PairPotentialDriver<Dim>::keep_touching_faces() {
     touching_.clear();
-    for (const contact::PairStep<Dim>& pair : contact_->last().pairs) {
-        TouchingPoints<Dim> touching{points_of(pair.face_1), points_of(pair.face_2), Vector<Dim>::Zero(), pair.normal};
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs) {
+        TouchingPoints<Dim> touching{corners_.points_of(pair.face_1), corners_.points_of(pair.face_2), Vector<Dim>::Zero(),
+                                     pair.normal};
         const auto hold = [&](contact::SurfaceFace body, contact::SurfaceFace obstacle) {
             touching.position = middle_of(body);
             touching.normal = obstacle_normal(obstacle);
@@ -442,28 +305,18 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
     }
 }
 
-template <int Dim>
-std::span<const std::int32_t> PairPotentialDriver<Dim>::points_of(contact::SurfaceFace face) const {
-    const auto i = static_cast<std::size_t>(face);
-    if (is_obstacle(i)) return {};
-    if (is_deformable(i)) return ccg_.cells_of(boundary_of_surface_[i]);
-    return rigid_points_[rigid_of(i)];
-}
-
 /// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::SurfaceFace face) const {
-    const auto i = static_cast<std::size_t>(face);
-    if (!frames_.any_turns() && places_.empty()) return ccg_.centroid(boundary_of_surface_[i]);
-    Vector<Dim> sum = Vector<Dim>::Zero();
-    for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n) sum += 0.5 * (x_0_[n] + x_1_[n]);
-    return sum / (corner_offsets_[i + 1] - corner_offsets_[i]);
+    if (!frames_.any_turns() && !bodies_.any_rigid())
+        return ccg_.centroid(corners_.boundary(static_cast<std::size_t>(face)));
+    return 0.5 * (corners_.middle(face, x_0_) + corners_.middle(face, x_1_));
 }
 
 /// In the middle of the step. What a tilted face pushes along a wall must not let the filter change the momentum along it.
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::obstacle_normal(contact::SurfaceFace face) const {
-    const auto& surface = contact_->surface();
+    const auto& surface = contact_.surface();
     const auto nodes = surface.facets().view().vertices_of(surface.facet_offsets()[static_cast<std::size_t>(face)]);
     std::array<Vector<Dim>, Dim> corners;
     for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = 0.5 * (x_0_[nodes[i]] + x_1_[nodes[i]]);
@@ -477,9 +330,9 @@ ContactField PairPotentialDriver<Dim>::field() const {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     const std::size_t n = mesh.boundary_faces.size();
     ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
-    for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
         for (const contact::SurfaceFace face : {pair.face_1, pair.face_2})
-            if (const BoundaryFace b = mesh_boundary(face); b != no_face) {
+            if (const BoundaryFace b = corners_.mesh_boundary(face); b != no_face) {
                 field.pressure[number_of(b)] += pair.normal_force / mesh.face_measure[mesh_face(mesh, b)];
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], pair.gap_1);
             }
@@ -489,9 +342,10 @@ ContactField PairPotentialDriver<Dim>::field() const {
 template <int Dim>
 std::vector<TouchingPair<Dim>> PairPotentialDriver<Dim>::touching_pairs(double gap) const {
     std::vector<TouchingPair<Dim>> touching;
-    for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
+    for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
         if (pair.gap_1 <= gap)
-            touching.push_back({mesh_boundary(pair.face_1), mesh_boundary(pair.face_2), pair.normal, pair.gap_1});
+            touching.push_back(
+                {corners_.mesh_boundary(pair.face_1), corners_.mesh_boundary(pair.face_2), pair.normal, pair.gap_1});
     return touching;
 }
 

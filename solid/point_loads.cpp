@@ -226,8 +226,11 @@ double PointLoads<Dim>::add_tractions(std::span<const Vector<Dim>> q_0, std::spa
     double work = 0.0;
     for (const HeldTraction& traction : tractions_) {
         const TractionCondition<Dim>& condition = options_.boundary.traction[traction.condition];
-        Vector<Dim> push =
-            traction.area * (condition.history ? condition.history(time, traction.place.rest) : condition.value);
+        const Vector<Dim> value = condition.history ? condition.history(time, traction.place.rest) : condition.value;
+        if (!value.allFinite())
+            throw BadInput("traction on '" + condition.group + "': its value at t = " + number(time) +
+                           " s is not finite. Correct its value or history.");
+        Vector<Dim> push = traction.area * value;
         if (condition.follows) push = turn_of(traction.body) * push;
         traction.place.push(push, force);
         work += push.dot(traction.place.at(q_1) - traction.place.at(q_0));

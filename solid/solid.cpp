@@ -24,13 +24,6 @@ namespace {
 
 inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
 
-template <int Dim>
-std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
-    std::vector<double> numbers;
-    for (const Vector<Dim>& vector : vectors) numbers.insert(numbers.end(), vector.begin(), vector.end());
-    return numbers;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -134,28 +127,6 @@ Matrix<Dim> Solid<Dim>::mean_turn(std::int32_t body) const {
     return bodies_->mean_turn(body, *frames_);
 }
 
-// Rigid bodies -------------------------------------------------------------------------------------------------------
-
-template <int Dim>
-bool Solid<Dim>::has_constraints() const {
-    return bodies_->any_rigid();
-}
-
-template <int Dim>
-bool Solid<Dim>::is_constrained(std::int32_t point) const {
-    return point >= bodies_->n_cells();
-}
-
-template <int Dim>
-void Solid<Dim>::constrain_along(std::span<const double> q, double dt, std::span<double> p) {
-    bodies_->rigid().constrain_along(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
-}
-
-template <int Dim>
-void Solid<Dim>::constrain_at(std::span<const double> q, double dt, std::span<double> p) {
-    bodies_->rigid().constrain_at(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
-}
-
 template <int Dim>
 void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
     const auto u = as_vectors<Dim>(q);
@@ -218,6 +189,28 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
 template <int Dim>
 FaceCorrections<Dim> Solid<Dim>::corrections() const {
     return contact_ ? contact_->corrections() : FaceCorrections<Dim>{};
+}
+
+// Rigid bodies -------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+bool Solid<Dim>::has_constraints() const {
+    return bodies_->any_rigid();
+}
+
+template <int Dim>
+bool Solid<Dim>::is_constrained(std::int32_t point) const {
+    return point >= bodies_->n_cells();
+}
+
+template <int Dim>
+void Solid<Dim>::constrain_along(std::span<const double> q, double dt, std::span<double> p) {
+    bodies_->rigid().constrain_along(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
+}
+
+template <int Dim>
+void Solid<Dim>::constrain_at(std::span<const double> q, double dt, std::span<double> p) {
+    bodies_->rigid().constrain_at(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
 }
 
 // One step for all cells ---------------------------------------------------------------------------------------------
@@ -295,7 +288,7 @@ void Solid<Dim>::require_start(double time, double dt) const {
     if (loads_->is_half_done())
         throw Misuse(
             "solid: the last step ended with an error, and its loads and work are half done: make a Solid for every run.");
-    if (!(std::abs(time - time_) <= same_time * dt) && (contact_ || loads_->vary()))
+    if (!(std::abs(time - time_) <= same_time * dt) && (contact_ || loads_->vary() || point_loads_->do_work()))
         throw Misuse("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
                          exact_number(time_) +
                          " s. Loads, work and contacts go on from step to step: make a Solid for every run.",
@@ -314,7 +307,8 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
     if (tractions_jump && contact_) contact_->jumped(q_0, time);
 }
 
-/// Fills midpoint_ or packed_midpoint_. No cell moves farther in its frame than what is returned [m]; without contact nobody asks, and it is 0.
+/// Fills midpoint_ or packed_midpoint_. No cell moves farther in its frame than what is returned [m]; without contact nobody
+/// asks, and it is 0.
 template <int Dim>
 double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     const Stopwatch watch(times_.bulk);
@@ -393,140 +387,6 @@ void Solid<Dim>::follow_flight(const dynamics::FreeFlight& flight, double time, 
     else if (!reconstruction_->has_stepped())
         reconstruction_->set_start(levels.start_of(flight, reconstruction_->input_cells()), time);
     reconstruction_->set_end(levels.end_of(flight, dt, reconstruction_->input_cells()), time + dt);
-}
-
-// Contact ------------------------------------------------------------------------------------------------------------
-
-template <int Dim>
-ContactField Solid<Dim>::contact_field(std::span<const double> q) {
-    if (contact_) {
-        frames_->stand_at(of_cells(as_vectors<Dim>(q)));
-        contact_->evaluate(as_vectors<Dim>(q), time_);
-        return contact_->field();
-    }
-    const std::size_t n = mesh_.boundary_faces.size();
-    return {std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
-}
-
-template <int Dim>
-std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap) {
-    if (!contact_) return {};
-    frames_->stand_at(of_cells(as_vectors<Dim>(q)));
-    contact_->evaluate(as_vectors<Dim>(q), time_);
-    return contact_->touching_pairs(gap);
-}
-
-template <int Dim>
-std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const {
-    return contact_ ? contact_->patches() : std::vector<dynamics::ContactPatch<Dim>>{};
-}
-
-template <int Dim>
-double Solid<Dim>::compression() const {
-    return contact_ ? contact_->compression() : 0.0;
-}
-
-template <int Dim>
-Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const {
-    if (obstacle >= options_.obstacles.size())
-        throw Misuse("solid: the force on obstacle " + std::to_string(obstacle) + " is asked for, but there are " +
-                     std::to_string(options_.obstacles.size()) + " obstacles, counted from 0.");
-    return contact_->obstacles().force(obstacle);
-}
-
-template <int Dim>
-const contact::Contact<Dim>* Solid<Dim>::contact() const {
-    return reconstruction_ ? &reconstruction_->contact() : nullptr;
-}
-
-template <int Dim>
-const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const {
-    const auto* driver = dynamic_cast<const PairPotentialDriver<Dim>*>(contact_.get());
-    return driver ? &driver->contact() : nullptr;
-}
-
-template <int Dim>
-double Solid<Dim>::skin() const {
-    return contact_ ? contact_->skin() : 0.0;
-}
-
-template <int Dim>
-contact::ContactReport Solid<Dim>::contact_report() const {
-    return contact_ ? contact_->report() : contact::ContactReport{};
-}
-
-template <int Dim>
-dynamics::ContactCounts Solid<Dim>::contact_counts() const {
-    const contact::ContactReport report = contact_report();
-    return {.active_pairs = report.active_pairs, .events = report.events};
-}
-
-template <int Dim>
-std::int64_t Solid<Dim>::contact_faces_left_out() const {
-    return contact_ ? contact_->faces_left_out() : 0;
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const {
-    return contact_ ? contact_->blind_corners() : std::vector<Vector<Dim>>{};
-}
-
-template <int Dim>
-std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
-    const auto u = as_vectors<Dim>(q);
-    return bodies_->of_bodies(rotation_->angles(of_cells(u)), [&](std::size_t rigid) {
-        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, u).map));
-    });
-}
-
-template <int Dim>
-std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
-    static_cast<void>(potential(q));  // leaves the displacement gradients of this state behind
-    const mesh::Mesh<Dim>& part = bodies_->deformable();
-    std::vector<double> largest(static_cast<std::size_t>(part.n_bodies()), 0.0);
-    for (std::int32_t c = 0; c < part.n_cells(); ++c) {
-        double& of_body = largest[static_cast<std::size_t>(part.cell_body[c])];
-        of_body = larger(of_body, 0.5 * axial<Dim>(ccg_.displacement_gradient(c)).norm());
-    }
-    return bodies_->of_bodies(largest, [](std::size_t) { return 0.0; });
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
-    return bodies_->of_cells(as_vectors<Dim>(q));
-}
-
-template <int Dim>
-std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const {
-    return bodies_->velocities(as_vectors<Dim>(p));
-}
-
-template <int Dim>
-std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const {
-    return as_numbers<Dim>(bodies_->of_points(of_cells));
-}
-
-template <int Dim>
-std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const {
-    return as_numbers<Dim>(bodies_->momenta(cell_velocity));
-}
-
-template <int Dim>
-Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const {
-    const auto [deformable, body] = bodies_->deformable_cell(cell);
-    if (deformable < 0) return Matrix<Dim>::Zero();
-    const Matrix<Dim>& turn = frames_->end()[static_cast<std::size_t>(body)].turn;
-    return turn * ccg_.stress(deformable) * turn.transpose();
-}
-
-template <int Dim>
-dynamics::MomentArms Solid<Dim>::moment_arms() const {
-    return frames_->any_turns() || bodies_->any_rigid() ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
-}
-
-template <int Dim>
-std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const {
-    return contact_ ? contact_->unseen_edges() : std::nullopt;
 }
 
 template class Solid<2>;

@@ -108,7 +108,7 @@ private:
     std::vector<double> y_;              // dV/dũ_f, by face
     std::vector<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
     std::vector<double> pair_gradient_;  // by boundary face; zero but during a call
-    CellMoments<Dim> moments_;           // empty but during a call
+    CellMoments<Dim> moments_;           // empty except during a call
     std::vector<Chunk> chunks_;          // one more at the end
     SweepSchedule<n_stages> schedule_;
 };

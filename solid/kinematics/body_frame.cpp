@@ -1,32 +1,24 @@
 #include "abut/solid/kinematics/body_frame.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "abut/dynamics/angular_velocity.hpp"
+
 namespace abut::solid {
-namespace {
 
-constexpr double no_inertia = 1e-12;  // about an axis, over the largest
-
-}  // namespace
-
-template <>
-AxialVector<2> spin_of<2>(const Matrix<2>& second_moment, const AxialVector<2>& angular_momentum) {
-    const double inertia = second_moment.trace();
-    return inertia > 0.0 ? AxialVector<2>(angular_momentum / inertia) : AxialVector<2>(AxialVector<2>::Zero());
+template <int Dim>
+AxialVector<Dim> spin_of(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum) {
+    dynamics::Inertia<Dim> inertia;
+    if constexpr (Dim == 2)
+        inertia << second_moment.trace();
+    else
+        inertia = second_moment.trace() * Matrix<3>::Identity() - second_moment;
+    return dynamics::angular_velocity<Dim>(inertia, angular_momentum);
 }
-
-template <>
-AxialVector<3> spin_of<3>(const Matrix<3>& second_moment, const AxialVector<3>& angular_momentum) {
-    const Eigen::Matrix3d inertia = second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
-    const double cut = no_inertia * eigen.eigenvalues().maxCoeff();
-    const Eigen::Vector3d inverse =
-        eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
-    return eigen.eigenvectors() * inverse.cwiseProduct(eigen.eigenvectors().transpose() * angular_momentum);
-}
+template AxialVector<2> spin_of<2>(const Matrix<2>&, const AxialVector<2>&);
+template AxialVector<3> spin_of<3>(const Matrix<3>&, const AxialVector<3>&);
 
 template <>
 Matrix<2> nearest_rotation<2>(const Matrix<2>& b) {

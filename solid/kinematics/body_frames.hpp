@@ -37,7 +37,6 @@ public:
 
     [[nodiscard]] std::size_t n_bodies() const { return turns_.size(); }
     [[nodiscard]] bool any_turns() const { return any_turns_; }
-    [[nodiscard]] bool turns(std::size_t body) const { return turns_[body]; }
     /// Mass mean of X [m].
     [[nodiscard]] const Vector<Dim>& rest_centre(std::size_t body) const { return rest_[body].centre; }
 
@@ -69,10 +68,8 @@ public:
     /// result takes the place of the gradient. Remembers what makes up for missing moments.
     void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<const BodyPush<Dim>> pushes,
                   std::span<const Vector<Dim>> force, std::span<Vector<Dim>> gradient);
-    /// dV/dx of one point in one state, with what the last `to_force` remembers: but for terms of the order of a step.
+    /// dV/dx of one point in one state, with what the last `to_force` remembers, except for terms of the order of a step.
     [[nodiscard]] Vector<Dim> point_to_space(std::int32_t point, const Vector<Dim>& gradient) const;
-    /// How far a body has turned [rad], 0 to pi; of one whose frame does not move 0.
-    [[nodiscard]] double rotation(std::size_t body) const { return rotation_angle<Dim>(end()[body].turn); }
 
 private:
     void place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const;

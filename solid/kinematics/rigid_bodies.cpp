@@ -9,6 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/solid/body_cells.hpp"
 
 namespace abut::solid {
 namespace {
@@ -52,14 +53,6 @@ Matrix<Dim> inertia_of(const Matrix<Dim>& second_moment) {
     return second_moment.trace() * Matrix<Dim>::Identity() - second_moment;
 }
 
-template <int Dim>
-AxialVector<Dim> solve_spin(const Matrix<Dim>& second_moment, const AxialVector<Dim>& angular_momentum) {
-    if constexpr (Dim == 2)
-        return angular_momentum / second_moment.trace();
-    else
-        return inertia_of<3>(second_moment).inverse() * angular_momentum;
-}
-
 /// exp(hat w)
 template <int Dim>
 Matrix<Dim> turn_by(const AxialVector<Dim>& w) {
@@ -76,9 +69,7 @@ template <int Dim>
 RigidBodies<Dim>::RigidBodies(const mesh::Mesh<Dim>& mesh, std::span<const std::int32_t> bodies,
                               std::span<const Material> materials, std::int32_t first_point) {
     for (const std::int32_t number : bodies) {
-        const auto [begin, end] = std::ranges::equal_range(mesh.cell_body, number);
-        const auto first = static_cast<std::int32_t>(begin - mesh.cell_body.begin());
-        const auto last = static_cast<std::int32_t>(end - mesh.cell_body.begin());
+        const auto [first, last] = cells_of_body(mesh, number);
         const double density = materials[static_cast<std::size_t>(number)].density;
         Body body{.mesh_body = number, .first_point = first_point, .mass = 0.0, .centre = Vector<Dim>::Zero()};
         const Vector<Dim> origin = mesh.cell_centroid[first];
@@ -155,11 +146,6 @@ void RigidBodies<Dim>::set_momentum(std::size_t index, const Vector<Dim>& veloci
     const double mass = body.mass / points_per_body;
     for (int i = 0; i < points_per_body; ++i)
         p[body.first_point + i] = mass * (velocity + hat<Dim>(spin) * rest_arm(body, i));
-}
-
-template <int Dim>
-AxialVector<Dim> RigidBodies<Dim>::spin_of(std::size_t index, const AxialVector<Dim>& angular_momentum) const {
-    return solve_spin<Dim>(bodies_[index].second_moment, angular_momentum);
 }
 
 template <int Dim>
@@ -245,7 +231,7 @@ void RigidBodies<Dim>::add_constraint_forces(std::span<const Vector<Dim>> q, std
         AxialVector<Dim> torque = axial<Dim>(Matrix<Dim>(moments * turn.transpose()));
         if constexpr (Dim == 3) torque -= moment<3>(spin, Vector<3>(inertia_of<3>(in_space) * spin));
         const Matrix<Dim> turning = hat<Dim>(spin);
-        const Matrix<Dim> acceleration = (hat<Dim>(solve_spin<Dim>(in_space, torque)) + turning * turning) * turn;
+        const Matrix<Dim> acceleration = (hat<Dim>(spin_of<Dim>(in_space, torque)) + turning * turning) * turn;
         const double mass = body.mass / points_per_body;
         for (int i = 0; i < points_per_body; ++i)
             force[body.first_point + i] = mass * (sum / body.mass + acceleration * rest_arm(body, i));

@@ -55,8 +55,6 @@ public:
     /// Momenta of its points for a velocity of the centre [m/s] and a spin [rad/s], at rest.
     void set_momentum(std::size_t body, const Vector<Dim>& velocity, const AxialVector<Dim>& spin,
                       std::span<Vector<Dim>> p) const;
-    /// The spin at which the points at X' carry an angular momentum [rad/s].
-    [[nodiscard]] AxialVector<Dim> spin_of(std::size_t body, const AxialVector<Dim>& angular_momentum) const;
 
     /// A step from q_0 to q_1: what constrains the next half step lies between.
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);

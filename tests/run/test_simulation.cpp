@@ -218,3 +218,12 @@ TEST_CASE("energies of a scene are measured by something that has a name", "[run
     scene.energy_scale.name.clear();
     CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, {.steps = 1})), BadInput);
 }
+
+TEST_CASE("a rigid body that starts displaced takes no added velocity: it would take its spin wrongly", "[run]") {
+    auto scene = test::block_on_plane(0.1);
+    scene.solid.kinematics = {solid::Kinematics::rigid};
+    scene.added_velocity = [](const Vector<2>& x) -> Vector<2> { return {-x[1], x[0]}; };
+    CHECK_NOTHROW(run::simulate<2>(scene, {.steps = 1}));
+    scene.displacement = [](const Vector<2>&) -> Vector<2> { return {0.0, 1.0}; };
+    CHECK_THROWS_AS(run::simulate<2>(scene, {.steps = 1}), BadInput);
+}

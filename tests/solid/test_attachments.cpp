@@ -171,6 +171,19 @@ TEST_CASE("leapfrog with springs keeps energy with order 2", "[solid][attachment
     CHECK(std::log2(drift_at(0.04) / drift_at(0.02)) == Approx(2.0).margin(0.3));
 }
 
+TEST_CASE("a traction on a body that turns must be finite, in every step", "[solid][attachments]") {
+    const auto mesh = two_blocks<2>();
+    auto options = free_bodies<2>(2);
+    options.kinematics.assign(2, Kinematics::rigid);
+    const auto late = [](double time, const Vector<2>&) -> Vector<2> { return {time > 0.25 ? std::nan("") : 0.0, 0.0}; };
+    options.boundary.traction = {{.group = "left.xmin", .history = late}};
+    solid::Solid<2> solid(mesh, options);
+    const std::vector<double> rest(solid.size(), 0.0);
+    dynamics::Memm memm(solid, rest, rest, 0.1);
+    for (int i = 0; i < 3; ++i) memm.step();
+    CHECK_THROWS_WITH(memm.step(), Catch::Contains("left.xmin") && Catch::Contains("not finite"));
+}
+
 TEST_CASE("springs and moments that cannot be are refused", "[solid][attachments]") {
     const auto mesh = two_blocks<2>();
     auto options = free_bodies<2>(2);

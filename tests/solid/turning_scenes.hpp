@@ -1,5 +1,6 @@
 #pragma once
 // Bodies that turn, and what their runs must keep.
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
@@ -123,6 +124,18 @@ struct TurningScene {
         return stretch;
     }
 };
+
+/// Bodies have touched, no contact was missed, and what nothing from outside changes is kept to round-off.
+template <int Dim>
+void check_collision(const TurningScene<Dim>& scene) {
+    const Drifts drifts = scene.drifts();
+    const auto report = scene.solid.contact_report();
+    CHECK(report.active_pairs_max > 0);
+    CHECK(report.missed_contacts == 0);
+    CHECK(drifts.pseudo_energy <= 1e-12);
+    CHECK(drifts.pseudo_moment <= 1e-13);
+    CHECK(drifts.momentum <= 1e-13);
+}
 
 template <int Dim>
 AxialVector<Dim> some_spin(double size) {

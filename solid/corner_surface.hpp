@@ -1,0 +1,111 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/nodal_faces.hpp"
+#include "abut/contact/nodal_surface.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/obstacles.hpp"
+
+namespace abut::solid {
+
+/// The corners of all faces that may touch, each belonging to its face alone: nodes for contact. A corner at X of face f moves
+/// with the face and tilts with its cell c, in the frame of its body:
+///
+///     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
+///
+/// Faces of rigid bodies move with these; they have the stiffness and depth of the cell behind them, as a skin. Faces, and
+/// with them nodes, come in the order: bodies that deform, rigid bodies, obstacles.
+template <int Dim>
+class CornerSurface {
+public:
+    using Points = std::vector<Vector<Dim>>;
+
+    /// Some faces, with all of their corners.
+    struct Listed {
+        std::vector<std::int32_t> faces;      // of bodies that deform, increasing
+        std::vector<BoundaryFace> boundary;   // the same
+        std::vector<std::int32_t> rigid;      // nodes of rigid bodies, increasing
+        std::vector<std::int32_t> obstacles;  // nodes of obstacles, increasing
+        std::vector<std::int32_t> nodes;      // all of them, increasing
+        Region<Dim> region;
+    };
+
+    /// All must outlive it. Faces with a prescribed displacement are left out.
+    CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const Obstacles<Dim>& obstacles);
+
+    [[nodiscard]] contact::NodalSurface<Dim> for_contact() const;
+    [[nodiscard]] std::int64_t faces_left_out() const { return faces_left_out_; }
+    /// How far a corner moves in its frame at most when no cell does by more than 1.
+    [[nodiscard]] double amplification() const { return amplification_; }
+
+    // Nodes and faces, by their number
+
+    [[nodiscard]] const Points& rest() const { return rest_; }  ///< of the nodes [m]
+    [[nodiscard]] bool is_of_obstacle(std::int32_t node) const { return static_cast<std::size_t>(node) >= face_of_.size(); }
+    [[nodiscard]] std::size_t obstacle_of(std::int32_t node) const {
+        return obstacle_of_[static_cast<std::size_t>(node) - face_of_.size()];
+    }
+    /// The first node of an obstacle.
+    [[nodiscard]] std::int32_t n_body_nodes() const { return static_cast<std::int32_t>(face_of_.size()); }
+    [[nodiscard]] std::size_t face_of(std::int32_t node) const { return static_cast<std::size_t>(face_of_[node]); }
+    [[nodiscard]] bool is_deformable(std::size_t face) const { return face < boundary_.size(); }
+    [[nodiscard]] bool is_obstacle(std::size_t face) const { return face >= mesh_boundary_.size(); }
+    [[nodiscard]] std::size_t rigid_of(std::size_t face) const { return rigid_of_[face - boundary_.size()]; }
+    [[nodiscard]] BoundaryFace boundary(std::size_t face) const { return boundary_[face]; }  ///< of one that deforms
+    [[nodiscard]] std::size_t body_of(BoundaryFace face) const {
+        return static_cast<std::size_t>(mesh_.cell_body[cell_of(mesh_, face)]);
+    }
+    /// In the numbering of the whole mesh; `no_face` of an obstacle.
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const {
+        return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
+    }
+    /// Points of the system that move a face; none of an obstacle.
+    [[nodiscard]] std::span<const std::int32_t> points_of(contact::SurfaceFace face) const;
+    /// Mean of its corners, of a body.
+    [[nodiscard]] Vector<Dim> middle(contact::SurfaceFace face, const Points& x) const;
+
+    // Where they are
+
+    [[nodiscard]] Listed list(std::span<const std::int32_t> nodes) const;
+    [[nodiscard]] Listed list_all() const;
+    /// Sets x of the nodes listed, in q; the others stay. The frames are those of q.
+    void place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
+               const BoundaryLoad<Dim>& load, double time, Points& x);
+    /// Of the rigid bodies alone; `place` sets them, too.
+    void place_rigid(std::span<const Vector<Dim>> q);
+    [[nodiscard]] const std::vector<RigidPlace<Dim>>& rigid_places() const { return places_; }
+
+private:
+    void append_deformable();
+    void append_rigid();
+    void append_obstacles();
+    void append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body, double stiffness);
+
+    const Bodies<Dim>& bodies_;
+    const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform
+    Ccg<Dim>& ccg_;
+    const BodyFrames<Dim>& frames_;
+    const Obstacles<Dim>& obstacles_;
+    contact::NodalFaceArrays<Dim> faces_;
+    std::vector<double> stiffness_;  // of each face
+    Points rest_;
+    std::vector<std::int32_t> corner_offsets_{0};  // of the faces of bodies, into the nodes
+    std::vector<std::int32_t> face_of_;            // of each node of a body
+    std::vector<std::size_t> obstacle_of_;         // of the others, in order
+    std::vector<BoundaryFace> boundary_;           // of each face of a body that deforms
+    std::vector<std::size_t> rigid_of_;            // rigid body of each face that follows
+    std::vector<BoundaryFace> mesh_boundary_;      // of all these, in the whole mesh
+    std::vector<std::vector<std::int32_t>> rigid_points_;
+    std::int64_t faces_left_out_ = 0;
+    double amplification_ = 0.0;
+    std::vector<RigidPlace<Dim>> places_;
+    std::vector<Vector<Dim>> u_;  // work arrays: of all cells, and of listed faces
+    std::vector<Vector<Dim>> displacement_;
+    std::vector<Matrix<Dim>> tilt_;
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,191 @@
+// What a solid tells of itself: contact, bodies, and the way between its points and the cells of the mesh.
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/body_rotation.hpp"
+#include "abut/solid/loads.hpp"
+#include "abut/solid/local_levels.hpp"
+#include "abut/solid/pair_potential_driver.hpp"
+#include "abut/solid/point_loads.hpp"
+#include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+namespace {
+
+template <int Dim>
+std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
+    std::vector<double> numbers;
+    for (const Vector<Dim>& vector : vectors) numbers.insert(numbers.end(), vector.begin(), vector.end());
+    return numbers;
+}
+
+}  // namespace
+
+// Contact ------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+ContactField Solid<Dim>::contact_field(std::span<const double> q) {
+    if (contact_) {
+        frames_->stand_at(of_cells(as_vectors<Dim>(q)));
+        contact_->evaluate(as_vectors<Dim>(q), time_);
+        return contact_->field();
+    }
+    const std::size_t n = mesh_.boundary_faces.size();
+    return {std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
+}
+
+template <int Dim>
+std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap) {
+    if (!contact_) return {};
+    frames_->stand_at(of_cells(as_vectors<Dim>(q)));
+    contact_->evaluate(as_vectors<Dim>(q), time_);
+    return contact_->touching_pairs(gap);
+}
+
+template <int Dim>
+std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const {
+    return contact_ ? contact_->patches() : std::vector<dynamics::ContactPatch<Dim>>{};
+}
+
+template <int Dim>
+double Solid<Dim>::compression() const {
+    return contact_ ? contact_->compression() : 0.0;
+}
+
+template <int Dim>
+Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const {
+    if (obstacle >= options_.obstacles.size())
+        throw Misuse("solid: the force on obstacle " + std::to_string(obstacle) + " is asked for, but there are " +
+                     std::to_string(options_.obstacles.size()) + " obstacles, counted from 0.");
+    return contact_->obstacles().force(obstacle);
+}
+
+template <int Dim>
+const contact::Contact<Dim>* Solid<Dim>::contact() const {
+    return reconstruction_ ? &reconstruction_->contact() : nullptr;
+}
+
+template <int Dim>
+const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const {
+    const auto* driver = dynamic_cast<const PairPotentialDriver<Dim>*>(contact_.get());
+    return driver ? &driver->contact() : nullptr;
+}
+
+template <int Dim>
+double Solid<Dim>::skin() const {
+    return contact_ ? contact_->skin() : 0.0;
+}
+
+template <int Dim>
+contact::ContactReport Solid<Dim>::contact_report() const {
+    return contact_ ? contact_->report() : contact::ContactReport{};
+}
+
+template <int Dim>
+dynamics::ContactCounts Solid<Dim>::contact_counts() const {
+    const contact::ContactReport report = contact_report();
+    return {.active_pairs = report.active_pairs, .events = report.events};
+}
+
+template <int Dim>
+std::int64_t Solid<Dim>::contact_faces_left_out() const {
+    return contact_ ? contact_->faces_left_out() : 0;
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const {
+    return contact_ ? contact_->blind_corners() : std::vector<Vector<Dim>>{};
+}
+
+template <int Dim>
+std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const {
+    return contact_ ? contact_->unseen_edges() : std::nullopt;
+}
+
+// Bodies and cells ----------------------------------------------------------------------------------------------------
+
+template <int Dim>
+std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
+    const auto u = as_vectors<Dim>(q);
+    return bodies_->of_bodies(rotation_->angles(of_cells(u)), [&](std::size_t rigid) {
+        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, u).map));
+    });
+}
+
+template <int Dim>
+std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
+    static_cast<void>(potential(q));  // leaves the displacement gradients of this state behind
+    const mesh::Mesh<Dim>& part = bodies_->deformable();
+    std::vector<double> largest(static_cast<std::size_t>(part.n_bodies()), 0.0);
+    for (std::int32_t c = 0; c < part.n_cells(); ++c) {
+        double& of_body = largest[static_cast<std::size_t>(part.cell_body[c])];
+        of_body = larger(of_body, 0.5 * axial<Dim>(ccg_.displacement_gradient(c)).norm());
+    }
+    return bodies_->of_bodies(largest, [](std::size_t) { return 0.0; });
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
+    return bodies_->of_cells(as_vectors<Dim>(q));
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const {
+    return bodies_->velocities(as_vectors<Dim>(p));
+}
+
+template <int Dim>
+std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const {
+    return as_numbers<Dim>(bodies_->of_points(of_cells));
+}
+
+template <int Dim>
+std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const {
+    return as_numbers<Dim>(bodies_->momenta(cell_velocity));
+}
+
+template <int Dim>
+Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const {
+    const auto [deformable, body] = bodies_->deformable_cell(cell);
+    if (deformable < 0) return Matrix<Dim>::Zero();
+    const Matrix<Dim>& turn = frames_->end()[static_cast<std::size_t>(body)].turn;
+    return turn * ccg_.stress(deformable) * turn.transpose();
+}
+
+template <int Dim>
+dynamics::MomentArms Solid<Dim>::moment_arms() const {
+    return frames_->any_turns() || bodies_->any_rigid() ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                      \
+    template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                    \
+    template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);     \
+    template std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const;                         \
+    template double Solid<Dim>::compression() const;                                                               \
+    template Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const;                                   \
+    template const contact::Contact<Dim>* Solid<Dim>::contact() const;                                             \
+    template const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const;                                  \
+    template double Solid<Dim>::skin() const;                                                                      \
+    template contact::ContactReport Solid<Dim>::contact_report() const;                                            \
+    template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                           \
+    template std::int64_t Solid<Dim>::contact_faces_left_out() const;                                              \
+    template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                           \
+    template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                               \
+    template std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const;                           \
+    template std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q);                           \
+    template std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const;              \
+    template std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const;                  \
+    template std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const;  \
+    template std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const; \
+    template Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const;                                              \
+    template dynamics::MomentArms Solid<Dim>::moment_arms() const;
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid
