@@ -4,10 +4,6 @@
 // are asked for H~ less the work from outside, momentum, J~ = sum x × p - dt/4 sum v^- × p^+ where nothing holds the bodies,
 // missed contacts and the force that closes the balance of energy. Solutions at rest are asked for stress and pressure.
 // No energy is claimed without H - H~, |e|/m and the number of events beside it. docs/turning.md reads the table.
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "abut/base/error.hpp"
 #include "abut/run/folder_lock.hpp"
 #include "apps/support/choices.hpp"
@@ -38,12 +34,7 @@ const apps::Program program{
 void add_options(CLI::App& app, Options& options) {
     std::vector<std::string> names;
     for (const Part& part : parts()) names.push_back(part.name);
-    app.add_option("--only", options.only, "parts to run; by default all of " + apps::joined(names))
-        ->delimiter(',')
-        ->check(apps::one_of(names))
-        ->type_name("NAME,...")
-        ->group("Parts");
-    app.add_flag("--quick", options.quick, "coarse meshes and short runs")->default_str("off")->group("Parts");
+    add_part_options(app, program, names, options);
     apps::add_choice(app, "--scheme", options.impact.scheme, "of the runs in which it is not compared",
                      apps::Choices<Scheme>{{"memm", Scheme::memm}, {"leapfrog", Scheme::leapfrog}})
         ->group("Time");
@@ -59,11 +50,6 @@ void add_options(CLI::App& app, Options& options) {
         ->capture_default_str()
         ->group("Time");
     apps::add_count(app, "--frames", options.impact.frames, "for ParaView, of each run; 0: none", 0)->group("Output");
-    options.out = "out/" + program.name;
-    app.add_option("--out", options.out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
 }
 
 void run(const Options& options) {
@@ -74,7 +60,7 @@ void run(const Options& options) {
     const run::FolderLock lock(options.out, program.name);
     std::vector<Row> rows;
     for (const Part& part : parts()) {
-        if (!options.only.empty() && std::ranges::find(options.only, part.name) == options.only.end()) continue;
+        if (!options.asks_for(part.name)) continue;
         print_head(part);
         part.run(options, [&](const Row& row) {
             print(row);

@@ -78,11 +78,11 @@ public:
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
         steps_ = run.steps;
         excess_ = std::max(excess_, excess_of(run, solid));
-        if (is_free_) follow_moment(run, solid);
+        if (run.steps == 0) take_scales(run, solid);
         report_ = solid.contact_report();
         if (watch_) watch_(run, solid);
         if (run.steps < n_steps_) return;
-        for (const auto& motion : whole_motions<Dim>(run, solid)) velocity_.push_back(motion.velocity);
+        for (const auto& motion : solid::body_motions<Dim>(run, solid)) velocity_.push_back(motion.velocity);
     }
     void after_step(const solid::Solid<Dim>& solid) {
         if (solid.nodal_contact() == nullptr) return;
@@ -96,23 +96,24 @@ public:
 
     [[nodiscard]] CaseResult<Dim> result() const {
         const double energy = ledger_.largest_energy();
-        Figures figures{.steps = steps_,
-                        .dt = dt_,
-                        .largest_energy = energy,
-                        .drift = ledger_.pseudo_energy_drift() / energy,
-                        .excess = excess_ / energy,
-                        .parasitic = ledger_.parasitic(),
-                        .momentum = is_free_ ? ledger_.momentum_drift() / momentum_scale_ : run::not_given,
-                        .pseudo_angular = is_free_ && turns_ ? moment_drift_ / moment_scale_ : run::not_given,
-                        .events = report_.events,
-                        .missed_contacts = report_.missed_contacts,
-                        .pair_steps = pair_steps_,
-                        .compression = report_.compression_max,
-                        .correction = filter_         ? run::not_given
-                                      : forces_ > 0.0 ? corrections_ / forces_
-                                                      : 0.0,
-                        .correction_max = report_.correction_max,
-                        .ending = {}};
+        Figures figures{
+            .steps = steps_,
+            .dt = dt_,
+            .largest_energy = energy,
+            .drift = ledger_.pseudo_energy_drift() / energy,
+            .excess = excess_ / energy,
+            .parasitic = ledger_.parasitic(),
+            .momentum = is_free_ ? ledger_.momentum_drift() / momentum_scale_ : run::not_given,
+            .pseudo_angular = is_free_ && turns_ ? ledger_.pseudo_angular_momentum_drift() / moment_scale_ : run::not_given,
+            .events = report_.events,
+            .missed_contacts = report_.missed_contacts,
+            .pair_steps = pair_steps_,
+            .compression = report_.compression_max,
+            .correction = filter_         ? run::not_given
+                          : forces_ > 0.0 ? corrections_ / forces_
+                                          : 0.0,
+            .correction_max = report_.correction_max,
+            .ending = {}};
         return {figures, velocity_};
     }
 
@@ -126,19 +127,13 @@ private:
         return 0.125 * sum;
     }
 
-    void follow_moment(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-        const AxialVector<Dim> moment_now =
-            dynamics::pseudo_angular_momentum<Dim>(run, dt_, solid.rest_positions(), solid.masses());
-        if (run.steps == 0) {
-            moment_0_ = moment_now;
-            const auto u = as_vectors<Dim>(run.q);
-            for (std::size_t i = 0; i < u.size(); ++i) {
-                const Vector<Dim> p = run.momentum(static_cast<std::ptrdiff_t>(i));
-                momentum_scale_ += p.norm();
-                moment_scale_ += moment<Dim>(Vector<Dim>(solid.rest_positions()[i] + u[i]), p).norm();
-            }
+    void take_scales(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
+        const auto u = as_vectors<Dim>(run.q);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const Vector<Dim> p = run.momentum(static_cast<std::ptrdiff_t>(i));
+            momentum_scale_ += p.norm();
+            moment_scale_ += moment<Dim>(Vector<Dim>(solid.rest_positions()[i] + u[i]), p).norm();
         }
-        moment_drift_ = std::max(moment_drift_, (moment_now - moment_0_).norm());
     }
 
     const Watch<Dim>& watch_;
@@ -146,9 +141,8 @@ private:
     dynamics::Ledger<Dim> ledger_;
     contact::ContactReport report_;
     std::vector<Vector<Dim>> velocity_;
-    AxialVector<Dim> moment_0_ = AxialVector<Dim>::Zero();
     std::int64_t steps_ = 0, n_steps_ = 0, pair_steps_ = 0;
-    double dt_ = 0.0, excess_ = 0.0, momentum_scale_ = 0.0, moment_scale_ = 0.0, moment_drift_ = 0.0;
+    double dt_ = 0.0, excess_ = 0.0, momentum_scale_ = 0.0, moment_scale_ = 0.0;
     double forces_ = 0.0, corrections_ = 0.0;
 };
 
@@ -183,32 +177,6 @@ void let_fall(Case<Dim>& one, double gravity) {
 }
 
 template <int Dim>
-std::vector<WholeMotion<Dim>> whole_motions(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-    std::vector<WholeMotion<Dim>> motions(solid.mesh().body_names.size());
-    const auto u = as_vectors<Dim>(run.q);
-    const auto of_point = [&](std::size_t i) -> WholeMotion<Dim>& {
-        return motions[static_cast<std::size_t>(solid.body_of_points()[i])];
-    };
-    for (std::size_t i = 0; i < u.size(); ++i) {
-        WholeMotion<Dim>& body = of_point(i);
-        body.mass += solid.masses()[i];
-        body.centre += solid.masses()[i] * (solid.rest_positions()[i] + u[i]);
-        body.velocity += run.momentum(static_cast<std::ptrdiff_t>(i));
-    }
-    for (auto& body : motions) body.centre /= body.mass, body.velocity /= body.mass;
-    if constexpr (Dim == 2) {
-        std::vector<double> inertia(motions.size(), 0.0);
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            const Vector<2> arm = solid.rest_positions()[i] + u[i] - of_point(i).centre;
-            of_point(i).spin += moment<2>(arm, run.momentum(static_cast<std::ptrdiff_t>(i)))[0];
-            inertia[static_cast<std::size_t>(solid.body_of_points()[i])] += solid.masses()[i] * arm.squaredNorm();
-        }
-        for (std::size_t body = 0; body < motions.size(); ++body) motions[body].spin /= inertia[body];
-    }
-    return motions;
-}
-
-template <int Dim>
 CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& folder, const Watch<Dim>& watch) {
     Account<Dim> account(one, watch);
     run::Scene<Dim> scene = scene_of(one);
@@ -239,11 +207,10 @@ CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& fold
     return result;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                  \
-    template Case<Dim> case_of<Dim>(const std::string&, const std::vector<mesh::Mesh<Dim>>&, Kinematics);      \
-    template void let_fall<Dim>(Case<Dim>&, double);                                                           \
-    template CaseResult<Dim> run_case<Dim>(const Case<Dim>&, const std::filesystem::path&, const Watch<Dim>&); \
-    template std::vector<WholeMotion<Dim>> whole_motions<Dim>(const dynamics::RunView<Dim>&, const solid::Solid<Dim>&);
+#define ABUT_INSTANTIATE(Dim)                                                                             \
+    template Case<Dim> case_of<Dim>(const std::string&, const std::vector<mesh::Mesh<Dim>>&, Kinematics); \
+    template void let_fall<Dim>(Case<Dim>&, double);                                                      \
+    template CaseResult<Dim> run_case<Dim>(const Case<Dim>&, const std::filesystem::path&, const Watch<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

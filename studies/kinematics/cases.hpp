@@ -77,16 +77,4 @@ template <int Dim>
 [[nodiscard]] CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& folder,
                                        const Watch<Dim>& watch = {});
 
-/// Mass, centre, velocity and spin of a body as it moves as a whole.
-template <int Dim>
-struct WholeMotion {
-    double mass = 0.0;
-    Vector<Dim> centre = Vector<Dim>::Zero();
-    Vector<Dim> velocity = Vector<Dim>::Zero();
-    /// The spin at which the points carry the angular momentum about the centre; in the plane alone, 0 in space.
-    double spin = 0.0;
-};
-template <int Dim>
-[[nodiscard]] std::vector<WholeMotion<Dim>> whole_motions(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
-
 }  // namespace abut::studies::kinematics

@@ -56,7 +56,7 @@ void strike(Kinematics kinematics, const Options& options, const Sink& sink) {
     const bool grows = kinematics == Kinematics::small;
     // A point that flies straight on turns by less than a right angle.
     row.quantities.push_back(near("turns by [rad]", std::min(turned, radians), radians, grows ? no_target : 1e-12));
-    row.quantities.push_back(near("length then, over that at rest", at_end, 1.0, grows ? no_target : 0.01));
+    row.quantities.push_back(near("length then, over that at rest", at_end, 1.0, grows ? no_target : 1e-3));
     row.quantities.push_back(at_most("largest change of it on the way", longest, grows ? no_target : 0.02));
     sink(row);
 }

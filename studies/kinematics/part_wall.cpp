@@ -46,10 +46,10 @@ void meet(Kinematics kinematics, solid::ContactLaw law, const Options& options, 
     one.scene.time = exact + 15.0;
     one.run.filter = true;
     double met = 0.0;
-    WholeMotion<2> end;
+    solid::BodyMotion<2> end{};
     const Watch<2> watch = [&](const auto& run, const auto& solid) {
         if (met == 0.0 && solid.contact_report().active_pairs_max > 0) met = run.time;
-        end = whole_motions<2>(run, solid).front();
+        end = solid::body_motions<2>(run, solid).front();
     };
     const bool tilts = law != solid::ContactLaw::reconstruction;
     Row row = row_of<2>(one, name_of(kinematics) + (tilts ? "" : ", reconstruction"), options, nullptr, watch);
@@ -68,7 +68,7 @@ void meet(Kinematics kinematics, solid::ContactLaw law, const Options& options, 
                               .allowed = allowed});
     row.quantities.push_back({.name = "spin after it, of an impulse at the corner",
                               .unit = "",
-                              .value = end.spin,
+                              .value = end.spin[0],
                               .reference = rebound.spin,
                               .scale = spin,
                               .allowed = allowed});

@@ -1,23 +1,17 @@
 #pragma once
 #include <functional>
-#include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/support/program.hpp"
 #include "studies/kinematics/cases.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/table.hpp"
 
 /// The table of the study `kinematics`.
 namespace abut::studies::kinematics {
 
-struct Options {
-    std::vector<std::string> only;
-    bool quick = false;   ///< coarse meshes and short runs
+struct Options : PartOptions {
     int frames = 21;      ///< for ParaView, of each run
     int steps = 100'000;  ///< of the pile
-    std::filesystem::path out;
 };
 
 /// A line of the table: a run.
@@ -46,13 +40,6 @@ void run_ball(const Options& options, const Sink& sink);
 void run_chute(const Options& options, const Sink& sink);
 void run_cradle(const Options& options, const Sink& sink);
 void run_pile(const Options& options, const Sink& sink);
-
-inline constexpr double no_target = std::numeric_limits<double>::infinity();
-
-/// A figure that is to be at most `allowed`; `no_target`: shown alone.
-[[nodiscard]] Quantity at_most(const std::string& name, double value, double allowed);
-/// A figure with a value to meet, to `allowed` of that.
-[[nodiscard]] Quantity near(const std::string& name, double value, double reference, double allowed);
 
 /// Runs it into a folder of its own under `options.out`, with the quantities that every run has to meet: H~, what nothing
 /// from outside changes, missed contacts, the correction.

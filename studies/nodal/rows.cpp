@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "abut/run/files.hpp"
 #include "apps/support/csv.hpp"
 
 namespace abut::studies::turning {
@@ -20,12 +18,6 @@ constexpr double angular_allowed = 1e-14;        // of J~, over sum |x × p|
 constexpr double noisy_angular_allowed = 3e-14;  // where H - H~ says that the grid vibrates
 constexpr double noise = 1e-3;
 constexpr double correction_allowed[] = {1e-5, 1e-4};  // over the forces, in two and three dimensions
-
-std::string folder_name(std::string name) {
-    for (char& c : name)
-        if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-    return name;
-}
 
 /// What every run has to meet.
 std::vector<Quantity> asked_of(const ImpactFigures& run, const ImpactOptions& options, int dim, bool is_free, bool turns) {
@@ -44,31 +36,9 @@ std::vector<Quantity> asked_of(const ImpactFigures& run, const ImpactOptions& op
     return asked;
 }
 
-std::string all_met(const Row& row) {
-    int met = 0, asked = 0;
-    for (const Quantity& quantity : row.quantities) {
-        if (!quantity.has_target()) continue;
-        ++asked;
-        if (quantity.is_met()) ++met;
-    }
-    if (asked == 0) return "";
-    return met == asked ? fmt::format("{} met", asked) : fmt::format("{} of {} MISSED", asked - met, asked);
-}
-
-bool is_column(const std::string& name) {
-    for (const char* column : {"not ended before its time", "missed contacts", "H~ drift", "corrections over forces",
-                               "momentum drift", "J~ drift", "angular momentum drift"})
-        if (name == column) return true;
-    return false;
-}
-
-void print(const Quantity& quantity) {
-    fmt::print("      {:<52}{:>12.4g}", quantity.name + (quantity.unit.empty() ? "" : " [" + quantity.unit + "]"),
-               quantity.value);
-    if (quantity.reference != 0.0) fmt::print("  of {:.6g}, off by {:.2g}", quantity.reference, quantity.error());
-    if (quantity.has_target()) fmt::print("  allowed {:.2g}: {}", quantity.allowed, quantity.is_met() ? "met" : "MISSED");
-    fmt::print("\n");
-}
+constexpr const char* columns[] = {"not ended before its time", "missed contacts", "H~ drift",
+                                   "corrections over forces",   "momentum drift",  "J~ drift",
+                                   "angular momentum drift"};
 
 Json to_json(const ImpactFigures& run) {
     return {{"steps", run.steps},
@@ -92,41 +62,6 @@ Json to_json(const ImpactFigures& run) {
             {"unseen_edges", run.unseen_edges}};
 }
 
-Json to_json(const Quantity& quantity) {
-    Json json{{"name", quantity.name},
-              {"unit", quantity.unit},
-              {"value", apps::json_number(quantity.value)},
-              {"reference", quantity.reference},
-              {"error", apps::json_number(quantity.error())}};
-    if (quantity.has_target()) json.update({{"allowed", quantity.allowed}, {"met", quantity.is_met()}});
-    return json;
-}
-
-Json to_json(const Row& row) {
-    Json json{{"name", row.scene + ", " + row.setting},
-              {"scene", row.scene},
-              {"setting", row.setting},
-              {"seconds", row.seconds},
-              {"remark", row.remark}};
-    json["quantities"] = Json::array();
-    for (const Quantity& quantity : row.quantities) json["quantities"].push_back(to_json(quantity));
-    if (row.run) json["run"] = to_json(*row.run);
-    return json;
-}
-
-std::string csv_text(const std::vector<Row>& rows) {
-    std::string text = "scene,setting,quantity,value,reference,error,allowed\n";
-    const auto line = [&](const Row& row, const Quantity& quantity) {
-        text +=
-            fmt::format("{},{},{},{},{},{},{}\n", apps::quoted(row.scene), apps::quoted(row.setting),
-                        apps::quoted(quantity.name), apps::all_digits(quantity.value), apps::all_digits(quantity.reference),
-                        apps::all_digits(quantity.error()), quantity.has_target() ? apps::all_digits(quantity.allowed) : "");
-    };
-    for (const Row& row : rows)
-        for (const Quantity& quantity : row.quantities) line(row, quantity);
-    return text;
-}
-
 }  // namespace
 
 std::string name_of(const ImpactOptions& run) {
@@ -134,10 +69,6 @@ std::string name_of(const ImpactOptions& run) {
     if (run.filter) name += ", filter";
     if (run.restart > 0) name += fmt::format(", restart {}", run.restart);
     return name;
-}
-
-Quantity at_most(const std::string& name, double value, double allowed) {
-    return {.name = name, .unit = "", .value = value, .reference = 0.0, .scale = 1.0, .allowed = allowed};
 }
 
 template <int Dim>
@@ -174,31 +105,27 @@ void print(const Row& row) {
                    run.events, run.pair_steps, run.missed_contacts, apps::two_digits(run.compression),
                    apps::two_digits(run.correction));
     }
-    fmt::print("  {} ({:.2g} s)\n", all_met(row), row.seconds);
-    for (const Quantity& quantity : row.quantities)
-        if (!is_column(quantity.name) || !quantity.is_met()) print(quantity);
+    fmt::print("  {} ({:.2g} s)\n", all_met(row.quantities), row.seconds);
+    print_rest(row.quantities, columns);
     if (!row.remark.empty()) fmt::print("      {}\n", row.remark);
     std::fflush(stdout);
 }
 
 void write_report(const apps::Program& program, const Options& options, const std::vector<Row>& rows) {
-    Json json{{"program", program.name}, {"version", ABUT_VERSION}};
-    json["options"] = {{"only", options.only},
-                       {"scheme", options.impact.scheme == Scheme::memm ? "memm" : "leapfrog"},
-                       {"filter", options.impact.filter},
-                       {"restart", options.impact.restart},
-                       {"cfl", options.impact.cfl},
-                       {"steps", options.long_steps},
-                       {"quick", options.quick}};
-    json["levels"] = Json::array();
-    for (const Row& row : rows) json["levels"].push_back(to_json(row));
-    run::write_whole(options.out / "summary.json", json.dump(2) + "\n");
-    run::write_whole(options.out / "turning.csv", csv_text(rows));
-    const auto missed = std::ranges::count_if(rows, [](const Row& row) {
-        return std::ranges::any_of(row.quantities, [](const Quantity& one) { return one.has_target() && !one.is_met(); });
-    });
-    fmt::print("{} rows, {} of them with a target that is missed\n", rows.size(), missed);
-    fmt::print("files: {}\n", options.out.string());
+    std::vector<RowRecord> records;
+    for (const Row& row : rows) {
+        RowRecord& record = records.emplace_back(row.scene, row.setting, row.quantities);
+        record.more = {{"seconds", row.seconds}, {"remark", row.remark}};
+        if (row.run) record.more["run"] = to_json(*row.run);
+    }
+    const Json chosen{{"only", options.only},
+                      {"scheme", options.impact.scheme == Scheme::memm ? "memm" : "leapfrog"},
+                      {"filter", options.impact.filter},
+                      {"restart", options.impact.restart},
+                      {"cfl", options.impact.cfl},
+                      {"steps", options.long_steps},
+                      {"quick", options.quick}};
+    write_table(program, options.out, chosen, records);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                              \

@@ -4,21 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "apps/support/program.hpp"
 #include "studies/nodal/impact.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/table.hpp"
 
 /// The table of the study `turning`.
 namespace abut::studies::turning {
 
 using namespace nodal;
 
-struct Options {
-    std::vector<std::string> only;
+struct Options : PartOptions {
     ImpactOptions impact{.frames = 21};
     std::int64_t long_steps = 1'000'000;  ///< of the long runs
-    bool quick = false;                   ///< coarse meshes and few steps
-    std::filesystem::path out;
 };
 
 /// A line of the table: a run, or a solution at rest.
@@ -50,9 +46,6 @@ void sweep_steps(const Options& options, const Sink& sink);
 
 /// "memm, filter, restart 50": of a row.
 [[nodiscard]] std::string name_of(const ImpactOptions& run);
-
-/// A figure that is to be at most `allowed`; infinite: shown alone.
-[[nodiscard]] Quantity at_most(const std::string& name, double value, double allowed);
 
 /// Runs it into a folder of its own under `options.out`, with the quantities that every run has to meet: H~, what nothing
 /// from outside changes, missed contacts, the correction. Central differences have no H~: momenta alone are asked of them.
