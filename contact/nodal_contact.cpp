@@ -224,8 +224,10 @@ private:
         in_contact_.clear();
         for (std::size_t p = 0; p < pairs_.pairs().size(); ++p) {
             const NodalPair<Dim>& pair = pairs_.pairs()[p];
-            if (store_.memory()[p].admitted && is_wanted(store_.pairs()[p]) &&
-                geometry::pair_state<Dim>(pair.at(x_0), pair.law).energy > 0.0)
+            if (!store_.memory()[p].admitted || !is_wanted(store_.pairs()[p])) continue;
+            const geometry::PairCorners<Dim> corners = pair.at(x_0);
+            if (geometry::pair_placement<Dim>(corners, pair.law).place == geometry::PairPlace::unclear &&
+                geometry::pair_state<Dim>(corners, pair.law).energy > 0.0)
                 in_contact_.push_back(store_.pairs()[p]);
         }
     }

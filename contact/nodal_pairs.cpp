@@ -4,10 +4,16 @@
 #include <limits>
 #include <vector>
 
+#include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 
 namespace abut::contact {
 namespace {
+
+constexpr std::ptrdiff_t grain = 256;  // pairs that are worth a task
+
+// Steps like the present one after which the pairs in reach are chosen anew.
+constexpr double steps_between = 8.0;
 
 double admission_depth(double stiffness, double depth) {
     return stiffness == std::numeric_limits<double>::infinity() ? 0.0 : depth;
@@ -30,6 +36,15 @@ NodalPair<Dim> make_pair(const Surface<Dim>& facets, const FacePair& of_facets, 
     return pair;
 }
 
+/// One that may not act says nothing of pairs that are deeper.
+template <int Dim>
+geometry::PairOutlook<Dim> outlook_of(const geometry::PairOutlook<Dim>& found) {
+    if (found.may_act) return found;
+    geometry::PairOutlook<Dim> nothing;
+    nothing.may_act = false;
+    return nothing;
+}
+
 BodyPair in_order(std::int32_t body_1, std::int32_t body_2) { return {std::min(body_1, body_2), std::max(body_1, body_2)}; }
 
 /// Index of a value in a sorted list that has it.
@@ -44,18 +59,21 @@ template <int Dim>
 void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets,
                              std::span<const FacePair> in_contact, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
                              double compression) {
+    compression_ = compression;
     pairs_.clear();
-    std::erase_if(facets, [&](const FacePair& of_facets) {
-        NodalPair<Dim> pair = make_pair(surface.facets(), of_facets, facing_);
-        const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
-        double farthest = reach;
-        for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
-        pair.outlook = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression * pair.admission_depth);
-        const bool stays = pair.outlook.may_act || std::ranges::binary_search(in_contact, of_facets);
-        if (!pair.outlook.may_act) pair.outlook = {};  // it says nothing of pairs that are deeper
-        if (stays) pairs_.push_back(pair);
-        return !stays;
-    });
+    for (const FacePair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
+    look_ahead(x_0, x_1, reach);
+    std::size_t n = 0;
+    for (std::size_t p = 0; p < facets.size(); ++p) {
+        const bool may_act = outlooks_[p].may_act;
+        if (!may_act && !std::ranges::binary_search(in_contact, facets[p])) continue;
+        facets[n] = facets[p];
+        pairs_[n] = pairs_[p];
+        pairs_[n].outlook = outlook_of(outlooks_[p]);
+        ++n;
+    }
+    facets.resize(n);
+    pairs_.resize(n);
     index(surface);
 }
 
@@ -67,10 +85,65 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const F
 }
 
 template <int Dim>
+void NodalPairs<Dim>::look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach) {
+    outlooks_.resize(pairs_.size());
+    parallel_each(
+        std::ssize(pairs_),
+        [&](std::ptrdiff_t p) {
+            const NodalPair<Dim>& pair = pairs_[p];
+            const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
+            double farthest = reach;
+            for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
+            outlooks_[p] = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression_ * pair.admission_depth);
+        },
+        grain);
+}
+
+template <int Dim>
+void NodalPairs<Dim>::prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory) {
+    const auto motion = [&](std::ptrdiff_t i) { return (x_1[nodes_[i]] - x_0[nodes_[i]]).squaredNorm(); };
+    prune_reach_ = steps_between * std::sqrt(largest(std::ssize(nodes_), motion));
+    look_ahead(x_0, x_1, prune_reach_);
+    in_reach_.clear();
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        const bool is_kept_anyway = !pairs_[p].outlook.may_act;
+        if (!outlooks_[p].may_act && !is_kept_anyway) {
+            memory[p].admitted = outlooks_[p].is_apart;
+            continue;
+        }
+        in_reach_.push_back(pairs_[p]);
+        in_reach_.back().outlook = outlook_of(outlooks_[p]);
+    }
+    pruned_at_.clear();
+    for (const std::int32_t node : nodes_) pruned_at_.push_back(x_0[node]);
+}
+
+template <int Dim>
+bool NodalPairs<Dim>::is_pruned_at(PointsView<Dim> x) const {
+    if (pruned_at_.size() != nodes_.size()) return false;
+    const auto motion = [&](std::ptrdiff_t i) { return (x[nodes_[i]] - pruned_at_[i]).squaredNorm(); };
+    return std::sqrt(largest(std::ssize(nodes_), motion)) <= prune_reach_;
+}
+
+template <int Dim>
+std::span<const NodalPair<Dim>> NodalPairs<Dim>::in_reach(PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                                          std::span<PairMemory> memory) {
+    if (!is_pruned_at(x_0) || !is_pruned_at(x_1)) prune(x_0, x_1, memory);
+    return in_reach_;
+}
+
+template <int Dim>
+std::span<const NodalPair<Dim>> NodalPairs<Dim>::in_reach(PointsView<Dim> x) const {
+    return is_pruned_at(x) ? std::span<const NodalPair<Dim>>(in_reach_) : pairs_;
+}
+
+template <int Dim>
 void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface) {
     nodes_.clear();
     bodies_.clear();
     body_pairs_.clear();
+    in_reach_.clear();
+    pruned_at_.clear();
     const std::vector<std::int32_t>& body = surface.facets().body;
     for (const NodalPair<Dim>& pair : pairs_) {
         nodes_.insert(nodes_.end(), pair.node.begin(), pair.node.end());
@@ -81,12 +154,14 @@ void NodalPairs<Dim>::index(const NodalSurface<Dim>& surface) {
     sort_unique(nodes_);
     sort_unique(bodies_);
     sort_unique(body_pairs_);
+    std::int32_t n = 0;
     for (NodalPair<Dim>& pair : pairs_) {
         for (std::size_t v = 0; v < pair.node.size(); ++v) pair.listed[v] = index_in(nodes_, pair.node[v]);
         const std::int32_t body_1 = body[pair.facet_1], body_2 = body[pair.facet_2];
         pair.body_1 = index_in(bodies_, body_1);
         pair.body_2 = index_in(bodies_, body_2);
         pair.body_pair = index_in(body_pairs_, in_order(body_1, body_2));
+        pair.memory = n++;
     }
 }
 

@@ -26,6 +26,7 @@ struct NodalPair {
     std::int32_t body_1;                       ///< index in the listed bodies
     std::int32_t body_2;
     std::int32_t body_pair;  ///< index in the listed pairs of bodies
+    std::int32_t memory;     ///< index of what it remembers
     geometry::PairLaw<Dim> law;
     double admission_depth;                ///< D = d_1 + d_2 [m]
     geometry::PairOutlook<Dim> outlook{};  ///< while the list holds
@@ -57,6 +58,15 @@ public:
     /// Pairs without an outlook: of a list that does not hold.
     void assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
+
+    /// The list is pruned again and again while it holds: these of its pairs can act in the step from x_0 to x_1, and in the
+    /// next ones as long as no node moves too far. They are chosen anew where they must be; what leaves them is admitted from
+    /// then on if it is apart, and else not, as if it had left the list. `memory`: of all pairs.
+    [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                                           std::span<PairMemory> memory);
+    /// Those that can act in one state, and others.
+    [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x) const;
+
     [[nodiscard]] const std::vector<std::int32_t>& nodes() const { return nodes_; }        ///< increasing
     [[nodiscard]] const std::vector<std::int32_t>& bodies() const { return bodies_; }      ///< increasing
     [[nodiscard]] const std::vector<BodyPair>& body_pairs() const { return body_pairs_; }  ///< increasing
@@ -64,12 +74,22 @@ public:
 private:
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
     void index(const NodalSurface<Dim>& surface);
+    /// Fills `outlooks_` for the step from x_0 to x_1, and for nodes that are not farther than `reach` from x_0.
+    void look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach);
+    void prune(PointsView<Dim> x_0, PointsView<Dim> x_1, std::span<PairMemory> memory);
+    [[nodiscard]] bool is_pruned_at(PointsView<Dim> x) const;
 
     geometry::FacingFade facing_;
     std::vector<NodalPair<Dim>> pairs_;
+    double compression_ = 0.0;  // |g|/D up to which pairs can act
     std::vector<std::int32_t> nodes_;
     std::vector<std::int32_t> bodies_;
     std::vector<BodyPair> body_pairs_;
+
+    std::vector<NodalPair<Dim>> in_reach_;              // while no node is farther than `prune_reach_` from `pruned_at_`
+    std::vector<Vector<Dim>> pruned_at_;                // of each node
+    double prune_reach_ = 0.0;                          // [m]
+    std::vector<geometry::PairOutlook<Dim>> outlooks_;  // work array
 };
 
 /// Whether a pair may be pressed in from here on, where W = 0: it is no far side of a body. docs/method.md, Contact.

@@ -54,9 +54,10 @@ void CornerSurface<Dim>::append_deformable() {
             continue;
         }
         const std::int32_t face = mesh_face(mesh_, b);
+        double& amplification = amplification_.emplace_back(0.0);
         for (const std::int32_t v : mesh_.face_vertices[face])
-            amplification_ = std::max(
-                amplification_, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
+            amplification = std::max(
+                amplification, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
         append_face(mesh_, face, static_cast<std::int32_t>(body_of(b)), ccg_.normal_stiffness(b));
         boundary_.push_back(b);
         mesh_boundary_.push_back(in_mesh[static_cast<std::size_t>(b)]);
@@ -111,6 +112,13 @@ Vector<Dim> CornerSurface<Dim>::middle(contact::SurfaceFace face, const Points& 
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n) sum += x[n];
     return sum / (corner_offsets_[i + 1] - corner_offsets_[i]);
+}
+
+template <int Dim>
+double CornerSurface<Dim>::amplification(const Listed& listed) const {
+    double largest = 0.0;
+    for (const std::int32_t face : listed.faces) largest = std::max(largest, amplification_[static_cast<std::size_t>(face)]);
+    return largest;
 }
 
 // Where they are -----------------------------------------------------------------------------------------------------

@@ -39,8 +39,8 @@ public:
 
     [[nodiscard]] contact::NodalSurface<Dim> for_contact() const;
     [[nodiscard]] std::int64_t faces_left_out() const { return faces_left_out_; }
-    /// How far a corner moves in its frame at most when no cell does by more than 1.
-    [[nodiscard]] double amplification() const { return amplification_; }
+    /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.
+    [[nodiscard]] double amplification(const Listed& listed) const;
 
     // Nodes and faces, by their number
 
@@ -101,7 +101,7 @@ private:
     std::vector<BoundaryFace> mesh_boundary_;      // of all these, in the whole mesh
     std::vector<std::vector<std::int32_t>> rigid_points_;
     std::int64_t faces_left_out_ = 0;
-    double amplification_ = 0.0;
+    std::vector<double> amplification_;  // of each face of a body that deforms
     std::vector<RigidPlace<Dim>> places_;
     std::vector<Vector<Dim>> u_;  // work arrays: of all cells, and of listed faces
     std::vector<Vector<Dim>> displacement_;

@@ -56,13 +56,14 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       x_0_(corners_.rest()),
       x_1_(x_0_),
       x_state_(x_0_),
-      searched_at_(x_0_) {}
+      searched_at_(x_0_),
+      u_(static_cast<std::size_t>(bodies.n_cells())) {}
 
 // How long the list is valid -----------------------------------------------------------------------------------------
 
-/// At most, at the end of the step [m].
+/// At most, at the end of the step, when no cell is farther than `in_frame` from where it was in its frame [m].
 template <int Dim>
-double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double time) const {
+double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double in_frame, double time) const {
     const auto motion = [](const Vector<Dim>& shift, const Matrix<Dim>& turned, double radius) {
         return shift.norm() + difference_stretch * turned.norm() * radius;
     };
@@ -76,8 +77,14 @@ double PairPotentialDriver<Dim>::motion_since(const Watch& watch, double time) c
         const RigidPlace<Dim>&from = watch.places[i], to = corners_.rigid_places()[i];
         of_rigid = larger(of_rigid, motion(to.centre - from.centre, to.map - from.map, watch.radius[n + i]));
     }
-    of_frames += corners_.amplification() * watch.travelled;
+    of_frames += watch.amplification * in_frame;
     return watch.moved + larger(larger(of_frames, of_rigid), obstacles_.motion(watch.time, time));
+}
+
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_valid(double near_in_frame, double far_in_frame, double time) const {
+    return contact_.is_valid_for(motion_since(near_watch_, near_in_frame, time)) &&
+           motion_since(far_watch_, far_in_frame, time) <= far_reach_;
 }
 
 /// By what no cell and no frame exceeds in the step: nothing is computed but a few sums.
@@ -86,7 +93,27 @@ bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) 
     near_watch_.travelled += cell_motion;
     far_watch_.travelled += cell_motion;
     if (!has_stepped_ || loads_.vary()) return false;
-    return contact_.is_valid_for(motion_since(near_watch_, time)) && motion_since(far_watch_, time) <= far_reach_;
+    return is_valid(near_watch_.travelled, far_watch_.travelled, time);
+}
+
+/// By how far cells are in their frames from where they were, instead of the way that they have gone.
+template <int Dim>
+bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time) {
+    if (!has_stepped_ || loads_.vary() || !contact_.is_valid_for(0.0)) return false;
+    near_watch_.travelled = distance_in_frame(near_, q_1, near_watch_);
+    if (!(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_))
+        far_watch_.travelled = distance_in_frame(all_, q_1, far_watch_);
+    return is_valid(near_watch_.travelled, far_watch_.travelled, time);
+}
+
+/// From the state of the watch, of the cell behind these faces that is farthest [m].
+template <int Dim>
+double PairPotentialDriver<Dim>::distance_in_frame(const Listed& listed, std::span<const Vector<Dim>> q,
+                                                   const Watch& watch) {
+    const std::vector<std::int32_t>& cells = listed.region.input_cells;
+    frames_.displacement(cells, q, frames_.end(), u_);
+    return std::sqrt(
+        largest(std::ssize(cells), [&](std::ptrdiff_t i) { return (u_[cells[i]] - watch.u[i]).squaredNorm(); }));
 }
 
 /// Places the nodes near other bodies at the end of the step; what is far must not have come near. Loads that vary move faces
@@ -94,21 +121,26 @@ bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) 
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
     if (!has_stepped_ || !contact_.is_valid_for(0.0)) return false;
-    if (!loads_.vary() && !(motion_since(far_watch_, time) <= far_reach_)) return false;
+    if (!loads_.vary() && !(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_)) return false;
     const Listed& looked_at = loads_.vary() ? all_ : near_;
     corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_);
-    near_watch_ = watch_from(looked_at, x_1_, time);
+    near_watch_ = watch_from(looked_at, q_1, x_1_, time);
     return contact_.is_valid_for(near_watch_.moved);
 }
 
 /// From here, where the nodes listed are placed: at the end of the step.
 template <int Dim>
-typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(const Listed& listed, const Points& x,
-                                                                              double time) const {
+typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(const Listed& listed,
+                                                                              std::span<const Vector<Dim>> q_1,
+                                                                              const Points& x, double time) {
     Watch watch{.frames = {frames_.end().begin(), frames_.end().end()},
                 .places = corners_.rigid_places(),
                 .radius = {},
-                .time = time};
+                .time = time,
+                .u = {},
+                .amplification = corners_.amplification(listed)};
+    frames_.displacement(listed.region.input_cells, q_1, frames_.end(), u_);
+    for (const std::int32_t cell : listed.region.input_cells) watch.u.push_back(u_[cell]);
     watch.radius.assign(frames_.n_bodies() + watch.places.size(), 0.0);
     for (const std::int32_t n : listed.nodes) {
         if (corners_.is_of_obstacle(n)) break;
@@ -131,12 +163,15 @@ void PairPotentialDriver<Dim>::follow(std::span<const Vector<Dim>> q_0, std::spa
                                       double time, double dt) {
     end_time_ = time + dt;
     corners_.place_rigid(q_1);
-    if (is_surely_valid(cell_motion, time + dt)) {
-        const Stopwatch watch(times_.contact);
-        return corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
+    if (!is_surely_valid(cell_motion, time + dt)) {
+        const Stopwatch watch(times_.search);
+        if (!is_valid_by_cells(q_1, time + dt)) {
+            if (!is_valid_at_near_nodes(q_1, time + dt)) search(q_0, q_1, time, dt);
+            return;
+        }
     }
-    const Stopwatch watch(times_.search);
-    if (!is_valid_at_near_nodes(q_1, time + dt)) search(q_0, q_1, time, dt);
+    const Stopwatch watch(times_.contact);
+    corners_.place(listed_, q_1, frames_.end(), loads_.end(), time + dt, x_1_);
 }
 
 template <int Dim>
@@ -150,8 +185,8 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     listed_nodes_ = contact_.last().nodes;
     listed_ = corners_.list(listed_nodes_);
     near_ = corners_.list(near_nodes());
-    near_watch_ = watch_from(near_, x_1_, time + dt);
-    far_watch_ = watch_from(all_, x_1_, time + dt);
+    near_watch_ = watch_from(near_, q_1, x_1_, time + dt);
+    far_watch_ = watch_from(all_, q_1, x_1_, time + dt);
 }
 
 /// Of faces that reach into the box of another body or obstacle when that grows by twice `far_reach_`, and by all that contact
@@ -229,6 +264,13 @@ void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q)
 
 template <int Dim>
 void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
+    corners_.place_rigid(q);
+    if (has_stepped_ && !loads_.vary() && contact_.is_valid_for(0.0) &&
+        is_valid(distance_in_frame(near_, q, near_watch_), distance_in_frame(all_, q, far_watch_), time)) {
+        corners_.place(listed_, q, frames_.end(), loads_.end(), time, x_state_);
+        contact_.evaluate_listed(x_state_);
+        return collect(x_state_, x_state_);
+    }
     corners_.place(all_, q, frames_.end(), loads_.end(), time, x_state_);
     contact_.evaluate(x_state_);
     if (contact_.last().nodes != listed_nodes_) {

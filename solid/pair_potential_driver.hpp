@@ -65,13 +65,18 @@ private:
         std::vector<double> radius;  // of these nodes about the centre of each body, rigid ones last [m]
         double time = 0.0;           // of that state [s]
         double moved = 0.0;          // the farthest of them from where candidates were searched [m]
-        double travelled = 0.0;  // since then: sum over the steps of the motion in its frame of the cell that moved farthest
+        std::vector<Vector<Dim>> u;  // in that state and in the frames, of the cells that move these nodes
+        double travelled = 0.0;      // at most since then: motion in its frame of the cell that moved farthest
+        double amplification = 0.0;  // how far one of these nodes moves when no cell moves by more than 1
     };
 
-    [[nodiscard]] double motion_since(const Watch& watch, double time) const;
+    [[nodiscard]] double motion_since(const Watch& watch, double in_frame, double time) const;
+    [[nodiscard]] bool is_valid(double near_in_frame, double far_in_frame, double time) const;
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
+    [[nodiscard]] bool is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time);
     [[nodiscard]] bool is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time);
-    [[nodiscard]] Watch watch_from(const Listed& listed, const Points& x, double time) const;
+    [[nodiscard]] double distance_in_frame(const Listed& listed, std::span<const Vector<Dim>> q, const Watch& watch);
+    [[nodiscard]] Watch watch_from(const Listed& listed, std::span<const Vector<Dim>> q_1, const Points& x, double time);
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     [[nodiscard]] std::vector<std::int32_t> near_nodes() const;
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
@@ -98,6 +103,7 @@ private:
     double far_reach_ = 0.0;  // [m]
     double end_time_ = 0.0;   // of the last step [s]
     Points searched_at_;
+    std::vector<Vector<Dim>> u_;  // work array, of all cells
 
     std::vector<Vector<Dim>> face_gradient_;  // results, in frames (n_listed)
     std::vector<Matrix<Dim>> cell_moment_;

@@ -102,32 +102,33 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
 }
 
 template <int Dim>
-std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
+std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, NodalPairs<Dim>& listed,
                                        std::span<PairMemory> memory, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                        TakenForce take, NodalStep<Dim>& step) {
-    const auto pairs = listed.pairs();
+    const auto pairs = listed.in_reach(x_0, x_1, memory);
     outcomes_.resize(pairs.size());
     parallel_each(
         static_cast<std::ptrdiff_t>(pairs.size()),
         [&](std::ptrdiff_t p) {
-            follow(pairs[p], memory[p].admitted, x_0, x_1, take, outcomes_[p]);
-            memory[p].admitted = outcomes_[p].admitted;
+            bool& admitted = memory[pairs[p].memory].admitted;
+            follow(pairs[p], admitted, x_0, x_1, take, outcomes_[p]);
+            admitted = outcomes_[p].admitted;
         },
         grain);
-    add_up(surface, listed, x_0, x_1, step);
+    add_up(surface, listed, pairs, x_0, x_1, step);
     return std::ranges::count_if(outcomes_, [](const Outcome& outcome) { return outcome.inadmissible; });
 }
 
 template <int Dim>
 void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
                                   std::span<const PairMemory> memory, PointsView<Dim> x, NodalStep<Dim>& step) {
-    const auto pairs = listed.pairs();
+    const auto pairs = listed.in_reach(x);
     outcomes_.resize(pairs.size());
     parallel_each(
         static_cast<std::ptrdiff_t>(pairs.size()),
         [&](std::ptrdiff_t p) {
             outcomes_[p].inadmissible = outcomes_[p].active = false;
-            if (!memory[p].admitted) return;
+            if (!memory[pairs[p].memory].admitted) return;
             const geometry::PairCorners<Dim> corners = pairs[p].at(x);
             const auto place = geometry::pair_placement<Dim>(corners, pairs[p].law);
             if (place.place != PairPlace::unclear) return;
@@ -136,17 +137,18 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
             take_force(pairs[p], corners, corners, TakenForce::end, outcomes_[p]);
         },
         grain);
-    add_up(surface, listed, x, x, step);
+    add_up(surface, listed, pairs, x, x, step);
 }
 
 template <int Dim>
-void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, PointsView<Dim> x_0,
-                                PointsView<Dim> x_1, NodalStep<Dim>& step) const {
+void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
+                                std::span<const NodalPair<Dim>> pairs, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                NodalStep<Dim>& step) const {
     clear_step(listed, step);
     double forces = 0.0;
     for (std::size_t p = 0; p < outcomes_.size(); ++p) {
         if (!outcomes_[p].active) continue;
-        const NodalPair<Dim>& pair = listed.pairs()[p];
+        const NodalPair<Dim>& pair = pairs[p];
         const auto& found = outcomes_[p].found;
         for (std::size_t v = 0; v < pair.listed.size(); ++v) step.gradient[pair.listed[v]] += found.gradient[v];
         step.energy_0 += found.energy_0;

@@ -21,7 +21,7 @@ public:
 
     /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
     /// how many pairs are pressed in at x_0 without being contacts.
-    std::int64_t apply(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<PairMemory> memory,
+    std::int64_t apply(const NodalSurface<Dim>& surface, NodalPairs<Dim>& listed, std::span<PairMemory> memory,
                        PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
 
     /// The forces of one state, with the admission as it stands.
@@ -43,15 +43,15 @@ private:
                 Outcome& outcome) const;
     void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
                     const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const;
-    /// Adds up what the pairs do, in their order.
-    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                NodalStep<Dim>& step) const;
+    /// Adds up what these of the listed pairs do, in their order.
+    void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const NodalPair<Dim>> pairs,
+                PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const;
 
     static void add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
                          NodalStep<Dim>& step);
 
     bool events_;
-    std::vector<Outcome> outcomes_;  // of the listed pairs
+    std::vector<Outcome> outcomes_;  // of the pairs in reach
 };
 
 }  // namespace abut::contact

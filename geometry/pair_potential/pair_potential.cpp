@@ -103,8 +103,9 @@ PairOutlook<Dim> pair_outlook(const PairCorners<Dim>& corners, const PairLaw<Dim
     outlook.normal = n;
     outlook.aside_allowance = depth * sine;
     if (const double length = aside.norm(); length > 1e-6 * between.norm()) outlook.aside = aside / length;
-    outlook.may_act = clearance<Dim>(corners, n) <= 2.0 * reach &&
-                      clearance<Dim>(behind<Dim>(corners), n) <= depth + 2.0 * reach &&
+    const double above = clearance<Dim>(corners, n);
+    outlook.is_apart = above > 0.0;
+    outlook.may_act = above <= 2.0 * reach && clearance<Dim>(behind<Dim>(corners), n) <= depth + 2.0 * reach &&
                       clearance<Dim>(corners, outlook.aside) <= 2.0 * reach + outlook.aside_allowance;
     return outlook;
 }

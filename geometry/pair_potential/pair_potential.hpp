@@ -77,6 +77,7 @@ struct PairOutlook {
     /// False only if W = 0 in all of them, where |g| is not larger than a given depth: the faces stay apart, above or beside
     /// each other, or cannot come to look at each other.
     bool may_act = true;
+    bool is_apart = false;                     ///< g > 0 all over as it is now; told where it may not act
     Vector<Dim> normal = Vector<Dim>::Zero();  ///< n as it is now, unit; zero: n can turn too far for `rests`
     Vector<Dim> aside = Vector<Dim>::Zero();   ///< from face 1 to face 2 across n, unit
     double aside_allowance = 0.0;              ///< what apart along `aside` must exceed, since n turns [m]
