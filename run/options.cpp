@@ -27,6 +27,27 @@ void append(NamedValues& values, const NamedValues& more) { values.insert(values
 
 std::string name_of(SolidIntegrator integrator) { return word_of(integrator_words, integrator); }
 
+std::string name_of(solid::Kinematics kinematics) {
+    for (const auto& [word, meant] : kinematics_words)
+        if (kinematics_of_all(meant) == kinematics) return word;
+    return "";
+}
+
+std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics) {
+    switch (kinematics) {
+        case BodyKinematics::scene:
+        case BodyKinematics::automatic:
+            return std::nullopt;
+        case BodyKinematics::small:
+            return solid::Kinematics::small;
+        case BodyKinematics::floating:
+            return solid::Kinematics::floating;
+        case BodyKinematics::rigid:
+            return solid::Kinematics::rigid;
+    }
+    return std::nullopt;
+}
+
 template <int Dim>
 RunOptions with_defaults(RunOptions options) {
     if (options.interval == 0) options.interval = Dim == 2 ? 1 : 10;

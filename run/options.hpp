@@ -18,6 +18,10 @@ inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 /// The schemes that a solid with contact runs under. docs/integrators.md says which to choose.
 enum class SolidIntegrator { memm, memm_async, leapfrog, bilbao };
 
+/// How bodies may move (solid::Kinematics): one choice for all of them, that of the scene, or `automatic`: for each body the
+/// cheapest one that a pilot run allows (run/pilot.hpp).
+enum class BodyKinematics { scene, automatic, small, floating, rigid };
+
 /// How a scene is run. Where a message of an error or a warning names an option, it does so in the words of the programs'
 /// command lines: --contact-margin is `contact_margin`.
 struct RunOptions {
@@ -26,7 +30,7 @@ struct RunOptions {
     double cfl = 0.9;             ///< time step over the stable step [-]
     double dt = not_given;        ///< time step [s], instead of `cfl`
     bool allow_unstable = false;  ///< takes `dt` even above the stable step
-    std::optional<solid::Kinematics> kinematics;  ///< of all bodies; empty: as the scene says
+    BodyKinematics kinematics = BodyKinematics::scene;
     solid::ContactLaw law = solid::ContactLaw::automatic;
     contact::ContactOptions contact;
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
@@ -54,11 +58,11 @@ inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm",
                                                                         {"memm_async", SolidIntegrator::memm_async},
                                                                         {"leapfrog", SolidIntegrator::leapfrog},
                                                                         {"bilbao", SolidIntegrator::bilbao}}};
-inline constexpr std::array<Word<std::optional<solid::Kinematics>>, 4> kinematics_words{
-    {{"scene", std::nullopt},
-     {"small", solid::Kinematics::small},
-     {"floating", solid::Kinematics::floating},
-     {"rigid", solid::Kinematics::rigid}}};
+inline constexpr std::array<Word<BodyKinematics>, 5> kinematics_words{{{"scene", BodyKinematics::scene},
+                                                                       {"automatic", BodyKinematics::automatic},
+                                                                       {"small", BodyKinematics::small},
+                                                                       {"floating", BodyKinematics::floating},
+                                                                       {"rigid", BodyKinematics::rigid}}};
 inline constexpr std::array<Word<solid::ContactLaw>, 3> law_words{{{"automatic", solid::ContactLaw::automatic},
                                                                    {"reconstruction", solid::ContactLaw::reconstruction},
                                                                    {"pair_potential", solid::ContactLaw::pair_potential}}};
@@ -79,6 +83,10 @@ inline constexpr std::array<Word<bool>, 2> event_words{{{"on", true}, {"off", fa
 
 /// "memm"
 [[nodiscard]] std::string name_of(SolidIntegrator integrator);
+/// "floating"
+[[nodiscard]] std::string name_of(solid::Kinematics kinematics);
+/// That of all bodies; nothing where the scene or a pilot run decides.
+[[nodiscard]] std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics);
 
 /// With what depends on the dimension, and on nothing else, filled in: `interval` and the quadrature of contact.
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
+#include "abut/run/pilot_report.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/solid.hpp"
@@ -70,6 +71,7 @@ struct RunResult {
     std::int64_t inadmissible_overlaps_max = 0;          ///< largest number of `inadmissible_overlaps` at any record
     std::vector<Vector<Dim>> blind_corners;              ///< too sharp for contact to see them [m]
     std::optional<contact::EdgePair<Dim>> unseen_edges;  ///< that would cross without contact
+    std::optional<PilotReport> pilot;                    ///< under BodyKinematics::automatic
     bool all_may_turn = false;                           ///< no body is of Kinematics::small
     std::int64_t contact_faces_left_out = 0;             ///< their displacement is prescribed
     solid::StencilReport stencils;                       ///< of the faces between cells
@@ -82,7 +84,8 @@ struct RunResult {
     std::vector<Finding> findings;  ///< of the scene
 };
 
-/// What the solid of a scene is made with.
+/// What the solid of a scene is made with; under BodyKinematics::automatic with the kinematics of the scene, which a pilot run
+/// replaces.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
 /// Of the points of the scene's solid, (n_points, Dim) [m].

@@ -20,6 +20,7 @@
 #include "abut/dynamics/memm_async.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/mesh/interpenetration.hpp"
+#include "abut/run/pilot.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -51,10 +52,21 @@ EnergyScale known_scale(EnergyScale scale, double kinetic) {
     return scale;
 }
 
+/// With what the pilot run picked, if there was one.
+template <int Dim>
+solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options,
+                                       const std::optional<PilotReport>& pilot) {
+    solid::SolidOptions<Dim> solid = run::solid_options(scene, options);
+    if (pilot) solid.kinematics = pilot->kinematics();
+    return solid;
+}
+
 /// What a run begins from, whatever its integrator.
 template <int Dim>
 struct Start {
-    Start(const Scene<Dim>& scene, const RunOptions& options) : solid(scene.mesh, solid_options(scene, options)) {
+    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot)
+        : solid(scene.mesh, solid_options(scene, options, pilot)) {
+        result.pilot = std::move(pilot);
         result.stable = dynamics::stable_step(solid);
         result.finest_dt = result.dt = choose_step(options, result.stable.dt);
         if (options.integrator == SolidIntegrator::memm_async) set_local_steps(options);
@@ -240,7 +252,9 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
             const Stopwatch watch(seconds.setup);
             if (scene.contact)
                 mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase);
-            start.emplace(scene, options);
+            std::optional<PilotReport> pilot;
+            if (options.kinematics == BodyKinematics::automatic) pilot = choose_kinematics(scene, options);
+            start.emplace(scene, options, std::move(pilot));
         }
         RunResult<Dim>& result = start->result;
         result.options = options;

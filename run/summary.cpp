@@ -38,6 +38,20 @@ Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     return bodies;
 }
 
+Json pilot_json(const PilotReport& pilot) {
+    Json bodies = Json::array();
+    for (const PilotBody& body : pilot.bodies)
+        bodies.push_back(
+            {{"kinematics", name_of(body.picked)}, {"rotation", body.rotation}, {"strain_share", body.strain_share}});
+    const auto seconds = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    return {{"bodies", bodies},
+            {"steps", pilot.steps},
+            {"seconds", pilot.seconds},
+            {"seconds_small", seconds(pilot.small)},
+            {"seconds_floating", seconds(pilot.floating)},
+            {"seconds_rigid", seconds(pilot.rigid)}};
+}
+
 template <int Dim>
 Json seconds_json(const RunResult<Dim>& result) {
     const auto& seconds = result.seconds;
@@ -224,6 +238,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(restarts_json(result));
     json.update(counts_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
+    if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
     json.update({{"mesh", mesh_json(scene.mesh.report)},
                  {"bodies", bodies_json(scene, result)},
                  {"seconds", seconds_json(result)},

@@ -24,6 +24,7 @@ template <int Dim>
 void RunLog<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
     spdlog::info("{} cells, {} boundary faces; {} steps of {:.4g} s", scene.mesh.n_cells(), scene.mesh.boundary_faces.size(),
                  result.steps, result.dt);
+    if (result.pilot) spdlog::info("kinematics: {}", run::text_of(*result.pilot, scene.mesh.body_names));
     log_warnings(run::warnings_before(scene, result));
 }
 
