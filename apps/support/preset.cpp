@@ -9,7 +9,7 @@ namespace abut::apps {
 std::string words_of(Preset preset) {
     switch (preset) {
         case Preset::fast:
-            return "--cfl 0.99 --events off --quadrature 1";
+            return "--cfl 0.99 --events off";
         case Preset::balanced:
             return "";
         case Preset::exact:
