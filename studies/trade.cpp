@@ -1,13 +1,15 @@
 // What a faster setting costs, and what a slower one gives: the same few scenes over the ladder of all choices.
 //
-// Each setting, as it would be typed, is run on each mesh of each problem: two cylinders that slip (2D, 3D), a cylinder on a
-// block at rest, a bar that hits a wall. The table has four errors beside the seconds: drift of H~, error of the true
-// energy H, of the restitution, of the contact pressure. Cylinders are run with finite elements and contact on their nodes,
-// too ("nodes"), on the same meshes. A run is on the front where no other one of its problem is as fast
+// Each setting, as it would be typed, is run on each mesh of each problem: two cylinders that slip (2D, 3D), two discs that
+// turn before they meet, a cylinder on a block at rest, a bar that hits a wall. The table has five errors beside the
+// seconds: drift of H~, error of the true energy H, of the restitution, of the velocity after an impact, of the contact
+// pressure. Round bodies are run with finite elements and contact on their nodes, too ("nodes"), on the same meshes. A run is on the front where no other one of its problem is as fast
 // and as good. docs/trade.md reads the table; the presets of the other programs follow from it.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
@@ -25,6 +27,9 @@ const apps::Program program{
     .footer =
         "Seconds are those of the steps, least of --repetitions. Shared machines are noisy: trust ratios of two, not "
         "of one and a tenth."};
+
+const apps::Choices<Extent> extents = {
+    {"each", Extent::each}, {"kinematics", Extent::kinematics}, {"products", Extent::products}};
 
 struct Options {
     std::vector<std::string> only;
@@ -55,8 +60,9 @@ void add_options(CLI::App& app, Options& options) {
         ->check(apps::one_of(names))
         ->type_name("NAME,...")
         ->group("Ladder");
-    apps::add_choice(app, "--settings", options.extent, "each choice by itself, or products of those that act together, too",
-                     apps::Choices<Extent>{{"each", Extent::each}, {"products", Extent::products}})
+    apps::add_choice(app, "--settings", options.extent,
+                     "each choice by itself, kinematics and presets alone, or products of choices that act together, too",
+                     extents)
         ->group("Ladder");
     app.add_option("--also", options.settings,
                    "a setting of your own, in quotation marks: \"--cfl 0.5 --events off\"; may come again; by default none")
@@ -79,20 +85,26 @@ void add_options(CLI::App& app, Options& options) {
 }
 
 nlohmann::ordered_json to_json(const Options& options) {
-    return {{"only", options.only},     {"settings", options.extent == Extent::each ? "each" : "products"},
+    return {{"only", options.only},     {"settings", apps::name_of(extents, options.extent)},
             {"also", options.settings}, {"levels", options.levels},
             {"limit", options.limit},   {"repetitions", options.repetitions}};
 }
 
 /// Runs it; every exception becomes a row.
-Row attempt(const Problem& problem, int level, const Setting& setting, double reference, double limit) {
+Row attempt(const Problem& problem, int level, const Setting& setting, const Reference& reference, double limit) {
     Row row{.problem = problem.name, .level = level, .setting = setting};
-    const auto on_nodes = std::ranges::find(nodal_ladder(), setting, &NodalSetting::setting);
+    const std::vector<NodalSetting> nodal = nodal_ladder(problem.motion);
+    const auto on_nodes = std::ranges::find(nodal, setting, &NodalSetting::setting);
     try {
-        run::RunOptions run = problem.base;
-        if (on_nodes == nodal_ladder().end()) apps::apply_words(setting, run);
-        row.outcome = on_nodes == nodal_ladder().end() ? problem.solve(run, level, reference, limit)
-                                                       : problem.solve_on_nodes(on_nodes->run, level, reference, limit);
+        if (on_nodes != nodal.end()) {
+            row.model = model_of(on_nodes->run);
+            row.outcome = problem.solve_on_nodes(on_nodes->run, level, reference, limit);
+        } else {
+            run::RunOptions run = problem.base;
+            apps::apply_words(setting, run);
+            row.model = model_of(run);
+            row.outcome = problem.solve(run, level, reference, limit);
+        }
     } catch (const std::exception& error) {
         row.refusal = error.what();
     }
@@ -101,28 +113,27 @@ Row attempt(const Problem& problem, int level, const Setting& setting, double re
 
 /// Of the ladder, then those of the user, then those of another host.
 std::vector<Setting> settings_of(const Problem& problem, const Options& options) {
-    std::vector<Setting> settings = ladder(options.extent, problem.at_rest);
+    std::vector<Setting> settings = ladder(options.extent, problem.motion);
     for (const Setting& setting : options.settings)
         if (std::ranges::find(settings, setting) == settings.end()) settings.push_back(setting);
     if (problem.solve_on_nodes)
-        for (const NodalSetting& on_nodes : nodal_ladder()) settings.push_back(on_nodes.setting);
+        for (const NodalSetting& on_nodes : nodal_ladder(problem.motion)) settings.push_back(on_nodes.setting);
     return settings;
 }
 
-/// Restitution of the finest mesh, where there is no exact one.
-double reference_of(const Problem& problem) {
-    if (problem.reference_level == 0) return run::not_given;
-    run::RunOptions run = problem.base;
-    apps::apply_words(apps::words_of(apps::Preset::exact), run);
-    const double reference = problem.restitution(run, problem.reference_level);
-    fmt::print("  {:>4}  restitution {:.6f}, --preset exact\n", problem.reference_level, reference);
+/// By runs of their own, where there are no exact values.
+Reference reference_of(const Problem& problem) {
+    if (!problem.reference) return {};
+    const Reference reference = problem.reference();
+    if (!std::isnan(reference.restitution)) fmt::print("  restitution {:.6f}, --preset exact\n", reference.restitution);
+    fmt::print("  velocity {:.6f}, on nodes with the filter\n", fmt::join(reference.velocity, " "));
     return reference;
 }
 
 std::vector<Row> climb(const Problem& problem, const Options& options) {
     print_head(problem);
     const std::vector<Setting> settings = settings_of(problem, options);
-    const double reference = reference_of(problem);
+    const Reference reference = reference_of(problem);
     std::vector<int> levels = problem.levels;
     if (options.levels > 0) levels.resize(std::min(levels.size(), static_cast<std::size_t>(options.levels)));
     std::vector<Row> rows;

@@ -8,11 +8,19 @@
 namespace abut::studies::trade {
 namespace {
 
+/// What an option is a choice of.
+enum class Of {
+    reconstruction,  ///< the modified reconstruction in motion
+    model,           ///< the same, at rest, too
+    bulk,            ///< all bodies, at rest, too
+    run,             ///< all runs in time
+};
+
 /// An option and its values except the default.
 struct Axis {
     std::string option;
     std::vector<std::string> values;
-    bool at_rest = false;  ///< bodies at rest depend on it, too
+    Of of;
 };
 
 std::vector<std::string> other_broad_phases() {
@@ -23,18 +31,46 @@ std::vector<std::string> other_broad_phases() {
 }
 
 const std::vector<Axis>& axes() {
-    static const std::vector<Axis> all = {{"--broad-phase", other_broad_phases(), true},
-                                          {"--overlap", {"frozen"}},
-                                          {"--weights", {"half"}, true},
-                                          {"--events", {"off"}},
-                                          {"--quadrature", {"1", "2", "3"}},
-                                          {"--area", {"exact"}, true},
-                                          {"--neumann", {"extrapolate", "adjacent"}, true},
-                                          {"--corners", {"fixed"}, true},
-                                          {"--cfl", {"0.3", "0.6"}},
-                                          {"--filter", {"neutral"}},
-                                          {"--integrator", {"memm_async", "leapfrog", "bilbao"}}};
+    static const std::vector<Axis> all = {{"--broad-phase", other_broad_phases(), Of::bulk},
+                                          {"--overlap", {"frozen"}, Of::reconstruction},
+                                          {"--weights", {"half"}, Of::model},
+                                          {"--events", {"off"}, Of::run},
+                                          {"--quadrature", {"1", "2", "3"}, Of::reconstruction},
+                                          {"--area", {"exact"}, Of::model},
+                                          {"--neumann", {"extrapolate", "adjacent"}, Of::bulk},
+                                          {"--corners", {"fixed"}, Of::bulk},
+                                          {"--cfl", {"0.3", "0.6"}, Of::run},
+                                          {"--filter", {"neutral"}, Of::run},
+                                          {"--integrator", {"memm_async", "leapfrog", "bilbao"}, Of::run}};
     return all;
+}
+
+bool matters(Of of, Motion motion) {
+    switch (motion) {
+        case Motion::at_rest:
+            return of == Of::model || of == Of::bulk;
+        case Motion::translating:
+            return true;
+        case Motion::turning:
+            return of == Of::bulk || of == Of::run;
+    }
+    return false;
+}
+
+/// Kinematics and laws except those of the defaults.
+std::vector<Setting> kinematics(Motion motion) {
+    if (motion == Motion::translating) return {"--law pair_potential", "--kinematics floating", "--kinematics rigid"};
+    return {"--kinematics small", "--kinematics small --law pair_potential", "--kinematics rigid"};
+}
+
+/// Presets by themselves, and beside bodies that float.
+std::vector<Setting> of_presets(Motion motion) {
+    std::vector<Setting> settings;
+    for (const auto& [name, preset] : apps::presets) settings.push_back(apps::words_of(preset));
+    if (motion == Motion::translating)
+        for (const apps::Preset preset : {apps::Preset::fast, apps::Preset::exact})
+            settings.push_back(apps::words_of(preset) + " --kinematics floating");
+    return settings;
 }
 
 using Factor = std::vector<std::string>;  // words of one option, "" for its default
@@ -59,16 +95,19 @@ void append_new(std::vector<Setting>& settings, const std::vector<Setting>& more
 
 }  // namespace
 
-std::vector<Setting> ladder(Extent extent, bool at_rest) {
+std::vector<Setting> ladder(Extent extent, Motion motion) {
     std::vector<Setting> settings = {""};
-    for (const Axis& axis : axes())
-        for (const std::string& value : axis.values)
-            if (axis.at_rest || !at_rest) settings.push_back(axis.option + " " + value);
-    if (at_rest) return settings;
-    for (const auto& [name, preset] : apps::presets) append_new(settings, {apps::words_of(preset)});
-    if (extent == Extent::each) return settings;
+    if (extent != Extent::kinematics)
+        for (const Axis& axis : axes())
+            for (const std::string& value : axis.values)
+                if (matters(axis.of, motion)) settings.push_back(axis.option + " " + value);
+    if (motion == Motion::at_rest) return settings;
+    append_new(settings, kinematics(motion));
+    append_new(settings, of_presets(motion));
+    if (extent != Extent::products) return settings;
     const Factor cfl = {"", "--cfl 0.3", "--cfl 0.6"};
-    append_new(settings, product({{"", "--overlap frozen"}, {"", "--events off"}, {"", "--quadrature 1"}, cfl}));
+    if (motion == Motion::translating)
+        append_new(settings, product({{"", "--overlap frozen"}, {"", "--events off"}, {"", "--quadrature 1"}, cfl}));
     append_new(settings, product({cfl, {"", "--filter neutral"}}));
     return settings;
 }

@@ -11,11 +11,20 @@ using Setting = std::string;
 
 /// Which settings are run.
 enum class Extent {
-    each,      ///< each choice by itself, all others at their defaults, and the presets
-    products,  ///< also all combinations of overlap x events x quadrature x time step, and of filter x time step
+    each,        ///< each choice by itself, all others at their defaults, and the presets
+    kinematics,  ///< kinematics, laws of contact and presets alone
+    products,    ///< also all combinations of overlap x events x quadrature x time step, and of filter x time step
 };
 
-/// All different, the defaults first. Of a problem at rest only what matters at rest.
-[[nodiscard]] std::vector<Setting> ladder(Extent extent, bool at_rest);
+/// How the bodies of a problem move.
+enum class Motion {
+    at_rest,      ///< solved by statics: no scheme in time, no drift
+    translating,  ///< small bodies are right
+    turning,      ///< they are not: bodies float where no setting says otherwise
+};
+
+/// All different, the defaults first. Of a problem at rest only what matters at rest; of bodies that turn only what bodies
+/// that float can be asked, and the other kinematics.
+[[nodiscard]] std::vector<Setting> ladder(Extent extent, Motion motion);
 
 }  // namespace abut::studies::trade

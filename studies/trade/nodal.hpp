@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <vector>
 
 #include "abut/run/scene.hpp"
@@ -8,17 +9,32 @@
 
 namespace abut::studies::trade {
 
-/// The host of linear finite elements with contact on its nodes, as a row of the table beside the cell-centred solid.
-struct NodalSetting {
-    Setting setting;  ///< "nodes", then what differs from its defaults, as `turning` takes it
-    nodal::ImpactOptions run;
-};
-[[nodiscard]] const std::vector<NodalSetting>& nodal_ladder();
+inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// The bodies of `scene`, of triangles or tetrahedra, in small strain; `speed` is that of the impact [m/s]. Throws
-/// std::runtime_error where the run ends before its time, or takes longer than `limit` [s].
+/// How the host of linear finite elements runs, with contact on its nodes.
+struct NodalRun {
+    nodal::Strain strain = nodal::Strain::small;
+    nodal::ImpactOptions options = {};
+};
+
+/// A row of that host beside the cell-centred solid.
+struct NodalSetting {
+    Setting setting;  ///< "nodes", then what differs from its defaults
+    NodalRun run;
+};
+/// All different; bodies that turn have finite strains, and small ones once, to compare.
+[[nodiscard]] std::vector<NodalSetting> nodal_ladder(Motion motion);
+
 template <int Dim>
-[[nodiscard]] Outcome solve_on_nodes(const run::Scene<Dim>& scene, const nodal::ImpactOptions& options, double speed,
-                                     double limit, std::vector<Vector<Dim>>& velocity_at_end);
+struct NodalOutcome {
+    Outcome outcome;
+    std::vector<Vector<Dim>> velocity;  ///< of each body at the end [m/s]
+};
+/// The bodies of `scene`, of triangles or tetrahedra, with one spin [rad/s] about one centre each; `speed` is that of the
+/// impact [m/s]. Throws std::runtime_error where the run ends before its time, or takes longer than `limit` [s].
+template <int Dim>
+[[nodiscard]] NodalOutcome<Dim> solve_on_nodes(const run::Scene<Dim>& scene, const std::vector<AxialVector<Dim>>& spin,
+                                               const std::vector<Vector<Dim>>& centre, const NodalRun& run, double speed,
+                                               double limit);
 
 }  // namespace abut::studies::trade

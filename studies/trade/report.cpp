@@ -18,7 +18,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t columns = 3;     // of panels; the place after the last one has the key
 constexpr double least_shown = 1e-17;  // zero has no place on a logarithmic axis
+
+/// The word of the files for a model, and its points in the picture.
+struct Mark {
+    Model model;
+    const char* word;
+    int shape;
+};
+constexpr std::array<Mark, 6> marks{{{Model::reconstruction, "small + reconstruction", 7},
+                                     {Model::pair_potential, "small + pair potential", 5},
+                                     {Model::floating, "floating + pair potential", 9},
+                                     {Model::rigid, "rigid + pair potential", 13},
+                                     {Model::nodes, "nodes + small strain", 1},
+                                     {Model::finite_nodes, "nodes + finite strain", 2}}};
+
+std::string word_of(Model model) { return std::ranges::find(marks, model, &Mark::model)->word; }
 
 std::string preset_of(const Setting& setting) {
     for (const auto& [name, preset] : apps::presets)
@@ -40,25 +56,26 @@ bool is_on_front(const Row& row, const std::vector<Row>& rows, const Measure& me
 }
 
 std::string csv_text(const std::vector<Row>& rows) {
-    std::string text = "problem,level,setting,preset,finished,cells,steps,seconds,ratio";
+    std::string text = "problem,level,setting,model,preset,finished,cells,steps,seconds,ratio";
     for (const Measure& measure : measures) text += fmt::format(",{0}_error,{0}_front", measure.key);
-    text += ",energy_excess_max,parasitic_max,events,lost_contacts,message\n";
+    text += ",energy_excess_max,parasitic_max,momentum_drift,pseudo_angular_momentum_drift,events,lost_contacts,message\n";
     for (const Row& row : rows) {
         const Outcome& outcome = row.outcome;
-        text += fmt::format("{},{},{},{},{},{},{},{},{}", row.problem, row.level, apps::quoted(row.setting),
-                            preset_of(row.setting), row.finished() ? 1 : 0, outcome.cells, outcome.steps,
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", row.problem, row.level, apps::quoted(row.setting),
+                            word_of(row.model), preset_of(row.setting), row.finished() ? 1 : 0, outcome.cells, outcome.steps,
                             row.finished() ? apps::all_digits(outcome.seconds) : "", apps::all_digits(row.ratio));
         for (std::size_t i = 0; i < measures.size(); ++i)
             text += fmt::format(",{},{}", apps::all_digits(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
-        text += fmt::format(",{},{},{},{},{}\n", apps::all_digits(outcome.excess), apps::all_digits(outcome.parasitic),
-                            outcome.events, outcome.lost_contacts, apps::quoted(row.refusal));
+        text += fmt::format(",{},{},{},{},{},{},{}\n", apps::all_digits(outcome.excess), apps::all_digits(outcome.parasitic),
+                            apps::all_digits(outcome.momentum), apps::all_digits(outcome.pseudo_angular), outcome.events,
+                            outcome.lost_contacts, apps::quoted(row.refusal));
     }
     return text;
 }
 
 Json to_json(const Row& row) {
     const Outcome& outcome = row.outcome;
-    Json json{{"problem", row.problem}, {"level", row.level}, {"setting", row.setting}};
+    Json json{{"problem", row.problem}, {"level", row.level}, {"setting", row.setting}, {"model", word_of(row.model)}};
     if (!row.finished()) {
         json["message"] = row.refusal;
         return json;
@@ -71,6 +88,8 @@ Json to_json(const Row& row) {
                  {"on_front", Json::array()},
                  {"energy_excess_max", apps::json_number(outcome.excess)},
                  {"parasitic_max", apps::json_number(outcome.parasitic)},
+                 {"momentum_drift", apps::json_number(outcome.momentum)},
+                 {"pseudo_angular_momentum_drift", apps::json_number(outcome.pseudo_angular)},
                  {"events", outcome.events},
                  {"lost_contacts", outcome.lost_contacts}});
     for (std::size_t i = 0; i < measures.size(); ++i) {
@@ -116,7 +135,7 @@ std::string front_data(const std::string& name, const std::string& problem, std:
     return text + "EOD\n";
 }
 
-constexpr std::array<const char*, 4> colours{"#2a78d6", "#8a4fc7", "#3c9d5b", "#eb6834"};  // of the problems
+constexpr std::array<const char*, 5> colours{"#2a78d6", "#8a4fc7", "#c2992b", "#3c9d5b", "#eb6834"};  // of the problems
 constexpr std::array<int, 3> shapes{8, 6, 4};  // of the presets: triangle, circle, square
 
 std::string colour_of(const std::string& problem) {
@@ -131,13 +150,17 @@ std::vector<std::string> key(const std::vector<Row>& rows) {
         if (std::ranges::find(rows, problem.name, &Row::problem) != rows.end())
             lines.push_back(fmt::format("keyentry with points pt 7 ps 0.9 lc rgb \"{}\" title \"{}\"",
                                         colour_of(problem.name), problem.name));
+    for (const Mark& mark : marks)
+        if (std::ranges::find(rows, mark.model, &Row::model) != rows.end())
+            lines.push_back(
+                fmt::format("keyentry with points pt {} ps 0.9 lc rgb \"black\" title \"{}\"", mark.shape, mark.word));
     for (std::size_t p = 0; p < apps::presets.size(); ++p)
         lines.push_back(fmt::format("keyentry with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" title \"{}\"", shapes[p],
                                     apps::presets[p].first));
     return lines;
 }
 
-/// One error against the seconds: a colour a problem, its front a line.
+/// One error against the seconds: a colour per problem, a shape per model, the front of a problem a line.
 std::string panel(std::size_t i, const std::vector<Row>& rows) {
     const Measure& measure = measures[i];
     const std::vector<std::string> names = problems_with(measure, rows);
@@ -153,29 +176,44 @@ std::string panel(std::size_t i, const std::vector<Row>& rows) {
     for (const std::string& name : names) {
         const std::string front = fmt::format("$front_{}_{}", measure.key, name), colour = colour_of(name);
         data += front_data(front, name, i, rows);
-        lines.push_back(fmt::format("{} with points pt 7 ps 0.6 lc rgb \"{}\" notitle",
-                                    points(fmt::format("strcol(\"problem\") eq \"{}\"", name)), colour));
+        for (const Mark& mark : marks) {
+            const std::string is_its =
+                fmt::format("strcol(\"problem\") eq \"{}\" && strcol(\"model\") eq \"{}\"", name, mark.word);
+            lines.push_back(
+                fmt::format("{} with points pt {} ps 0.8 lc rgb \"{}\" notitle", points(is_its), mark.shape, colour));
+        }
         lines.push_back(fmt::format("{} using 1:2 with lines lw 1.5 lc rgb \"{}\" notitle", front, colour));
     }
     for (std::size_t p = 0; p < apps::presets.size(); ++p)
         lines.push_back(fmt::format("{} with points pt {} ps 1.8 lw 1.5 lc rgb \"black\" notitle",
                                     points(fmt::format("strcol(\"preset\") eq \"{}\"", apps::presets[p].first)), shapes[p]));
     for (const std::string& line : key(rows)) lines.push_back(line);
-    return fmt::format("{}set origin {},{}\nset size 0.5,0.47\nset ylabel \"{}\" noenhanced\nplot {}\nset key off\n", data,
-                       i % 2 == 0 ? 0.0 : 0.5, i < 2 ? 0.48 : 0.0, measure.label, fmt::join(lines, ", \\\n     "));
+    return fmt::format("{}set origin {},{}\nset size 0.33,0.47\nset ylabel \"{}\" noenhanced\nplot {}\nset key off\n", data,
+                       0.33 * static_cast<double>(i % columns), i < columns ? 0.48 : 0.0, measure.label,
+                       fmt::join(lines, ", \\\n     "));
 }
 
 run::Picture picture(const std::vector<Row>& rows) {
     std::string script =
         "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n"
-        "set key center right\n";
+        "set key at screen 0.97,0.44 right top\n";
     for (std::size_t i = 0; i < measures.size(); ++i) script += panel(i, rows);
     return {.name = "pareto",
             .purpose = "Errors against seconds, and the runs that no other one beats, from trade.csv beside this file",
+            .width = 1800,
             .script = script + "unset multiplot\n"};
 }
 
 }  // namespace
+
+Model model_of(const run::RunOptions& run) {
+    const solid::Kinematics kinematics = run.kinematics.value_or(solid::Kinematics::small);
+    if (kinematics == solid::Kinematics::floating) return Model::floating;
+    if (kinematics == solid::Kinematics::rigid) return Model::rigid;
+    return run.law == solid::ContactLaw::pair_potential ? Model::pair_potential : Model::reconstruction;
+}
+
+Model model_of(const NodalRun& run) { return run.strain == nodal::Strain::small ? Model::nodes : Model::finite_nodes; }
 
 void compare(std::vector<Row>& rows) {
     for (Row& row : rows) {
@@ -190,7 +228,7 @@ void compare(std::vector<Row>& rows) {
 void print_head(const Problem& problem) {
     fmt::print("{}: {}\n  {:>4}  {:<52}{:>8}", problem.name, problem.text, "", "", "seconds");
     for (const Measure& measure : measures) fmt::print("{:>12}", measure.key);
-    fmt::print("{:>9}{:>9}{:>8}{:>5}\n", "H - H~", "|e|/m v", "events", "lost");
+    fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>5}\n", "H - H~", "|e|/m v", "P", "J~", "events", "lost");
 }
 
 void print(const Row& row) {
@@ -199,8 +237,9 @@ void print(const Row& row) {
     if (row.finished()) {
         fmt::print("{:>8.2g}", outcome.seconds);
         for (const Measure& measure : measures) fmt::print("{:>12}", apps::two_digits(outcome.errors.*measure.error));
-        fmt::print("{:>9}{:>9}{:>8}{:>5}\n", apps::two_digits(outcome.excess), apps::two_digits(outcome.parasitic),
-                   outcome.events, outcome.lost_contacts);
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>5}\n", apps::two_digits(outcome.excess), apps::two_digits(outcome.parasitic),
+                   apps::two_digits(outcome.momentum), apps::two_digits(outcome.pseudo_angular), outcome.events,
+                   outcome.lost_contacts);
     } else {
         fmt::print("\n        {}\n", row.refusal);
     }

@@ -9,11 +9,17 @@
 
 namespace abut::studies::trade {
 
+/// What bodies are and what acts between them.
+enum class Model { reconstruction, pair_potential, floating, rigid, nodes, finite_nodes };
+[[nodiscard]] Model model_of(const run::RunOptions& run);
+[[nodiscard]] Model model_of(const NodalRun& run);
+
 /// A line of the table.
 struct Row {
     std::string problem;
     int level;
     Setting setting;
+    Model model = Model::reconstruction;
     Outcome outcome;
     std::string refusal;                           ///< why it did not come to its end; empty: it did
     double ratio = run::not_given;                 ///< seconds over those of the defaults on the same mesh
