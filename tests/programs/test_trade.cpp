@@ -153,13 +153,14 @@ TEST_CASE("a preset is the options that it names, and options beside it win wher
     CHECK(options_used("--preset exact")["filter"] == "neutral");
 }
 
-TEST_CASE("a preset says nothing of kinematics, and bodies that float take every preset", "[programs][trade]") {
+TEST_CASE("a preset says nothing of kinematics, and goes with each of them", "[programs][trade]") {
     for (const auto& [name, preset] : apps::presets) {
         INFO(name);
         const auto alone = options_used("--preset " + name);
         CHECK(alone["kinematics"] == "scene");
         CHECK(alone["law"] == "automatic");
-        CHECK(options_used("--kinematics floating --preset " + name)["kinematics"] == "floating");
+        for (const std::string kinematics : {"floating", "rigid"})
+            CHECK(options_used("--kinematics " + kinematics + " --preset " + name)["kinematics"] == kinematics);
     }
 }
 
