@@ -20,6 +20,9 @@ const std::vector<Part>& parts() {
         {"ball", "A rigid ball bounces on an elastic block: for how long does it touch?", run_ball},
         {"chute", "A rigid disc slides down flat facets: does it begin to spin?", run_chute},
         {"cradle", "Five discs in a row: does the last one take the velocity?", run_cradle},
+        {"spheres", "The same in space: of five spheres, does the last one take the velocity?", run_spheres},
+        {"gears", "Two gears on axles: do they turn, and load each other, as the teeth are counted?", run_gears},
+        {"rotor", "A rotor hits plates on springs: do the books and the impulses balance?", run_rotor},
         {"pile", "Polygons in a box under gravity; and what rigid bodies cost.", run_pile},
     };
     return all;

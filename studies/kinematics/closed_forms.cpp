@@ -41,6 +41,32 @@ double flip_period(const Vector<3>& inertia, const Vector<3>& spin) {
     return std::numbers::pi / (a * rate);
 }
 
+std::vector<double> velocities_of(const Chain& chain, double time) {
+    constexpr int steps = 1'000'000;
+    const auto n = static_cast<std::size_t>(chain.masses);
+    std::vector<double> x(n, 0.0), v(n, 0.0), force(n);
+    v[0] = chain.speed;
+    const double dt = time / steps;
+    const auto push = [&](double share) {
+        std::ranges::fill(force, 0.0);
+        for (std::size_t i = 0; i + 1 < n; ++i) {
+            const double depth = x[i] - x[i + 1] - chain.gap;
+            if (depth <= 0.0) continue;
+            const double of_pair = chain.stiffness * std::pow(depth, chain.exponent);
+            force[i] -= of_pair;
+            force[i + 1] += of_pair;
+        }
+        for (std::size_t i = 0; i < n; ++i) v[i] += share * dt * force[i] / chain.mass;
+    };
+    push(0.5);
+    for (int step = 0; step < steps; ++step) {
+        for (std::size_t i = 0; i < n; ++i) x[i] += dt * v[i];
+        push(step + 1 == steps ? 0.5 : 1.0);
+    }
+    for (double& of_mass : v) of_mass /= chain.speed;
+    return v;
+}
+
 double angle_between(const Matrix<3>& a, const Matrix<3>& b) {
     return 2.0 * std::asin(std::min(1.0, (a - b).norm() / std::sqrt(8.0)));
 }

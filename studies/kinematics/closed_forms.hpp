@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "abut/base/vector.hpp"
 
 namespace abut::studies::kinematics {
@@ -15,6 +17,19 @@ namespace abut::studies::kinematics {
 
 /// The angle of the rotation from a to b [rad].
 [[nodiscard]] double angle_between(const Matrix<3>& a, const Matrix<3>& b);
+
+/// Equal point masses in a row, neighbours pushing each other apart by stiffness * depth^exponent where they are nearer than
+/// at the start by more than the gap; the first one comes with a speed.
+struct Chain {
+    int masses = 5;
+    double mass = 1.0;       ///< [kg]
+    double stiffness = 1.0;  ///< [N/m^exponent]
+    double exponent = 1.0;   ///< 1 for flat faces, 1.5 for spheres (Hertz)
+    double gap = 0.0;        ///< [m]
+    double speed = 1.0;      ///< [m/s]
+};
+/// Velocities at a time over that of the first at the start, by a million steps of velocity Verlet.
+[[nodiscard]] std::vector<double> velocities_of(const Chain& chain, double time);
 
 /// The first root of an increasing or decreasing f between two times, by bisection.
 template <class F>

@@ -39,6 +39,9 @@ void run_tumble(const Options& options, const Sink& sink);
 void run_ball(const Options& options, const Sink& sink);
 void run_chute(const Options& options, const Sink& sink);
 void run_cradle(const Options& options, const Sink& sink);
+void run_spheres(const Options& options, const Sink& sink);
+void run_gears(const Options& options, const Sink& sink);
+void run_rotor(const Options& options, const Sink& sink);
 void run_pile(const Options& options, const Sink& sink);
 
 /// Runs it into a folder of its own under `options.out`, with the quantities that every run has to meet: H~, what nothing

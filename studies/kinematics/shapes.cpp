@@ -1,5 +1,6 @@
 #include "studies/kinematics/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,6 +16,71 @@ struct Rings {
         if (ring == 0) return 0;
         return 1 + corners * ring * (ring - 1) / 2 + (side * ring + place) % (corners * ring);
     }
+};
+
+/// Vertices of a gear: rows of the ring from the bore to the ground of the gaps, then those of each tooth above it.
+class GearGrid {
+public:
+    explicit GearGrid(const Gear& gear) : gear_(gear) {
+        const double module = 2.0 * gear.radius / gear.teeth, pitch = 2.0 * std::numbers::pi / gear.teeth;
+        root_ = gear.radius - 1.25 * module;
+        tip_ = gear.radius + module;
+        const double side = 2.0 * half_tooth(gear, root_) * root_ / gear.cells;  // of a cell
+        gap_cells_ = std::max(2, static_cast<int>(std::lround(pitch * root_ / side)) - gear.cells);
+        rows_ = std::max(2, static_cast<int>(std::lround((tip_ - root_) / side)));
+        layers_ = std::max(2, static_cast<int>(std::lround((root_ - gear.bore) / side)));
+    }
+    [[nodiscard]] mesh::CellSoup<2> soup() const {
+        mesh::CellSoup<2> soup;
+        soup.name = gear_.name;
+        soup.body_names = {gear_.name};
+        for (int layer = 0; layer <= layers_; ++layer)
+            for (int i = 0; i < around(); ++i) soup.vertices.push_back(of_ring(layer, i));
+        for (int tooth = 0; tooth < gear_.teeth; ++tooth)
+            for (int row = 1; row <= rows_; ++row)
+                for (int i = 0; i <= gear_.cells; ++i) soup.vertices.push_back(of_tooth(tooth, row, i));
+        const auto append = [&](int a, int b, int c, int d) {
+            soup.cell_vertices.append(std::array<std::int32_t, 4>{a, b, c, d});
+            soup.cell_shape.push_back(mesh::CellShape::quadrangle);
+            soup.cell_body.push_back(0);
+        };
+        for (int layer = 0; layer < layers_; ++layer)
+            for (int i = 0; i < around(); ++i)
+                append(ring(layer, i), ring(layer + 1, i), ring(layer + 1, i + 1), ring(layer, i + 1));
+        for (int tooth = 0; tooth < gear_.teeth; ++tooth)
+            for (int row = 0; row < rows_; ++row)
+                for (int i = 0; i < gear_.cells; ++i)
+                    append(above(tooth, row, i), above(tooth, row + 1, i), above(tooth, row + 1, i + 1),
+                           above(tooth, row, i + 1));
+        return soup;
+    }
+
+private:
+    [[nodiscard]] int around() const { return gear_.teeth * (gear_.cells + gap_cells_); }
+    [[nodiscard]] int ring(int layer, int i) const { return layer * around() + i % around(); }
+    [[nodiscard]] int above(int tooth, int row, int i) const {
+        if (row == 0) return ring(layers_, tooth * (gear_.cells + gap_cells_) + i);
+        return (layers_ + 1) * around() + (tooth * rows_ + row - 1) * (gear_.cells + 1) + i;
+    }
+    [[nodiscard]] Vector<2> at(double radius, double angle) const {
+        return gear_.centre + radius * Vector<2>(std::cos(angle), std::sin(angle));
+    }
+    [[nodiscard]] Vector<2> of_tooth(int tooth, int row, int i) const {
+        const double radius = root_ + (tip_ - root_) * row / rows_;
+        const double middle = gear_.phase + 2.0 * std::numbers::pi * tooth / gear_.teeth;
+        return at(radius, middle + half_tooth(gear_, radius) * (2.0 * i / gear_.cells - 1.0));
+    }
+    [[nodiscard]] Vector<2> of_ring(int layer, int i) const {
+        const int tooth = i / (gear_.cells + gap_cells_), k = i % (gear_.cells + gap_cells_);
+        const double pitch = 2.0 * std::numbers::pi / gear_.teeth, half = half_tooth(gear_, root_);
+        const double from_middle = k <= gear_.cells ? half * (2.0 * k / gear_.cells - 1.0)
+                                                    : half + (pitch - 2.0 * half) * (k - gear_.cells) / gap_cells_;
+        return at(gear_.bore + (root_ - gear_.bore) * layer / layers_, gear_.phase + pitch * tooth + from_middle);
+    }
+
+    const Gear& gear_;
+    double root_, tip_;
+    int gap_cells_, rows_, layers_;
 };
 
 }  // namespace
@@ -69,6 +135,66 @@ mesh::Mesh<2> polygon(const Polygon& polygon) {
                 append(inner, rings.vertex(ring + 1, side, i), rings.vertex(ring + 1, side, i + 1));
                 if (i < ring) append(inner, rings.vertex(ring + 1, side, i + 1), rings.vertex(ring, side, i + 1));
             }
+    return mesh::build_mesh(std::move(soup));
+}
+
+double half_tooth(const Gear& gear, double radius) {
+    const auto involute = [](double angle) { return std::tan(angle) - angle; };
+    const double base = gear.radius * std::cos(gear.pressure_angle);
+    const double thickness = 0.5 * std::numbers::pi / gear.teeth - 0.5 * gear.backlash / gear.radius;
+    return thickness + involute(gear.pressure_angle) - (radius > base ? involute(std::acos(base / radius)) : 0.0);
+}
+
+mesh::Mesh<2> gear(const Gear& gear) { return mesh::build_mesh(GearGrid(gear).soup()); }
+
+double Ball::back_area() const {
+    const double r = radius * std::sin(back);
+    return 0.5 * around * r * r * std::sin(2.0 * std::numbers::pi / around);
+}
+
+namespace {
+
+/// Corners of a ball from its centre: the middles of its caps, then circle by circle from the one in front on.
+std::vector<Vector<3>> corners_of(const Ball& ball) {
+    std::vector<Vector<3>> corners{ball.front_distance() * Vector<3>::UnitX(), -ball.back_distance() * Vector<3>::UnitX()};
+    for (int circle = 0; circle < ball.circles; ++circle)
+        for (int i = 0; i < ball.around; ++i) {
+            const double share = static_cast<double>(circle) / (ball.circles - 1),
+                         angle = 2.0 * std::numbers::pi * i / ball.around;
+            const double from_axis = (1.0 - share) * ball.front + share * (std::numbers::pi - ball.back);
+            const double aside = std::sin(from_axis);
+            corners.push_back(ball.radius *
+                              Vector<3>(std::cos(from_axis), aside * std::cos(angle), aside * std::sin(angle)));
+        }
+    return corners;
+}
+
+}  // namespace
+
+mesh::Mesh<3> faceted_ball(const Ball& ball) {
+    const std::vector<Vector<3>> corners = corners_of(ball);
+    const auto n = static_cast<std::int32_t>(corners.size());
+    mesh::CellSoup<3> soup;
+    soup.name = ball.name;
+    soup.body_names = {ball.name};
+    for (const double share : {1.0, 1.0 - ball.skin})
+        for (const Vector<3>& corner : corners) soup.vertices.push_back(ball.centre + share * corner);
+    soup.vertices.push_back(ball.centre);
+    const auto append = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+        soup.cell_vertices.append(std::array<std::int32_t, 6>{n + a, n + b, n + c, a, b, c});
+        soup.cell_vertices.append(std::array<std::int32_t, 4>{2 * n, n + a, n + b, n + c});
+        soup.cell_shape.insert(soup.cell_shape.end(), {mesh::CellShape::prism, mesh::CellShape::tetrahedron});
+        soup.cell_body.insert(soup.cell_body.end(), {0, 0});
+    };
+    const auto corner = [&](int circle, int i) { return 2 + circle * ball.around + i % ball.around; };
+    for (int i = 0; i < ball.around; ++i) {
+        append(0, corner(0, i), corner(0, i + 1));
+        append(1, corner(ball.circles - 1, i + 1), corner(ball.circles - 1, i));
+        for (int circle = 0; circle + 1 < ball.circles; ++circle) {
+            append(corner(circle, i), corner(circle + 1, i), corner(circle + 1, i + 1));
+            append(corner(circle, i), corner(circle + 1, i + 1), corner(circle, i + 1));
+        }
+    }
     return mesh::build_mesh(std::move(soup));
 }
 

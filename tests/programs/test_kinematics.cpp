@@ -93,3 +93,32 @@ TEST_CASE("a pile of rigid and elastic polygons keeps pseudo-energy, restarted o
     CHECK(check_targets(outcome) >= 14);
     CHECK(read_summary(outcome)["levels"][0]["run"]["pair_steps"] > 0);
 }
+
+TEST_CASE("gears turn and load each other as their teeth are counted", "[programs][kinematics]") {
+    const auto outcome = part("gears");
+    CHECK(check_targets(outcome) >= 20);
+    const auto summary = read_summary(outcome);
+    for (const auto& row : summary["levels"]) CHECK(row["run"]["pair_steps"] > 1000);
+    CHECK(std::filesystem::exists(outcome.directory / "gears_floating" / "bodies.pvd"));
+}
+
+TEST_CASE("a rotor that hits plates on springs balances work and impulses", "[programs][kinematics]") {
+    const auto outcome = part("rotor");
+    CHECK(check_targets(outcome) >= 45);
+    const auto summary = read_summary(outcome);
+    for (const auto& row : summary["levels"]) {
+        INFO(row["name"]);
+        CHECK(row["run"]["pair_steps"] > 500);
+        CHECK(value_of(summary, row["name"], "half periods seen") >= 4.0);
+    }
+}
+
+TEST_CASE("of five rigid spheres the last one takes the velocity, and where they touch they share it as springs do",
+          "[programs][kinematics]") {
+    const auto outcome = part("spheres");
+    CHECK(check_targets(outcome) >= 30);
+    const auto summary = read_summary(outcome);
+    const std::string last = "velocity of sphere 5, over that of the first before";
+    CHECK(value_of(summary, "spheres, rigid, one after the other", last) == Approx(1.0).margin(1e-6));
+    CHECK(value_of(summary, "spheres, rigid, nearly touching", last) < 0.97);
+}
