@@ -52,7 +52,7 @@ std::vector<double> velocities_of(const Chain& chain, double time) {
         for (std::size_t i = 0; i + 1 < n; ++i) {
             const double depth = x[i] - x[i + 1] - chain.gap;
             if (depth <= 0.0) continue;
-            const double of_pair = chain.stiffness * std::pow(depth, chain.exponent);
+            const double of_pair = chain.stiffness * depth;
             force[i] -= of_pair;
             force[i + 1] += of_pair;
         }

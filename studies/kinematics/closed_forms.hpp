@@ -18,13 +18,12 @@ namespace abut::studies::kinematics {
 /// The angle of the rotation from a to b [rad].
 [[nodiscard]] double angle_between(const Matrix<3>& a, const Matrix<3>& b);
 
-/// Equal point masses in a row, neighbours pushing each other apart by stiffness * depth^exponent where they are nearer than
-/// at the start by more than the gap; the first one comes with a speed.
+/// Equal point masses in a row, with springs between neighbours that push where these are nearer than at the start by more
+/// than the gap; the first one comes with a speed.
 struct Chain {
     int masses = 5;
     double mass = 1.0;       ///< [kg]
-    double stiffness = 1.0;  ///< [N/m^exponent]
-    double exponent = 1.0;   ///< 1 for flat faces, 1.5 for spheres (Hertz)
+    double stiffness = 1.0;  ///< [N/m]
     double gap = 0.0;        ///< [m]
     double speed = 1.0;      ///< [m/s]
 };

@@ -106,16 +106,8 @@ void strike_spheres(Kinematics kinematics, bool apart, const Options& options, c
                 ? faceted_ball(ball)
                 : mesh::sphere({.centre = ball.centre, .size = options.quick ? 0.6 : 0.3, .variant = i, .name = ball.name}));
     }
-    if (rigid) {
+    if (rigid)
         expect_springs(cradle, ball.back_area(), ball.depth() * ball.front_distance(), ball.depth() * ball.back_distance());
-    } else {  // Hertz: 4/3 E* sqrt(R/2), 1/E* = 2 (1 - nu^2)/E
-        const Chain chain{.mass = 4.0 / 3.0 * pi,
-                          .stiffness = 4.0 / 3.0 / (2.0 * 0.91) * std::sqrt(0.5),
-                          .exponent = 1.5,
-                          .gap = cradle.gap,
-                          .speed = speed};
-        cradle.expected = velocities_of(chain, cradle.time);
-    }
     strike<3>(cradle, options, sink);
 }
 
