@@ -19,12 +19,21 @@ const std::vector<Family>& families() {
         {"crossing", "beams with edges of 60 to 100 degrees that cross at right angles", sweep_crossing},
         {"edge", "a block that presses on another and slides off its edge or corner", sweep_edge},
         {"spin", "a bar that spins freely: how far it has turned, and how much it has grown", sweep_spin},
+        {"rim", "discs that meet while one spins, its rim up to the wave speed", sweep_rim},
+        {"turns", "blocks that spin freely for up to 1,000 turns", sweep_turns},
+        {"sizes", "a disc on a block up to 1,000 times as large", sweep_sizes},
+        {"masses", "a rigid disc on an elastic block, densities up to 1e6 apart", sweep_masses},
         {"rollers", "blocks that run into each other along their rollers, with and without the filter", sweep_rollers},
         {"crowd", "many discs that run into one another at once", sweep_crowd},
         {"long", "bodies that bounce for --steps steps", sweep_long},
         {"rest", "a block that lies on a plane under gravity for --steps steps", sweep_rest},
     };
     return all;
+}
+
+std::vector<double> thinned(const std::vector<double>& values, bool quick) {
+    if (!quick || values.size() <= 3) return values;
+    return {values.front(), values[values.size() / 2], values.back()};
 }
 
 }  // namespace abut::studies::extremes

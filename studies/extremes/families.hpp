@@ -24,6 +24,9 @@ struct Family {
 };
 [[nodiscard]] const std::vector<Family>& families();
 
+/// `values`, or of these the first, the middle and the last one.
+[[nodiscard]] std::vector<double> thinned(const std::vector<double>& values, bool quick);
+
 // The sweeps, each in the file of its subject.
 void sweep_units(const SweepOptions& options, const Sink& sink);
 void sweep_offset(const SweepOptions& options, const Sink& sink);
@@ -39,6 +42,10 @@ void sweep_wedge(const SweepOptions& options, const Sink& sink);
 void sweep_corner(const SweepOptions& options, const Sink& sink);
 void sweep_crossing(const SweepOptions& options, const Sink& sink);
 void sweep_spin(const SweepOptions& options, const Sink& sink);
+void sweep_rim(const SweepOptions& options, const Sink& sink);
+void sweep_turns(const SweepOptions& options, const Sink& sink);
+void sweep_sizes(const SweepOptions& options, const Sink& sink);
+void sweep_masses(const SweepOptions& options, const Sink& sink);
 void sweep_rollers(const SweepOptions& options, const Sink& sink);
 void sweep_edge(const SweepOptions& options, const Sink& sink);
 void sweep_crowd(const SweepOptions& options, const Sink& sink);

@@ -11,12 +11,6 @@ namespace {
 
 constexpr int steps_of_ratios = 3000;  // of the stiffer or lighter body: enough for many of its crossings in contact
 
-/// `values`, or of these the first, the middle and the last one.
-std::vector<double> thinned(const std::vector<double>& values, bool quick) {
-    if (!quick || values.size() <= 3) return values;
-    return {values.front(), values[values.size() / 2], values.back()};
-}
-
 Trial<2> meeting_of_discs(const char* family, const std::string& value, const Meeting<2>& meeting,
                           const run::RunOptions& run) {
     return {

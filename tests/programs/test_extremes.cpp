@@ -69,6 +69,31 @@ TEST_CASE("the ledger sees how far a bar has turned that spins freely, and it gr
     }
 }
 
+TEST_CASE("bodies that turn fast, and of very different size and mass, keep energy, momentum and J~",
+          "[programs][extremes]") {
+    for (const auto& row : sweep("rim,sizes,masses")) {
+        if (row["value"] == "floating, rim at 10 c") {
+            CHECK(row["outcome"] == "refused");
+            CHECK(contains(message(row), "2 is allowed (compression_limit)"));
+            continue;
+        }
+        check_held(row);
+        if (row["family"] == "rim") CHECK(row["numbers"]["J~ drift"].get<double>() <= 1e-10);
+        if (row["family"] != "rim") CHECK(row["numbers"]["speed of parting"].get<double>() > 0.5);
+    }
+}
+
+TEST_CASE("blocks that spin freely in frames of their own are not strained by their turns", "[programs][extremes]") {
+    const auto rows = sweep("turns");
+    CHECK(rows.size() == 8);
+    for (const auto& row : rows) {
+        INFO(row.dump());
+        CHECK(row["outcome"] == "held");
+        CHECK(row["numbers"]["largest |G|"].get<double>() <= 0.02);
+        CHECK(row["numbers"]["J~ drift"].get<double>() <= 1e-10);
+    }
+}
+
 TEST_CASE("time steps up to the stable one keep energy and momentum", "[programs][extremes]") {
     for (const auto& row : sweep("cfl")) check_held(row);
 }
