@@ -40,6 +40,7 @@ void add_options(CLI::App& app, Options& options) {
     for (const Part& part : parts()) names.push_back(part.name);
     add_part_options(app, program, names, options);
     apps::add_count(app, "--steps", options.steps, "of the pile", 1)->group("Time");
+    apps::add_count(app, "--turns", options.turns, "of the first gear", 1)->group("Time");
     apps::add_count(app, "--frames", options.frames, "for ParaView, of each run; 0: none", 0)->group("Output");
 }
 

@@ -31,6 +31,19 @@ double angle_of(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, s
     return std::atan2(across, along);
 }
 
+Centre centre_of(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, std::int32_t body) {
+    const auto q = as_vectors<2>(run.q);
+    Centre centre;
+    double mass = 0.0;
+    for_points_of(solid, body, [&](std::size_t i) {
+        mass += solid.masses()[i];
+        centre.shift += solid.masses()[i] * q[i];
+        centre.momentum += run.momentum(static_cast<std::ptrdiff_t>(i));
+    });
+    centre.shift /= mass;
+    return centre;
+}
+
 double angular_momentum_about(const Vector<2>& point, const dynamics::RunView<2>& run, const solid::Solid<2>& solid,
                               std::int32_t body) {
     const auto q = as_vectors<2>(run.q);

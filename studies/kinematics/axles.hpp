@@ -10,6 +10,13 @@ namespace abut::studies::kinematics {
 /// How far a body has turned, fitted to its points [rad], from -pi to pi.
 [[nodiscard]] double angle_of(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, std::int32_t body);
 
+/// A body as a whole.
+struct Centre {
+    Vector<2> shift = Vector<2>::Zero();     ///< of the centre of mass, from where it is at rest [m]
+    Vector<2> momentum = Vector<2>::Zero();  ///< [kg m/s]
+};
+[[nodiscard]] Centre centre_of(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, std::int32_t body);
+
 /// sum (x - point) × p over the points of a body [kg m^2/s].
 [[nodiscard]] double angular_momentum_about(const Vector<2>& point, const dynamics::RunView<2>& run,
                                             const solid::Solid<2>& solid, std::int32_t body);

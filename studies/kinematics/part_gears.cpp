@@ -65,7 +65,7 @@ struct Books {
 
 void mesh_gears(Kinematics kinematics, bool filter, const Options& options, const Sink& sink) {
     const Pair pair(options.quick ? 2 : 4);
-    const double turns = options.quick ? 0.5 : 10.0;
+    const double turns = options.quick ? 0.5 : options.turns;
     Case<2> one = case_of<2>("gears", {gear(pair.first), gear(pair.second)}, kinematics);
     one.motion[0].spin = AxialVector<2>(spin);
     one.motion[1].spin = AxialVector<2>(-spin / pair.ratio);

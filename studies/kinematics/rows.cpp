@@ -88,7 +88,9 @@ void print(const Row& row) {
 void write_report(const apps::Program& program, const Options& options, const std::vector<Row>& rows) {
     std::vector<RowRecord> records;
     for (const Row& row : rows) records.push_back({row.scene, row.setting, row.quantities, {{"run", to_json(row.run)}}});
-    write_table(program, options.out, {{"only", options.only}, {"quick", options.quick}, {"steps", options.steps}}, records);
+    write_table(program, options.out,
+                {{"only", options.only}, {"quick", options.quick}, {"steps", options.steps}, {"turns", options.turns}},
+                records);
 }
 
 template Row row_of<2>(const Case<2>&, const std::string&, const Options&, CaseResult<2>*, const Watch<2>&);

@@ -12,6 +12,7 @@ namespace abut::studies::kinematics {
 struct Options : PartOptions {
     int frames = 21;      ///< for ParaView, of each run
     int steps = 100'000;  ///< of the pile
+    int turns = 10;       ///< of the gears
 };
 
 /// A line of the table: a run.
