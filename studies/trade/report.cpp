@@ -207,9 +207,8 @@ run::Picture picture(const std::vector<Row>& rows) {
 }  // namespace
 
 Model model_of(const run::RunOptions& run) {
-    const solid::Kinematics kinematics = run.kinematics.value_or(solid::Kinematics::small);
-    if (kinematics == solid::Kinematics::floating) return Model::floating;
-    if (kinematics == solid::Kinematics::rigid) return Model::rigid;
+    if (run.kinematics == run::BodyKinematics::floating) return Model::floating;
+    if (run.kinematics == run::BodyKinematics::rigid) return Model::rigid;
     return run.law == solid::ContactLaw::pair_potential ? Model::pair_potential : Model::reconstruction;
 }
 

@@ -156,7 +156,7 @@ Problem turn_problem(std::vector<int> cells, int reference) {
                                 "strain on nodes with {} cells",
                                 reference),
             .motion = Motion::turning,
-            .base = {.kinematics = solid::Kinematics::floating},
+            .base = {.kinematics = run::BodyKinematics::floating},
             .levels = std::move(cells),
             .reference = [reference]() -> Reference { return {.velocity = reference_velocity<2>(turn(reference))}; },
             .solve = [](const run::RunOptions& run, int level, const Reference& against,
