@@ -92,17 +92,38 @@ void Bodies<Dim>::check() const {
         throw BadInput(mesh_.name + ": " + std::to_string(options_.obstacles.size()) +
                        " obstacles are given without contact, so nothing would feel them. Give "
                        "SolidOptions::contact, or no obstacles.");
-    for (const auto& condition : options_.boundary.dirichlet) refuse_conditions_on(condition.group);
+    for (const auto& condition : options_.boundary.dirichlet) refuse_on_turning_bodies(condition);
+    for (const auto& condition : options_.boundary.traction) refuse_following(condition);
 }
 
-/// A frame that turns has no place for a displacement that is given in space.
+/// A frame that turns has no place for a displacement that is given in space; a body of Kinematics::finite has no frame.
 template <int Dim>
-void Bodies<Dim>::refuse_conditions_on(const std::string& name) const {
-    for (const std::int32_t face : mesh_.group(name).faces)
-        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; turns(body))
+void Bodies<Dim>::refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const {
+    for (const std::int32_t face : mesh_.group(condition.group).faces) {
+        const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]];
+        if (!turns(body)) continue;
+        const std::string who = mesh_.name + ": body '" + mesh_.body_names[body] + "'";
+        if (!is_finite(body))
+            throw BadInput(who + " may turn, and has a prescribed displacement ('" + condition.group +
+                           "'), which only bodies of Kinematics::small and ::finite can have. Hold it by "
+                           "SolidOptions::springs.");
+        if (condition.constraint != Constraint::full || condition.history)
+            throw BadInput(who + " is of Kinematics::finite, and the displacement prescribed on '" + condition.group +
+                           (condition.history ? "' varies." : "' leaves directions free.") +
+                           " Such a body can be clamped (Constraint::full without a history), or held by "
+                           "SolidOptions::springs.");
+    }
+}
+
+/// Nothing says how far a face of a body of Kinematics::finite has turned.
+template <int Dim>
+void Bodies<Dim>::refuse_following(const TractionCondition<Dim>& condition) const {
+    if (!condition.follows) return;
+    for (const std::int32_t face : mesh_.group(condition.group).faces)
+        if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; is_finite(body))
             throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
-                           "' may turn, and has a prescribed displacement ('" + name +
-                           "'), which only bodies of Kinematics::small can have. Hold it by SolidOptions::springs.");
+                           "' is of Kinematics::finite, and the traction on '" + condition.group +
+                           "' follows. Give one that keeps its direction in space.");
 }
 
 /// Throws BadInput for a group on bodies of both kinds.
@@ -125,6 +146,11 @@ Kinematics Bodies<Dim>::kinematics(std::int32_t body) const {
 template <int Dim>
 bool Bodies<Dim>::turns(std::int32_t body) const {
     return kinematics(body) != Kinematics::small;
+}
+
+template <int Dim>
+bool Bodies<Dim>::any_finite() const {
+    return std::ranges::find(options_.kinematics, Kinematics::finite) != options_.kinematics.end();
 }
 
 template <int Dim>

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     [[nodiscard]] bool turns(std::int32_t body) const;  ///< whether it may: it is not `small`
     [[nodiscard]] bool is_rigid(std::int32_t body) const { return kinematics(body) == Kinematics::rigid; }
+    [[nodiscard]] bool is_finite(std::int32_t body) const { return kinematics(body) == Kinematics::finite; }
+    [[nodiscard]] bool any_finite() const;
     /// Its points are [first, second).
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
@@ -77,7 +79,8 @@ public:
 
 private:
     void check() const;
-    void refuse_conditions_on(const std::string& group) const;
+    void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
+    void refuse_following(const TractionCondition<Dim>& condition) const;
     [[nodiscard]] bool is_on_turning_body(const std::string& group) const;
     [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;

@@ -92,14 +92,14 @@ template <int Dim>
 bool PairPotentialDriver<Dim>::is_surely_valid(double cell_motion, double time) {
     near_watch_.travelled += cell_motion;
     far_watch_.travelled += cell_motion;
-    if (!has_stepped_ || loads_.vary()) return false;
+    if (!has_stepped_ || faces_leave_cells()) return false;
     return is_valid(near_watch_.travelled, far_watch_.travelled, time);
 }
 
 /// By how far cells are in their frames from where they were, instead of the way that they have gone.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_by_cells(std::span<const Vector<Dim>> q_1, double time) {
-    if (!has_stepped_ || loads_.vary() || !contact_.is_valid_for(0.0)) return false;
+    if (!has_stepped_ || faces_leave_cells() || !contact_.is_valid_for(0.0)) return false;
     near_watch_.travelled = distance_in_frame(near_, q_1, near_watch_);
     if (!(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_))
         far_watch_.travelled = distance_in_frame(all_, q_1, far_watch_);
@@ -116,13 +116,13 @@ double PairPotentialDriver<Dim>::distance_in_frame(const Listed& listed, std::sp
         largest(std::ssize(cells), [&](std::ptrdiff_t i) { return (u_[cells[i]] - watch.u[i]).squaredNorm(); }));
 }
 
-/// Places the nodes near other bodies at the end of the step; what is far must not have come near. Loads that vary move faces
-/// without their cells: then all nodes are looked at.
+/// Places the nodes near other bodies at the end of the step; what is far must not have come near. Where faces move without
+/// their cells all nodes are looked at.
 template <int Dim>
 bool PairPotentialDriver<Dim>::is_valid_at_near_nodes(std::span<const Vector<Dim>> q_1, double time) {
     if (!has_stepped_ || !contact_.is_valid_for(0.0)) return false;
-    if (!loads_.vary() && !(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_)) return false;
-    const Listed& looked_at = loads_.vary() ? all_ : near_;
+    if (!faces_leave_cells() && !(motion_since(far_watch_, far_watch_.travelled, time) <= far_reach_)) return false;
+    const Listed& looked_at = faces_leave_cells() ? all_ : near_;
     corners_.place(looked_at, q_1, frames_.end(), loads_.end(), time, x_1_);
     near_watch_ = watch_from(looked_at, q_1, x_1_, time);
     return contact_.is_valid_for(near_watch_.moved);
@@ -265,7 +265,7 @@ void PairPotentialDriver<Dim>::evaluate_last_end(std::span<const Vector<Dim>> q)
 template <int Dim>
 void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double time) {
     corners_.place_rigid(q);
-    if (has_stepped_ && !loads_.vary() && contact_.is_valid_for(0.0) &&
+    if (has_stepped_ && !faces_leave_cells() && contact_.is_valid_for(0.0) &&
         is_valid(distance_in_frame(near_, q, near_watch_), distance_in_frame(all_, q, far_watch_), time)) {
         corners_.place(listed_, q, frames_.end(), loads_.end(), time, x_state_);
         contact_.evaluate_listed(x_state_);
@@ -350,7 +350,7 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
 /// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::SurfaceFace face) const {
-    if (!frames_.any_turns() && !bodies_.any_rigid())
+    if (!frames_.any_turns() && !bodies_.any_rigid() && !bodies_.any_finite())
         return ccg_.centroid(corners_.boundary(static_cast<std::size_t>(face)));
     return 0.5 * (corners_.middle(face, x_0_) + corners_.middle(face, x_1_));
 }

@@ -70,6 +70,8 @@ private:
         double amplification = 0.0;  // how far one of these nodes moves when no cell moves by more than 1
     };
 
+    /// Whether faces may move farther than the motion of cells bounds: by loads that vary, and by the stretch of free faces.
+    [[nodiscard]] bool faces_leave_cells() const { return loads_.vary() || bodies_.any_finite(); }
     [[nodiscard]] double motion_since(const Watch& watch, double in_frame, double time) const;
     [[nodiscard]] bool is_valid(double near_in_frame, double far_in_frame, double time) const;
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);

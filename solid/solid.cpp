@@ -22,7 +22,8 @@
 namespace abut::solid {
 namespace {
 
-inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
+inline constexpr double same_time = 1e-6;          // of a step: sums of steps are rounded
+inline constexpr double tiny_displacement = 1e-8;  // of the size of a cell
 
 }  // namespace
 
@@ -31,7 +32,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
     : mesh_(mesh),
       options_(std::move(options)),
       bodies_(std::make_unique<Bodies<Dim>>(mesh, options_)),
-      ccg_(bodies_->deformable(), bodies_->deformable_options().materials, bodies_->deformable_options().boundary),
+      ccg_(bodies_->deformable(), bodies_->deformable_options().materials, bodies_->deformable_options().boundary,
+           bodies_->deformable_options().kinematics),
       rotation_(std::make_unique<BodyRotation<Dim>>(bodies_->deformable(), bodies_->masses())),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames())),
       point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_)),
@@ -157,9 +159,24 @@ template <int Dim>
 void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> product) {
     const auto u = as_vectors<Dim>(q);
     const auto result = as_vectors<Dim>(product);
-    ccg_.gradient(of_cells(u), ccg_.load_free(), {}, result);
+    stiffness_of_cells(of_cells(u), result);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) result[i] = rigid_stiffness_[i] * u[i];
     point_loads_->add_stiffness(u, result);
+}
+
+/// Gradients of bodies of Kinematics::finite are linear for tiny displacements alone; powers of two cost no digits.
+template <int Dim>
+void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result) {
+    if (!bodies_->any_finite()) return ccg_.gradient(u, ccg_.load_free(), {}, result);
+    const mesh::Mesh<Dim>& part = bodies_->deformable();
+    double largest = 0.0;
+    for (const Vector<Dim>& of_cell : u) largest = larger(largest, of_cell.cwiseAbs().maxCoeff());
+    const double size = std::pow(std::ranges::min(part.cell_measure), 1.0 / Dim);
+    const double scale = largest > 0.0 ? std::exp2(std::floor(std::log2(tiny_displacement * size / largest))) : 1.0;
+    midpoint_.resize(u.size());
+    for (std::size_t c = 0; c < u.size(); ++c) midpoint_[c] = scale * u[c];
+    ccg_.gradient(midpoint_, ccg_.load_free(), {}, result);
+    for (std::size_t c = 0; c < u.size(); ++c) result[c] /= scale;
 }
 
 template <int Dim>
@@ -231,11 +248,12 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
 
     const Stopwatch watch(times_.bulk);
     const auto gradient = as_vectors<Dim>(force);
+    const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1)};
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         if (frames_->any_turns())
-            ccg_.gradient_of_packed(packed_midpoint_, load, corrections(), gradient);
+            ccg_.gradient_of_packed(packed_midpoint_, load, corrections(), gradient, ends);
         else
-            ccg_.gradient(midpoint_, load, corrections(), gradient);
+            ccg_.gradient(midpoint_, load, corrections(), gradient, ends);
     };
     if (loads_->vary())
         take_gradient(loads_->mean());
@@ -344,10 +362,11 @@ void Solid<Dim>::end_step(double time) {
 
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
-    if (frames_->any_turns() || bodies_->any_rigid() || (contact_ && !reconstruction_))
+    if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !reconstruction_))
         throw BadInput(mesh_.name +
                        ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "
-                       "body couples all of its cells. Take one step for all (memm), or other kinematics and law.");
+                       "body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. Take "
+                       "one step for all (memm), or other kinematics and law.");
     levels_ = std::make_unique<LocalLevels<Dim>>(mesh_, ccg_, *loads_, n_levels, level);
 }
 

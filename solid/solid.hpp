@@ -145,7 +145,7 @@ public:
     /// Kinematics::small grows by 1/cos of it, without a force against that. docs/limits.md.
     [[nodiscard]] std::vector<double> rotations(std::span<const double> q) const;
     /// By how much the cell of a body that turns most turns against its frame in q (n_bodies) [rad]; of a small body against
-    /// space, of a rigid one 0. Strains are linear: beyond 0.1 a body should be split, or be another model.
+    /// space, of a rigid or finite one 0. Strains of the others are linear: beyond 0.1 a body should be split, or be finite.
     [[nodiscard]] std::vector<double> local_rotations(std::span<const double> q);
     /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
@@ -163,6 +163,7 @@ public:
 
 private:
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
+    void stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result);
     void rigid_to_force(std::span<Vector<Dim>> force) const;
     void add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
                          contact::TakenForce take, std::span<Vector<Dim>> force);

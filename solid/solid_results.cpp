@@ -123,6 +123,7 @@ std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
     const mesh::Mesh<Dim>& part = bodies_->deformable();
     std::vector<double> largest(static_cast<std::size_t>(part.n_bodies()), 0.0);
     for (std::int32_t c = 0; c < part.n_cells(); ++c) {
+        if (bodies_->is_finite(bodies_->body_of_points()[static_cast<std::size_t>(c)])) continue;
         double& of_body = largest[static_cast<std::size_t>(part.cell_body[c])];
         of_body = larger(of_body, 0.5 * axial<Dim>(ccg_.displacement_gradient(c)).norm());
     }
@@ -159,7 +160,8 @@ Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const {
 
 template <int Dim>
 dynamics::MomentArms Solid<Dim>::moment_arms() const {
-    return frames_->any_turns() || bodies_->any_rigid() ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
+    return frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() ? dynamics::MomentArms::mid_step
+                                                                                 : dynamics::MomentArms::rest;
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                      \

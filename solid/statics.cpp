@@ -300,8 +300,17 @@ std::string text(Ending ending, const StaticOptions& options) {
 
 template <int Dim>
 void check_start(const Solid<Dim>& solid, std::span<const double> q) {
-    if (solid.moment_arms() != dynamics::MomentArms::rest)
-        throw BadInput("statics: a body is floating or rigid; bodies at rest are sought for Kinematics::small alone.");
+    const SolidOptions<Dim>& options = solid.options();
+    const auto is_any = [&](Kinematics kind) {
+        return std::ranges::find(options.kinematics, kind) != options.kinematics.end();
+    };
+    if (is_any(Kinematics::floating) || is_any(Kinematics::rigid))
+        throw BadInput(
+            "statics: a body is floating or rigid; bodies at rest are sought for Kinematics::small and ::finite alone.");
+    if (is_any(Kinematics::finite) && (!options.boundary.traction.empty() || !options.moments.empty()))
+        throw BadInput(
+            "statics: tractions and moments on a body of Kinematics::finite have no potential. Load it by "
+            "SolidOptions::body_load, acceleration or springs.");
     if (q.size() != solid.size())
         throw BadInput("statics: q_0 has " + std::to_string(q.size()) + " numbers, the solid has " +
                            std::to_string(solid.size()) + " degrees of freedom. Give one per component of each cell.",

@@ -36,10 +36,11 @@ std::array<double, Dim> to_array(const Vector<Dim>& v) {
 
 template <int Dim>
 CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                          const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule) {
+                          const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
+                          std::span<const Kinematics> kinematics) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
-    set_boundary(mesh, materials, conditions, rule, corner_rule);
+    set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
 }
 
 template <int Dim>
@@ -99,8 +100,9 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
 
 template <int Dim>
 void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                                  const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule) {
-    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule);
+                                  const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
+                                  std::span<const Kinematics> kinematics) {
+    boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule, kinematics);
     for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load_packed<Dim>(weight));
     boundary_cells = boundary.cells;
     sort_unique(boundary_cells);

@@ -44,7 +44,7 @@ struct Occurrences {
 template <int Dim>
 struct CcgArrays {
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-              FreeFaceRule rule, CornerRule corner_rule);
+              FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics = {});
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
@@ -53,6 +53,10 @@ struct CcgArrays {
     [[nodiscard]] std::int32_t cell_of(BoundaryFace b) const { return face_cells[face_of(b)][0]; }
     /// Its index among all faces.
     [[nodiscard]] std::int32_t face_of(BoundaryFace b) const { return boundary_faces[static_cast<std::size_t>(b)]; }
+    /// Out of the body.
+    [[nodiscard]] Vector<Dim> normal_of(BoundaryFace b) const {
+        return Eigen::Map<const Vector<Dim>>(faces[face_of(b)].area_vector.data()).normalized();
+    }
     [[nodiscard]] std::span<const HalfFace> half_faces_of(std::int32_t c) const {
         return {half_faces.data() + half_face_offsets[c],
                 static_cast<std::size_t>(half_face_offsets[c + 1] - half_face_offsets[c])};
@@ -83,7 +87,8 @@ private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);
     void set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                      const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule);
+                      const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
+                      std::span<const Kinematics> kinematics);
 };
 
 }  // namespace abut::solid

@@ -47,13 +47,15 @@ template <int Dim>
 class Builder {
 public:
     Builder(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior, std::span<const Material> materials,
-            const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule)
+            const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
+            std::span<const Kinematics> kinematics)
         : mesh_(mesh),
           interior_(interior),
           materials_(materials),
           conditions_(conditions),
           rule_(rule),
           corner_rule_(corner_rule),
+          kinematics_(kinematics),
           index_(static_cast<std::size_t>(mesh.n_faces()), no_face),
           affine_(mesh.boundary_faces.size()),
           rows_(mesh.boundary_faces.size()) {
@@ -82,16 +84,21 @@ private:
 
     bool is_free(BoundaryFace b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
 
+    FreeFaceRule rule_of(std::int32_t cell) const {
+        const bool finite = !kinematics_.empty() && kinematics_[mesh_.cell_body[cell]] == Kinematics::finite;
+        return finite ? FreeFaceRule::extrapolate : rule_;
+    }
+
     /// An affine extrapolation is wanted where the equilibrium of the cell alone may not fix the faces.
     void select_affine_stencils() {
-        if (rule_ == FreeFaceRule::adjacent) return;
         std::vector<BoundaryFace> wanted;
         for (const BoundaryFace b : boundary_faces(mesh_)) {
-            if (!is_free(b)) continue;
+            const FreeFaceRule rule = rule_of(cell_of(mesh_, b));
+            if (!is_free(b) || rule == FreeFaceRule::adjacent) continue;
             const auto others = boundary_of(cell_of(mesh_, b));
             const auto n_free =
                 std::count_if(others.begin(), others.end(), [&](BoundaryFace other) { return is_free(other); });
-            if (rule_ == FreeFaceRule::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
+            if (rule == FreeFaceRule::extrapolate || n_free > 1 || !conditions_.prescribed[b].isZero(0.0))
                 wanted.push_back(b);
         }
         std::vector<std::int32_t> faces;
@@ -108,7 +115,8 @@ private:
             rows_[b].normal_stiffness = materials_[mesh_.cell_body[cell]].wave_modulus() *
                                         mesh_.face_measure[mesh_face(mesh_, b)] / mesh_.cell_measure[cell];
         }
-        if (rule_ == FreeFaceRule::local_equilibrium) {
+        const FreeFaceRule rule = rule_of(cell);
+        if (rule == FreeFaceRule::local_equilibrium) {
             balance(cell, boundary);
             if (corner_rule_ == CornerRule::relaxed)
                 for (const BoundaryFace b : boundary) relax_corners(cell, b, boundary);
@@ -117,7 +125,7 @@ private:
         for (const BoundaryFace b : boundary) {
             const Matrix<Dim> free = free_part(b);
             if (free.isZero(1e-12)) continue;
-            if (rule_ == FreeFaceRule::extrapolate)
+            if (rule == FreeFaceRule::extrapolate)
                 rows_[b].add_stencil(affine_[b], free);
             else
                 Row<Dim>::add(rows_[b].cells, cell, free);
@@ -263,6 +271,7 @@ private:
     const FaceConditions<Dim>& conditions_;
     FreeFaceRule rule_;
     CornerRule corner_rule_;
+    std::span<const Kinematics> kinematics_;
     std::vector<BoundaryFace> index_;                  // by face; none inside
     IdVector<BoundaryFace, FaceStencil<Dim>> affine_;  // where wanted
     IdVector<BoundaryFace, Row<Dim>> rows_;
@@ -282,15 +291,16 @@ Matrix<Dim> face_stiffness(double lambda, double mu, double cell_measure, const 
 template <int Dim>
 BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh, std::span<const FaceStencil<Dim>> interior,
                                                  std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-                                                 FreeFaceRule rule, CornerRule corner_rule) {
-    return Builder<Dim>(mesh, interior, materials, conditions, rule, corner_rule).build();
+                                                 FreeFaceRule rule, CornerRule corner_rule,
+                                                 std::span<const Kinematics> kinematics) {
+    return Builder<Dim>(mesh, interior, materials, conditions, rule, corner_rule, kinematics).build();
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                             \
     template Matrix<Dim> face_stiffness<Dim>(double, double, double, const Vector<Dim>&, const Vector<Dim>&);             \
     template BoundaryReconstruction<Dim> reconstruct_boundary<Dim>(                                                       \
         const mesh::Mesh<Dim>&, std::span<const FaceStencil<Dim>>, std::span<const Material>, const FaceConditions<Dim>&, \
-        FreeFaceRule, CornerRule);
+        FreeFaceRule, CornerRule, std::span<const Kinematics>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

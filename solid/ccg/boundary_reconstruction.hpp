@@ -6,6 +6,7 @@
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/stencil.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material.hpp"
 
 namespace abut::solid {
@@ -38,13 +39,15 @@ struct BoundaryReconstruction {
     }
 };
 
-/// `interior` holds a stencil for every interior face, by face number.
+/// `interior` holds a stencil for every interior face, by face number. Free faces of bodies of Kinematics::finite (one per
+/// body; empty: none) are extrapolated, whatever the rule: FreeCell says what they do beside that.
 template <int Dim>
 [[nodiscard]] BoundaryReconstruction<Dim> reconstruct_boundary(const mesh::Mesh<Dim>& mesh,
                                                                std::span<const FaceStencil<Dim>> interior,
                                                                std::span<const Material> materials,
                                                                const FaceConditions<Dim>& conditions, FreeFaceRule rule,
-                                                               CornerRule corner_rule);
+                                                               CornerRule corner_rule,
+                                                               std::span<const Kinematics> kinematics);
 
 /// A_fg of a cell: the answer of dV/dũ_f to a displacement of g, stabilisation left out; the area
 /// vectors |f| n_f and |g| n_g point out of the cell. docs/method.md, Space.

@@ -8,6 +8,7 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/region.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
 #include "abut/solid/motion_bound.hpp"
@@ -33,6 +34,7 @@ struct Ccg<Dim>::Impl {
     BoundaryConditions<Dim> conditions;
     FaceConditions<Dim> face_conditions;
     CcgArrays<Dim> arrays;
+    FiniteCells<Dim> finite;
     CcgSweeps<Dim> sweeps;
     MotionBound<Dim> motion_bound;
     IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
@@ -40,16 +42,17 @@ struct Ccg<Dim>::Impl {
     bool varies = false;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-         const BoundaryConditions<Dim>& boundary_conditions);
+         const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics);
 };
 
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                     const BoundaryConditions<Dim>& boundary_conditions)
+                     const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule),
-      sweeps(arrays),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics),
+      finite(mesh, face_conditions, kinematics),
+      sweeps(arrays, finite),
       motion_bound(arrays) {
     for (const std::int32_t f : arrays.boundary_faces) {
         boundary_centroid.push_back(mesh.face_centroid[f]);
@@ -60,8 +63,9 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 }
 
 template <int Dim>
-Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions)
-    : impl_(std::make_unique<Impl>(mesh, materials, conditions)) {}
+Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
+              std::span<const Kinematics> kinematics)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics)) {}
 
 template <int Dim>
 Ccg<Dim>::~Ccg() = default;
@@ -155,14 +159,15 @@ void Ccg<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const Bound
 
 template <int Dim>
 void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    impl_->sweeps.gradient(u, load, corrections, result);
+                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result, const StepEnds<Dim>& ends) {
+    impl_->sweeps.gradient(u, load, corrections, result, ends);
 }
 
 template <int Dim>
 void Ccg<Dim>::gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load,
-                                  const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    impl_->sweeps.gradient_of_packed(u, load, corrections, result);
+                                  const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                  const StepEnds<Dim>& ends) {
+    impl_->sweeps.gradient_of_packed(u, load, corrections, result, ends);
 }
 
 template <int Dim>

@@ -27,6 +27,14 @@ struct FaceCorrections {
     std::span<const Matrix<Dim>> moment = {};      ///< dV/dG_c of the pairs, c behind the face (n) [N m]; may be empty
 };
 
+/// Both ends of a step whose mean displacement is asked for: bodies of Kinematics::finite need more than the mean. Empty: one
+/// state.
+template <int Dim>
+struct StepEnds {
+    std::span<const Vector<Dim>> start;  ///< displacements (n_cells) [m]
+    std::span<const Vector<Dim>> end;    ///< the same
+};
+
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
 template <int Dim>
 struct Region {
@@ -56,8 +64,10 @@ template <int Dim>
 class Ccg {
 public:
     /// One material per body. Throws BadInput for another number of them, and as `check(Material)`,
-    /// `sort_to_faces` and `select_stencils` do.
-    Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions);
+    /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as all are
+    /// where none are given.
+    Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
+        std::span<const Kinematics> kinematics = {});
     ~Ccg();
     Ccg(Ccg&&) noexcept;
     Ccg& operator=(Ccg&&) noexcept;
@@ -82,13 +92,14 @@ public:
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
 
-    /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added.
+    /// dV/du_c (n_cells) [N] for V(u, û + delta) less the work of tractions; the gradients of `corrections` are added. Of bodies
+    /// of Kinematics::finite with `ends` the discrete gradient: its work along the step is the change of V.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                  std::span<Vector<Dim>> result);
+                  std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// The same of u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
     /// of its size.
     void gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                            std::span<Vector<Dim>> result);
+                            std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient`; `evaluate_cells`
     /// since then has set those of its region.
     [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;

@@ -31,7 +31,8 @@ void CcgSweeps<Dim>::set_chunks() {
         const auto face = static_cast<std::int32_t>(std::partition_point(a.face_cells.begin(), a.face_cells.end(),
                                                                          [&](const auto& side) { return side[0] < cell; }) -
                                                     a.face_cells.begin());
-        chunks_.push_back({cell, face, BoundaryFace{position(a.boundary_faces, face)}, position(a.boundary_cells, cell)});
+        chunks_.push_back({cell, face, BoundaryFace{position(a.boundary_faces, face)}, position(a.boundary_cells, cell),
+                           finite_.any_in(cell, std::min(cell + chunk_size, a.n_cells()))});
     }
 
     std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;

@@ -1,8 +1,10 @@
 #include "abut/solid/ccg/sweeps.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "abut/base/parallel.hpp"
+#include "abut/solid/ccg/sweep_elements.hpp"
 
 namespace abut::solid {
 namespace {
@@ -16,33 +18,11 @@ void for_all(const std::vector<Id>& list, const Body& body) {
         static_cast<std::ptrdiff_t>(list.size()), [&](std::ptrdiff_t i) { body(list[i]); }, region_grain);
 }
 
-template <int Dim>
-LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<Dim>& g) {
-    const LaneTensor<Dim> transposed = g.transposed();
-    double trace = 0.0;
-    for (int j = 0; j < Dim; ++j) trace += g.col[j][j];
-    LaneTensor<Dim> sigma;
-    for (int j = 0; j < Dim; ++j) {
-        sigma.col[j] = cell.mu * (g.col[j] + transposed.col[j]);
-        sigma.col[j].r[j] += cell.lambda * trace;
-    }
-    return sigma;
-}
-
 }  // namespace
 
 // One element --------------------------------------------------------------------------------------------------------
 
 // Displacements enter by their differences to that of a cell nearby: a translation of the body costs no accuracy.
-
-template <int Dim>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(std::ptrdiff_t f) const {
-    const FaceStencil<Dim>& stencil = arrays_.stencils[f];
-    const Lanes<Dim> origin = displacement(arrays_.face_cells[f][0]);
-    Lanes<Dim> sum;
-    for (int j = 0; j <= Dim; ++j) sum += stencil.weights[j] * (displacement(stencil.cells[j]) - origin);
-    return sum;
-}
 
 template <int Dim>
 Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
@@ -55,42 +35,6 @@ Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(BoundaryFace face, const Bound
     sum += load_packed<Dim>(correction_, b);
     if (boundary_load.displacement.empty()) return sum;
     return sum + load_packed<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
-}
-
-template <int Dim>
-[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_displacement_gradient(std::ptrdiff_t c) {
-    const Lanes<Dim> u_c = displacement(c);
-    const std::int32_t begin = arrays_.half_face_offsets[c];
-    const std::int32_t end = arrays_.half_face_offsets[c + 1];
-    LaneTensor<Dim> g{};
-    for (std::int32_t i = begin; i < end; ++i) {
-        const HalfFace& half_face = arrays_.half_faces[i];
-        const double sign = half_face.first == c ? 1.0 : -1.0;
-        g.add_outer(sign * (load_packed<Dim>(relative_, half_face.face) + (displacement(half_face.first) - u_c)),
-                    arrays_.faces[half_face.face].area_vector);
-    }
-    for (Lanes<Dim>& column : g.col) column = arrays_.cells[c].inverse_measure * column;
-    store_tensor(g, g_, c);
-    for (std::int32_t i = begin; i < end; ++i)
-        store(g.times(arrays_.lever_arms[i]) + (u_c - displacement(arrays_.half_faces[i].first)), trace_, i);
-}
-
-template <int Dim>
-[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
-    LaneTensor<Dim> sum{};
-    Lanes<Dim> direct;
-    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
-        const HalfFace& half_face = arrays_.half_faces[i];
-        const Lanes<Dim> jump_gradient = arrays_.faces[half_face.face].jump_stiffness *
-                                         (load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin));
-        sum.add_outer(jump_gradient, arrays_.lever_arms[i]);
-        direct += jump_gradient;
-    }
-    const CellGeometry<Dim>& cell = arrays_.cells[c];
-    const LaneTensor<Dim> sigma = elastic_stress(cell, load_tensor<Dim>(g_, c));
-    for (int j = 0; j < Dim; ++j) sum.col[j] = sigma.col[j] + cell.inverse_measure * sum.col[j];
-    store_tensor(sum, s_, c);
-    store(direct, direct_, c);
 }
 
 template <int Dim>
@@ -132,9 +76,11 @@ template <int Dim>
 double CcgSweeps<Dim>::energy(std::ptrdiff_t c) const {
     const CellGeometry<Dim>& cell = arrays_.cells[c];
     const LaneTensor<Dim> g = load_tensor<Dim>(g_, c);
-    const LaneTensor<Dim> sigma = elastic_stress(cell, g);
+    const bool finite = finite_.contains(c);
+    const LaneTensor<Dim> strain = finite ? green_strain(g) : g;
+    const LaneTensor<Dim> sigma = finite ? finite_stress(c, strain) : elastic_stress(cell, g);
     double density = 0.0;
-    for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], g.col[j]);
+    for (int j = 0; j < Dim; ++j) density += dot(sigma.col[j], strain.col[j]);
     double twice = density / cell.inverse_measure;
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];
@@ -147,7 +93,9 @@ double CcgSweeps<Dim>::energy(std::ptrdiff_t c) const {
 
 template <int Dim>
 Matrix<Dim> CcgSweeps<Dim>::stress(std::int32_t c) const {
-    return unload(elastic_stress(arrays_.cells[c], load_tensor<Dim>(g_, c)));
+    const LaneTensor<Dim> g = load_tensor<Dim>(g_, c);
+    if (finite_.contains(c)) return cauchy_stress(c);
+    return unload(elastic_stress(arrays_.cells[c], g));
 }
 
 // One chunk ----------------------------------------------------------------------------------------------------------
@@ -159,20 +107,32 @@ void CcgSweeps<Dim>::load_displacement(std::span<const Vector<Dim>> u) {
 
 template <int Dim>
 void CcgSweeps<Dim>::reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
-    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(reconstructed(f), relative_, f);
+    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f) store(reconstructed(u_, f), relative_, f);
     for (const BoundaryFace b : boundary_of_chunk(k))
         store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b));
+    if (!has_change_ || !chunks_[k].has_finite) return;
+    for (std::int32_t f = chunks_[k].face; f < chunks_[k + 1].face; ++f)
+        store(reconstructed(u_change_, f), relative_change_, f);
+    for (const BoundaryFace b : boundary_of_chunk(k)) store(boundary_change(b), relative_change_, arrays_.face_of(b));
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::displacement_gradients_of_chunk(std::int32_t k) {
-    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_displacement_gradient(c);
+    const std::int32_t begin = chunks_[k].cell, end = chunks_[k + 1].cell;
+    if (chunks_[k].has_finite)
+        for (std::int32_t c = begin; c < end; ++c) set_any_displacement_gradient(c);
+    else
+        for (std::int32_t c = begin; c < end; ++c) set_displacement_gradient(c);
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::stresses_of_chunk(std::int32_t k) {
-    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) set_stress(c);
-    moments_.add_to(s_, chunks_[k].cell, chunks_[k + 1].cell);
+    const std::int32_t begin = chunks_[k].cell, end = chunks_[k + 1].cell;
+    if (chunks_[k].has_finite)
+        for (std::int32_t c = begin; c < end; ++c) set_any_stress(c);
+    else
+        for (std::int32_t c = begin; c < end; ++c) set_stress(c);
+    add_moments(begin, end);
 }
 
 template <int Dim>
@@ -196,7 +156,7 @@ class CcgSweeps<Dim>::PlacedCorrections {
 public:
     PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
         : sweeps_(sweeps), corrections_(corrections) {
-        sweeps.moments_.assign(sweeps.arrays_, corrections);
+        sweeps.moments_.assign(sweeps.arrays_, sweeps.finite_, corrections);
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
             const std::int32_t b = number_of(corrections.faces[i]);
             if (!corrections.energy_gradient.empty())
@@ -230,7 +190,7 @@ private:
 };
 
 template <int Dim>
-CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays) : arrays_(arrays) {
+CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite) : arrays_(arrays), finite_(finite) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     relative_.resize(width * arrays.faces.size());
@@ -241,20 +201,30 @@ CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays) : arrays_(arrays) {
     y_.resize(width * arrays.faces.size());
     correction_.resize(width * arrays.boundary_faces.size());
     pair_gradient_.resize(width * arrays.boundary_faces.size());
+    if (finite.any()) {
+        u_change_.resize(u_.size());
+        relative_change_.resize(relative_.size());
+        g_change_.resize(g_.size());
+        condensed_.resize(finite.free().size());
+    }
     set_chunks();
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                              const StepEnds<Dim>& ends) {
     load_displacement(u);
+    load_change(ends);
     run_sweeps(load, corrections, result);
 }
 
 template <int Dim>
 void CcgSweeps<Dim>::gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load,
-                                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+                                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                        const StepEnds<Dim>& ends) {
     std::swap(u_, u);
+    load_change(ends);
     run_sweeps(load, corrections, result);
 }
 
@@ -276,6 +246,7 @@ void CcgSweeps<Dim>::run_sweeps(const BoundaryLoad<Dim>& load, const FaceCorrect
                 return cell_gradients_of_chunk(chunk, result);
         }
     });
+    has_change_ = false;
 }
 
 template <int Dim>
@@ -305,10 +276,10 @@ template <int Dim>
 void CcgSweeps<Dim>::evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                                         const BoundaryLoad<Dim>& boundary_load) {
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
-    for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
+    for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(u_, f), relative_, f); });
     for_all(region.reconstructed_boundary,
             [&](BoundaryFace b) { store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b)); });
-    for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_displacement_gradient(c); });
+    for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_any_displacement_gradient(c); });
 }
 
 template <int Dim>
@@ -316,10 +287,8 @@ void CcgSweeps<Dim>::evaluate_tilted_faces(const Region<Dim>& region, std::span<
                                            const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
                                            std::span<Matrix<Dim>> gradient) {
     evaluate_to_displacement_gradients(region, u, boundary_load);
-    for (std::size_t i = 0; i < region.faces.size(); ++i) {
-        displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
-        gradient[i] = displacement_gradient(arrays_.cell_of(region.faces[i]));
-    }
+    for (std::size_t i = 0; i < region.faces.size(); ++i)
+        std::tie(displacement[i], gradient[i]) = tilted_face(region.faces[i]);
 }
 
 template <int Dim>
@@ -327,7 +296,7 @@ void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const V
                                     const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
                                     std::span<Vector<Dim>> gradient) {
     evaluate_to_displacement_gradients(region, u, boundary_load);
-    for_all(region.stress_cells, [&](std::int32_t c) { set_stress(c); });
+    for_all(region.stress_cells, [&](std::int32_t c) { set_any_stress(c); });
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         displacement[i] = face_displacement(arrays_.face_of(region.faces[i]));
         gradient[i] = unload<Dim>(boundary_gradient(region.faces[i], boundary_load));
@@ -358,17 +327,17 @@ void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t
     switch (stage) {
         case reconstruction:
             each(region.reconstructed, &Offsets::reconstructed,
-                 [&](std::int32_t f) { store(reconstructed(f), relative_, f); });
+                 [&](std::int32_t f) { store(reconstructed(u_, f), relative_, f); });
             return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](BoundaryFace b) {
                 store(reconstructed_boundary(b, boundary_load), relative_, arrays_.face_of(b));
             });
         case displacement_gradients:
             return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell,
-                        [&](std::int32_t c) { set_displacement_gradient(c); });
+                        [&](std::int32_t c) { set_any_displacement_gradient(c); });
         case stresses:
             return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) {
-                set_stress(c);
-                moments_.add_to(s_, c, c + 1);
+                set_any_stress(c);
+                add_moments(c, c + 1);
             });
         case face_gradients:
             each(region.energy_gradient_faces, &Offsets::energy_gradient_face,

@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/solid/ccg/arrays.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/cell_moments.hpp"
+#include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
 
 namespace abut::solid {
@@ -24,16 +26,16 @@ namespace abut::solid {
 template <int Dim>
 class CcgSweeps {
 public:
-    /// The arrays must outlive the sweeps.
-    explicit CcgSweeps(const CcgArrays<Dim>& arrays);
+    /// Both must outlive the sweeps.
+    CcgSweeps(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite);
     CcgSweeps(const CcgSweeps&) = delete;
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                  std::span<Vector<Dim>> result);
+                  std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// The same; the arrays of displacements are exchanged.
     void gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
-                            std::span<Vector<Dim>> result);
+                            std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// V without the work of the loads [J].
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                        const FaceCorrections<Dim>& corrections);
@@ -63,19 +65,36 @@ private:
         std::int32_t cell, face;
         BoundaryFace boundary;
         std::int32_t boundary_cell;
+        bool has_finite = false;  // it holds cells of FiniteCells
     };
 
     // One element
     [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load_packed<Dim>(u_, c); }
-    [[nodiscard]] Lanes<Dim> reconstructed(std::ptrdiff_t f) const;
+    [[nodiscard]] Lanes<Dim> reconstructed(const std::vector<double>& u, std::ptrdiff_t f) const;
     [[nodiscard]] Lanes<Dim> reconstructed_boundary(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] LaneTensor<Dim> gradient_of(const std::vector<double>& u, const std::vector<double>& relative,
+                                              std::ptrdiff_t c) const;
+    void set_traces(std::ptrdiff_t c, const LaneTensor<Dim>& g);
     void set_displacement_gradient(std::ptrdiff_t c);
+    [[nodiscard]] LaneTensor<Dim> sum_jumps(std::ptrdiff_t c);
     void set_stress(std::ptrdiff_t c);
     [[nodiscard]] Lanes<Dim> interior_gradient(std::ptrdiff_t f) const;
     [[nodiscard]] Lanes<Dim> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
+
+    // One element of a finite body, or of any
+    [[nodiscard]] LaneTensor<Dim> finite_stress(std::ptrdiff_t c, const LaneTensor<Dim>& strain) const;
+    [[nodiscard]] Lanes<Dim> boundary_change(BoundaryFace b) const;
+    void set_finite_displacement_gradient(std::ptrdiff_t c);
+    void set_finite_stress(std::ptrdiff_t c);
+    void set_any_displacement_gradient(std::ptrdiff_t c);
+    void set_any_stress(std::ptrdiff_t c);
+    void load_change(const StepEnds<Dim>& ends);
+    void add_moments(std::int32_t begin, std::int32_t end);
+    [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace b) const;
+    [[nodiscard]] Matrix<Dim> cauchy_stress(std::int32_t c) const;
 
     void run_sweeps(const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
@@ -98,6 +117,7 @@ private:
                                             const BoundaryLoad<Dim>& boundary_load);
 
     const CcgArrays<Dim>& arrays_;
+    const FiniteCells<Dim>& finite_;
     // Work arrays of registers.
     std::vector<double> u_;              // displacement, by cell
     std::vector<double> relative_;       // u_f - u_c of the first side, by face
@@ -109,7 +129,13 @@ private:
     std::vector<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
     std::vector<double> pair_gradient_;  // by boundary face; zero but during a call
     CellMoments<Dim> moments_;           // empty except during a call
-    std::vector<Chunk> chunks_;          // one more at the end
+    // Of finite bodies, changes from the start of a step to its end; empty without any.
+    std::vector<double> u_change_;
+    std::vector<double> relative_change_;
+    std::vector<double> g_change_;
+    std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
+    bool has_change_ = false;
+    std::vector<Chunk> chunks_;  // one more at the end
     SweepSchedule<n_stages> schedule_;
 };
 

@@ -65,7 +65,7 @@ Matrix<Dim> some_turn(double angle) {
         return Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, -0.4, 0.7).normalized()).toRotationMatrix();
 }
 
-/// The upper body presses into the lower one and is turned a little; floating and small bodies are deformed.
+/// The upper body presses into the lower one and is turned a little; those that are not rigid are deformed.
 template <int Dim>
 std::vector<double> touching_state(const Touching<Dim>& scene, double unit, const std::vector<Kinematics>& kinematics) {
     std::vector<double> q(scene.solid.size(), 0.0);
@@ -101,11 +101,12 @@ std::vector<double> allowed_direction(const Touching<Dim>& scene, const std::vec
     return d;
 }
 
-const std::vector<std::vector<Kinematics>> kinds{{Kinematics::floating, Kinematics::floating},
-                                                 {Kinematics::rigid, Kinematics::floating},
-                                                 {Kinematics::rigid, Kinematics::rigid},
-                                                 {Kinematics::small, Kinematics::rigid},
-                                                 {Kinematics::small, Kinematics::floating}};
+const std::vector<std::vector<Kinematics>> kinds{
+    {Kinematics::finite, Kinematics::finite},   {Kinematics::rigid, Kinematics::finite},
+    {Kinematics::finite, Kinematics::floating}, {Kinematics::floating, Kinematics::floating},
+    {Kinematics::rigid, Kinematics::floating},  {Kinematics::rigid, Kinematics::rigid},
+    {Kinematics::small, Kinematics::rigid},     {Kinematics::small, Kinematics::floating},
+    {Kinematics::small, Kinematics::finite}};
 
 }  // namespace
 
@@ -139,7 +140,7 @@ TEMPLATE_TEST_CASE_SIG("forces are minus the gradient of the energy, along all t
 
 TEMPLATE_TEST_CASE_SIG("the energy of bodies that turn does not know how the whole scene lies", "[solid][kinematics]",
                        ((int Dim), Dim), 2, 3) {
-    const auto kinematics = GENERATE(from_range(std::vector<std::vector<Kinematics>>(kinds.begin(), kinds.begin() + 3)));
+    const auto kinematics = GENERATE(from_range(std::vector<std::vector<Kinematics>>(kinds.begin(), kinds.begin() + 6)));
     auto options = Touching<Dim>::options(kinematics, 1.0);
     options.acceleration.clear();
     const auto mesh = Touching<Dim>::made(1.0, Vector<Dim>::Zero());

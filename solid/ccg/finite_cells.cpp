@@ -1,0 +1,59 @@
+#include "abut/solid/ccg/finite_cells.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+namespace abut::solid {
+namespace {
+
+constexpr double one_direction = 1e-10;  // an eigenvalue of the sum of n n^T over the largest that counts as none
+
+/// The principal axes of what these normals span, those that they do not span first; right-handed.
+template <int Dim>
+FreeCell<Dim> free_cell(std::int32_t cell, const std::vector<Vector<Dim>>& normals) {
+    Eigen::Matrix<double, Dim, Dim> sum = Eigen::Matrix<double, Dim, Dim>::Zero();
+    for (const Vector<Dim>& normal : normals) sum += normal * normal.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen(sum);  // eigenvalues increase
+    FreeCell<Dim> free{.cell = cell, .n_tangents = 0, .axes = eigen.eigenvectors(), .measure_over = 0.0};
+    while (eigen.eigenvalues()[free.n_tangents] <= one_direction * eigen.eigenvalues()[Dim - 1]) ++free.n_tangents;
+    if (free.has_one_normal()) free.axes.col(Dim - 1) = normals.front();
+    if (free.axes.determinant() < 0.0) free.axes.col(0) *= -1.0;
+    return free;
+}
+
+}  // namespace
+
+template <int Dim>
+FiniteCells<Dim>::FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions,
+                              std::span<const Kinematics> kinematics) {
+    if (std::ranges::find(kinematics, Kinematics::finite) == kinematics.end()) return;
+    position_.assign(static_cast<std::size_t>(mesh.n_cells()), linear);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        if (kinematics[static_cast<std::size_t>(mesh.cell_body[c])] == Kinematics::finite) position_[c] = inside;
+    std::vector<std::vector<Vector<Dim>>> normals(position_.size());
+    std::vector<double> area(position_.size(), 0.0);
+    for (const BoundaryFace b : boundary_faces(mesh)) {
+        const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
+        if (!contains(cell) || !conditions.prescribed[b].isZero(0.0)) continue;
+        normals[cell].push_back(mesh.face_normal[face]);
+        area[cell] += mesh.face_measure[face];
+    }
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        if (normals[c].empty()) continue;
+        position_[c] = static_cast<std::int32_t>(free_.size());
+        free_.push_back(free_cell<Dim>(c, normals[c]));
+        free_.back().measure_over = mesh.cell_measure[c] / area[c];
+    }
+}
+
+template <int Dim>
+bool FiniteCells<Dim>::any_in(std::int32_t begin, std::int32_t end) const {
+    for (std::int32_t c = begin; c < end; ++c)
+        if (contains(c)) return true;
+    return false;
+}
+
+template class FiniteCells<2>;
+template class FiniteCells<3>;
+
+}  // namespace abut::solid

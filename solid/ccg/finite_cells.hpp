@@ -1,0 +1,46 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/finite_cell.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
+
+namespace abut::solid {
+
+/// Which cells are of bodies of Kinematics::finite, and those among them that have free faces.
+template <int Dim>
+class FiniteCells {
+public:
+    /// None.
+    FiniteCells() = default;
+    /// `kinematics`: one per body; empty: none is finite.
+    FiniteCells(const mesh::Mesh<Dim>& mesh, const FaceConditions<Dim>& conditions, std::span<const Kinematics> kinematics);
+
+    [[nodiscard]] bool any() const { return !position_.empty(); }
+    [[nodiscard]] bool contains(std::ptrdiff_t cell) const {
+        return any() && position_[static_cast<std::size_t>(cell)] != linear;
+    }
+    /// Whether one of the cells from `begin` to before `end` is.
+    [[nodiscard]] bool any_in(std::int32_t begin, std::int32_t end) const;
+    /// Position of a cell of such a body in `free`; -1 where it has no free face.
+    [[nodiscard]] std::int32_t free_position(std::ptrdiff_t cell) const { return position_[static_cast<std::size_t>(cell)]; }
+    [[nodiscard]] std::span<const FreeCell<Dim>> free() const { return free_; }
+    /// The cell with free faces of one normal, whose gradient is F_cond: in its traces, and at the corners that contact sees.
+    /// Null for others: at edges and corners, too, that of the affine faces is taken.
+    [[nodiscard]] const FreeCell<Dim>* condensed(std::ptrdiff_t cell) const {
+        const std::int32_t position = any() ? position_[static_cast<std::size_t>(cell)] : linear;
+        return position >= 0 && free_[position].has_one_normal() ? &free_[position] : nullptr;
+    }
+
+private:
+    static constexpr std::int32_t linear = -2, inside = -1;
+
+    std::vector<std::int32_t> position_;  // of each cell; empty where no body is finite
+    std::vector<FreeCell<Dim>> free_;
+};
+
+}  // namespace abut::solid

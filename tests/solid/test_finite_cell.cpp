@@ -1,0 +1,159 @@
+// One cell of a body of Kinematics::finite: its free faces are where its energy is least, and steps between two gradients are
+// exact.
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "abut/solid/ccg/finite_cell.hpp"
+#include "abut/solid/material.hpp"
+#include "solid/scenes.hpp"
+
+using namespace abut;
+using namespace abut::test;
+using solid::CondensedStep;
+using solid::FreeCell;
+
+namespace {
+
+const solid::Material material{.young = 1.0, .poisson = 0.3};
+
+template <int Dim>
+Matrix<Dim> random_matrix(unsigned seed, double size) {
+    const auto values = random_state(Dim * Dim, seed, size);
+    return Eigen::Map<const Matrix<Dim>>(values.data());
+}
+
+template <int Dim>
+Matrix<Dim> random_rotation(unsigned seed) {
+    if constexpr (Dim == 2)
+        return Eigen::Rotation2Dd(random_state(1, seed, 3.0)[0]).toRotationMatrix();
+    else
+        return Eigen::Quaterniond(Eigen::Vector4d(random_state(4, seed).data())).normalized().toRotationMatrix();
+}
+
+template <int Dim>
+FreeCell<Dim> cell_with(int n_tangents, unsigned seed) {
+    return {.cell = 0, .n_tangents = n_tangents, .axes = random_rotation<Dim>(seed), .measure_over = 1.0};
+}
+
+template <int Dim>
+Matrix<Dim> strain_of(const Matrix<Dim>& f) {
+    return 0.5 * (f.transpose() * f - Matrix<Dim>::Identity());
+}
+
+template <int Dim>
+Matrix<Dim> stress_of(const Matrix<Dim>& f) {
+    const Matrix<Dim> strain = strain_of<Dim>(f);
+    return material.lambda() * strain.trace() * Matrix<Dim>::Identity() + 2.0 * material.mu() * strain;
+}
+
+/// psi of St. Venant and Kirchhoff.
+template <int Dim>
+double density(const Matrix<Dim>& f) {
+    return 0.5 * stress_of<Dim>(f).cwiseProduct(strain_of<Dim>(f)).sum();
+}
+
+template <int Dim>
+double condensed_density(const FreeCell<Dim>& free, const Matrix<Dim>& f) {
+    const Matrix<Dim> strain = strain_of<Dim>(f);
+    return 0.5 * solid::condensed_stress<Dim>(free, material.lambda(), material.mu(), strain).cwiseProduct(strain).sum();
+}
+
+double contraction() { return solid::contraction(material.lambda(), material.mu()); }
+
+/// F with the columns that free faces change where the energy is least, by the closed forms of plane stress, of a bar and of a
+/// body without stress.
+template <int Dim>
+Matrix<Dim> relaxed(const FreeCell<Dim>& free, const Matrix<Dim>& f) {
+    const Matrix<Dim> g = f - Matrix<Dim>::Identity();
+    if (free.has_one_normal())
+        return Matrix<Dim>::Identity() + CondensedStep<Dim>(free, contraction(), g, Matrix<Dim>::Zero()).mean();
+    if (free.n_tangents == 0) return random_rotation<Dim>(5);
+    if constexpr (Dim == 3) {
+        const Eigen::Vector3d t = free.axes.col(0), y = f * free.axes.col(0);
+        const double lateral = std::sqrt(1.0 + material.poisson * (1.0 - y.squaredNorm()));
+        const Eigen::Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(t, y).toRotationMatrix();
+        return y * t.transpose() + lateral * turn * (Eigen::Matrix3d::Identity() - t * t.transpose());
+    }
+    return f;  // in the plane all cells are of one of the kinds above
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("the condensed energy of a cell is the least over its free faces", "[solid][finite]",
+                       ((int Dim), Dim), 2, 3) {
+    for (int n_tangents = 0; n_tangents < Dim; ++n_tangents)
+        for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+            CAPTURE(n_tangents, seed);
+            const FreeCell<Dim> free = cell_with<Dim>(n_tangents, seed);
+            const Matrix<Dim> f =
+                random_rotation<Dim>(seed + 10) * (Matrix<Dim>::Identity() + random_matrix<Dim>(seed + 20, 0.2));
+            const Matrix<Dim> least = relaxed<Dim>(free, f);
+            const double energy = density<Dim>(least);
+            const Matrix<Dim> tangents = free.axes.leftCols(n_tangents) * free.axes.leftCols(n_tangents).transpose();
+            const Matrix<Dim> normals = Matrix<Dim>::Identity() - tangents;
+            CHECK(((least - f) * tangents).norm() * (n_tangents > 0) <= 1e-14);
+            CHECK(std::abs(condensed_density<Dim>(free, f) - energy) <= 1e-14);
+            CHECK((least * stress_of<Dim>(least) * normals).norm() <= 1e-14);
+            for (const double size : {1e-3, 1e-1})
+                for (unsigned k = 0; k < 20; ++k)
+                    CHECK(density<Dim>(least + random_matrix<Dim>(100 + k, size) * normals) >= energy - 1e-16);
+            // A condensed stress has no traction on the free faces.
+            CHECK(
+                (solid::condensed_stress<Dim>(free, material.lambda(), material.mu(), strain_of<Dim>(f)) * normals).norm() <=
+                1e-15);
+        }
+}
+
+TEMPLATE_TEST_CASE_SIG("gradients pulled back through a free face do the work of the step, and have no moment of their own",
+                       "[solid][finite]", ((int Dim), Dim), 2, 3) {
+    for (const double size : {0.3, 1e-2, 1e-5, 1e-9, 1e-17})
+        for (const unsigned seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
+            CAPTURE(size, seed);
+            const FreeCell<Dim> free = cell_with<Dim>(Dim - 1, seed);
+            const Matrix<Dim> g =
+                random_rotation<Dim>(seed + 10) * (Matrix<Dim>::Identity() + random_matrix<Dim>(seed + 20, 0.15)) -
+                Matrix<Dim>::Identity();
+            const Matrix<Dim> change = random_matrix<Dim>(seed + 30, size), p = random_matrix<Dim>(seed + 40, 1.0);
+            const auto at = [&](double s) {
+                return CondensedStep<Dim>(free, contraction(), g + s * change, Matrix<Dim>::Zero()).mean();
+            };
+            const CondensedStep<Dim> step(free, contraction(), g, change);
+            const Matrix<Dim> pulled = step.pull_back(p);
+            const Matrix<Dim> start = at(-0.5), end = at(0.5);
+            CHECK((step.mean() - 0.5 * (start + end)).norm() <= 1e-15);
+            CHECK(std::abs(pulled.cwiseProduct(change).sum() - p.cwiseProduct(end - start).sum()) <= 5e-15);
+            const Matrix<Dim> mean = Matrix<Dim>::Identity() + step.mean(), affine = Matrix<Dim>::Identity() + g;
+            const Matrix<Dim> torque = pulled * affine.transpose() - p * mean.transpose();
+            CHECK((torque - torque.transpose()).norm() <= 2e-14);
+        }
+}
+
+TEMPLATE_TEST_CASE_SIG("in one state what is pulled back is the derivative", "[solid][finite]", ((int Dim), Dim), 2, 3) {
+    const FreeCell<Dim> free = cell_with<Dim>(Dim - 1, 3);
+    const Matrix<Dim> g = random_rotation<Dim>(4) - Matrix<Dim>::Identity() + random_matrix<Dim>(5, 0.1);
+    const Matrix<Dim> p = random_matrix<Dim>(6, 1.0), zero = Matrix<Dim>::Zero();
+    const Matrix<Dim> pulled = CondensedStep<Dim>(free, contraction(), g, zero).pull_back(p);
+    for (const unsigned seed : {7u, 8u, 9u}) {
+        const Matrix<Dim> d = random_matrix<Dim>(seed, 1.0);
+        const double h = 1e-5;
+        const auto at = [&](double s) {
+            return p.cwiseProduct(CondensedStep<Dim>(free, contraction(), g + s * d, zero).mean()).sum();
+        };
+        CHECK(std::abs((at(h) - at(-h)) / (2.0 * h) - pulled.cwiseProduct(d).sum()) <= 1e-8);
+    }
+}
+
+TEMPLATE_TEST_CASE_SIG("a free face has no stretch left where its tangents are stretched too far", "[solid][finite]",
+                       ((int Dim), Dim), 2, 3) {
+    const FreeCell<Dim> free = cell_with<Dim>(Dim - 1, 3);
+    const Matrix<Dim> tangents = Matrix<Dim>::Identity() - free.normal() * free.normal().transpose();
+    // 1 + nu' (d - 1 - (d - 1) l^2) = 0
+    const double limit = std::sqrt(1.0 + 1.0 / ((Dim - 1) * contraction()));
+    const auto at = [&](double stretch) {
+        return solid::normal_stretch_squared<Dim>(free, contraction(), (stretch - 1.0) * tangents);
+    };
+    CHECK(std::abs(at(limit)) <= 1e-14);
+    CHECK(at(0.9 * limit) > 0.0);
+    CHECK(at(1.1 * limit) < 0.0);
+}
