@@ -42,6 +42,8 @@ std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics) {
             return solid::Kinematics::small;
         case BodyKinematics::floating:
             return solid::Kinematics::floating;
+        case BodyKinematics::finite:
+            return solid::Kinematics::finite;
         case BodyKinematics::rigid:
             return solid::Kinematics::rigid;
     }

@@ -20,7 +20,7 @@ enum class SolidIntegrator { memm, memm_async, leapfrog, bilbao };
 
 /// How bodies may move (solid::Kinematics): one choice for all of them, that of the scene, or `automatic`: for each body the
 /// cheapest one that a pilot run allows (run/pilot.hpp).
-enum class BodyKinematics { scene, automatic, small, floating, rigid };
+enum class BodyKinematics { scene, automatic, small, floating, finite, rigid };
 
 /// How a scene is run. Where a message of an error or a warning names an option, it does so in the words of the programs'
 /// command lines: --contact-margin is `contact_margin`.
@@ -58,10 +58,11 @@ inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm",
                                                                         {"memm_async", SolidIntegrator::memm_async},
                                                                         {"leapfrog", SolidIntegrator::leapfrog},
                                                                         {"bilbao", SolidIntegrator::bilbao}}};
-inline constexpr std::array<Word<BodyKinematics>, 5> kinematics_words{{{"scene", BodyKinematics::scene},
+inline constexpr std::array<Word<BodyKinematics>, 6> kinematics_words{{{"scene", BodyKinematics::scene},
                                                                        {"automatic", BodyKinematics::automatic},
                                                                        {"small", BodyKinematics::small},
                                                                        {"floating", BodyKinematics::floating},
+                                                                       {"finite", BodyKinematics::finite},
                                                                        {"rigid", BodyKinematics::rigid}}};
 inline constexpr std::array<Word<solid::ContactLaw>, 3> law_words{{{"automatic", solid::ContactLaw::automatic},
                                                                    {"reconstruction", solid::ContactLaw::reconstruction},

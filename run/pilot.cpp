@@ -24,7 +24,7 @@ constexpr double rigid_strain_share = 0.01;
 /// The pilot run sees in steps of so much of the time at least how far bodies turn.
 constexpr double least_pilot_steps = 200.0;
 /// From which the time of a whole run is told.
-constexpr int timed_steps = 5;
+constexpr int timed_steps = 8;
 
 /// What is known of a body at rest.
 template <int Dim>
@@ -49,25 +49,41 @@ std::vector<RestBody<Dim>> bodies_at_rest(const Scene<Dim>& scene) {
     return bodies;
 }
 
+double sum(const solid::SolidTimes& times) { return times.bulk + times.contact + times.search; }
+
 /// Looks at the start of a run alone.
 template <int Dim>
-struct StartEnergies final : Observer<Dim> {
-    explicit StartEnergies(bool is_displaced) : is_displaced_(is_displaced) {}
-
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
+struct StartEnergies {
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, bool is_displaced) {
         if (run.steps > 0) return;
         kinetic.assign(solid.mesh().body_names.size(), 0.0);
         for (std::size_t i = 0; i < solid.masses().size(); ++i)
             kinetic[static_cast<std::size_t>(solid.body_of_points()[i])] +=
                 0.5 * run.momentum(static_cast<std::ptrdiff_t>(i)).squaredNorm() / solid.masses()[i];
-        if (is_displaced_) potential = std::abs(solid.potential(run.q));
+        if (is_displaced) potential = std::abs(solid.potential(run.q));
     }
 
     std::vector<double> kinetic;  // of each body [J]
     double potential = 0.0;       // of all [J]
+};
+
+/// Looks at a few steps: where they start, and how long they take after the first one, which searches for candidates.
+template <int Dim>
+struct TrialLook final : Observer<Dim> {
+    explicit TrialLook(bool is_displaced) : is_displaced_(is_displaced) {}
+
+    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
+        start.look(run, solid, is_displaced_);
+        if (run.steps == 1) first_step_ = sum(solid.times());
+        if (run.steps > 1) seconds_per_step = (sum(solid.times()) - first_step_) / static_cast<double>(run.steps - 1);
+    }
+
+    StartEnergies<Dim> start;
+    double seconds_per_step = 0.0;
 
 private:
     bool is_displaced_;
+    double first_step_ = 0.0;
 };
 
 /// Looks at a run with rigid bodies.
@@ -81,7 +97,7 @@ public:
         kinetic = std::max(kinetic, entry.kinetic);
     }
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
-        start_.look(run, solid);
+        start_.look(run, solid, false);
         if (run.steps == 0) kinetic_at_start = start_.kinetic;
         const std::vector<double> rotations = solid.rotations(run.q);
         const auto motions = solid::body_motions<Dim>(run, solid);
@@ -111,7 +127,7 @@ private:
     }
 
     std::vector<RestBody<Dim>> bodies_;
-    StartEnergies<Dim> start_{false};
+    StartEnergies<Dim> start_;
 
 public:
     std::vector<double> rotation;          // of each body, at most [rad]
@@ -143,13 +159,13 @@ struct Trial {
 };
 
 template <int Dim>
-Trial try_kind(const Scene<Dim>& scene, const RunOptions& given, BodyKinematics kinematics, Observer<Dim>& observer) {
+Trial try_kind(const Scene<Dim>& scene, const RunOptions& given, BodyKinematics kinematics, TrialLook<Dim>& look) {
     RunOptions options = of_one_kind(given, kinematics);
     options.time = not_given;
     options.steps = timed_steps;
     try {
-        const RunResult<Dim> result = simulate<Dim>(scene, options, observer);
-        return {result.dt, (result.times.bulk + result.times.contact + result.times.search) / timed_steps};
+        const double dt = simulate<Dim>(scene, options, look).dt;
+        return {dt, look.seconds_per_step};
     } catch (const BadInput&) {
         return {};
     }
@@ -188,10 +204,11 @@ template <int Dim>
 PilotReport choose_kinematics(const Scene<Dim>& scene, const RunOptions& options) {
     PilotReport report;
     const Stopwatch watch(report.seconds);
-    Observer<Dim> nobody;
-    StartEnergies<Dim> start(static_cast<bool>(scene.displacement));
-    const Trial floating = try_kind<Dim>(scene, options, BodyKinematics::floating, start);
-    const Trial small = try_kind<Dim>(scene, options, BodyKinematics::small, nobody);
+    const bool is_displaced = static_cast<bool>(scene.displacement);
+    TrialLook<Dim> of_floating(is_displaced), of_small(is_displaced);
+    const Trial floating = try_kind<Dim>(scene, options, BodyKinematics::floating, of_floating);
+    const Trial small = try_kind<Dim>(scene, options, BodyKinematics::small, of_small);
+    const StartEnergies<Dim>& start = of_floating.start;
     const bool by_steps = std::isnan(options.time) && options.steps > 0;
     const double length = by_steps                   ? options.steps * (std::isnan(floating.dt) ? small.dt : floating.dt)
                           : std::isnan(options.time) ? scene.time
@@ -202,7 +219,7 @@ PilotReport choose_kinematics(const Scene<Dim>& scene, const RunOptions& options
     report.steps = pilot.steps;
     report.small = small.seconds(length);
     report.floating = floating.seconds(length);
-    report.rigid = pilot.times.bulk + pilot.times.contact + pilot.times.search;
+    report.rigid = sum(pilot.times);
 
     std::vector<double> share(lookout.strain.size());
     for (std::size_t i = 0; i < share.size(); ++i) {

@@ -342,6 +342,12 @@ std::pair<std::int32_t, std::int32_t> Bodies<Dim>::deformable_cell(std::int32_t 
     return {cell - cells_of_body(mesh_, *found).first + cells_of_body(deformable(), body).first, body};
 }
 
+template <int Dim>
+std::int32_t Bodies<Dim>::mesh_cell(std::int32_t cell) const {
+    const std::int32_t body = deformable().cell_body[cell];
+    return cell - cells_of_body(deformable(), body).first + cells_of_body(mesh_, deformable_bodies_[body]).first;
+}
+
 template class Bodies<2>;
 template class Bodies<3>;
 

@@ -62,6 +62,8 @@ public:
     [[nodiscard]] std::vector<double> rigid_stiffness() const;
     /// The cell of the mesh in `deformable`, and its body there; -1 of rigid bodies.
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> deformable_cell(std::int32_t cell) const;
+    /// The other way round: the cell of the mesh that is this one in `deformable`.
+    [[nodiscard]] std::int32_t mesh_cell(std::int32_t deformable_cell) const;
     /// One value per body of the mesh, from those of the bodies that deform and a function of the rigid ones.
     template <class Rigid>
     [[nodiscard]] std::vector<double> of_bodies(const std::vector<double>& deformable, const Rigid& rigid) const {

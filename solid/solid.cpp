@@ -22,6 +22,7 @@
 namespace abut::solid {
 namespace {
 
+inline constexpr double least_determinant = 0.1;   // det F of a cell of a finite body
 inline constexpr double same_time = 1e-6;          // of a step: sums of steps are rounded
 inline constexpr double tiny_displacement = 1e-8;  // of the size of a cell
 
@@ -259,6 +260,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
         take_gradient(loads_->mean());
     else
         take_gradient(loads_->end());
+    require_no_collapse();
     add_work(1.0);
     to_force(u_0, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
@@ -289,6 +291,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     if (contact_) contact_->take_end();
     const Stopwatch watch(times_.bulk);
     ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
+    require_no_collapse();
     add_work(0.5);
     to_force(u_1, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
@@ -340,6 +343,27 @@ double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<con
     parallel_each(static_cast<std::ptrdiff_t>(q_0.size()),
                   [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); });
     return 0.0;
+}
+
+/// Of bodies of Kinematics::finite; the energy does not show it.
+template <int Dim>
+void Solid<Dim>::require_no_collapse() {
+    if (!bodies_->any_finite()) return;
+    FiniteExtremes now = ccg_.finite_extremes();
+    finite_extremes_.strain = std::max(finite_extremes_.strain, now.strain);
+    if (now.cell < 0) return;
+    now.cell = bodies_->mesh_cell(now.cell);
+    if (!(now.determinant >= finite_extremes_.determinant)) {
+        finite_extremes_.determinant = now.determinant;
+        finite_extremes_.cell = now.cell;
+    }
+    if (now.determinant > least_determinant) return;
+    throw Diverged(mesh_.name + ": cell " + std::to_string(mesh_.cell_label[now.cell]) + " of body '" +
+                       mesh_.body_names[mesh_.cell_body[now.cell]] + "', of Kinematics::finite, has collapsed: det F is " +
+                       number(now.determinant) + ", more than " + number(least_determinant) +
+                       " is needed (0: a free face is stretched too far). Load it less, refine its mesh, or take a shorter "
+                       "time step if it is noise that grows.",
+                   {.cell = now.cell, .value = now.determinant, .allowed = least_determinant});
 }
 
 /// `share` of the work from outside in the step that the present gradients of the boundary faces would do.

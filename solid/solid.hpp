@@ -147,6 +147,9 @@ public:
     /// By how much the cell of a body that turns most turns against its frame in q (n_bodies) [rad]; of a small body against
     /// space, of a rigid or finite one 0. Strains of the others are linear: beyond 0.1 a body should be split, or be finite.
     [[nodiscard]] std::vector<double> local_rotations(std::span<const double> q);
+    /// Of all steps so far: how much cells of bodies of Kinematics::finite were deformed at most. H~ does not show where they
+    /// collapse: a step in which det F of one falls to 0.1 throws Diverged.
+    [[nodiscard]] const FiniteExtremes& finite_extremes() const { return finite_extremes_; }
     /// sigma of a cell of the mesh in space [Pa], of the state that was evaluated last; 0 in rigid bodies.
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
@@ -174,6 +177,7 @@ private:
     [[nodiscard]] std::span<const Vector<Dim>> in_frames(std::span<const Vector<Dim>> q,
                                                          std::span<const std::int32_t> cells);
     void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
+    void require_no_collapse();
     void add_work(double share);
     void end_step(double time);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
@@ -190,7 +194,8 @@ private:
     SolidTimes times_;
     std::int64_t evaluations_ = 0;
     double work_ = 0.0;
-    double time_ = 0.0;  // of the state that the last step ended in
+    FiniteExtremes finite_extremes_;  // the cell in the mesh
+    double time_ = 0.0;               // of the state that the last step ended in
     std::unique_ptr<Loads<Dim>> loads_;
     std::unique_ptr<ContactDriver<Dim>> contact_;          // null without contact
     ReconstructionDriver<Dim>* reconstruction_ = nullptr;  // the same, under that law

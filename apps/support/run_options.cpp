@@ -90,8 +90,8 @@ void add_contact_options(CLI::App& app, run::RunOptions& options) {
     auto& contact = options.contact;
     const auto grouped = [](CLI::Option* option) { option->group("Contact"); };
     grouped(add_choice(app, "--kinematics", options.kinematics,
-                       "of all bodies: small for those that do not turn, floating frames, rigid, as the scene says, or "
-                       "automatic: for each what a run with rigid bodies allows",
+                       "of all bodies: small for those that do not turn, floating frames, finite (they bend), rigid, as the "
+                       "scene says, or automatic: small, floating or rigid by what a run with rigid bodies shows",
                        kinematics));
     grouped(add_choice(app, "--law", options.law,
                        "of contact: the modified reconstruction for bodies that do not turn, the pair potential for all",

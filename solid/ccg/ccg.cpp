@@ -253,6 +253,11 @@ Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
 }
 
 template <int Dim>
+FiniteExtremes Ccg<Dim>::finite_extremes() const {
+    return impl_->sweeps.finite_extremes();
+}
+
+template <int Dim>
 const StencilReport& Ccg<Dim>::stencil_report() const {
     return impl_->arrays.report;
 }

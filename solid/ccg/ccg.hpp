@@ -35,6 +35,13 @@ struct StepEnds {
     std::span<const Vector<Dim>> end;    ///< the same
 };
 
+/// How much the cells of bodies of Kinematics::finite are deformed at most.
+struct FiniteExtremes {
+    double determinant = 1.0;  ///< least det F [-]; 0 where a free face has no stretch across left
+    double strain = 0.0;       ///< largest |E|, Frobenius [-]
+    std::int32_t cell = -1;    ///< with the least det F; -1 where none is below 1
+};
+
 /// A part of the mesh on which the operators can be applied alone: everything that the asked-for values depend on.
 template <int Dim>
 struct Region {
@@ -140,6 +147,9 @@ public:
     /// since then have set those of their region.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
+
+    /// At the end of the step or in the state that `gradient` was called for last.
+    [[nodiscard]] FiniteExtremes finite_extremes() const;
 
     /// Of interior faces only; `boundary` has that of the others.
     [[nodiscard]] const StencilReport& stencil_report() const;

@@ -64,10 +64,25 @@ struct FreeCell {
 template <int Dim>
 [[nodiscard]] Matrix<Dim> condensed_stress(const FreeCell<Dim>& free, double lambda, double mu, const Matrix<Dim>& strain);
 
+/// How much a cell is deformed.
+struct CellStretch {
+    double determinant;  ///< det F [-]; 0 where a free face has no stretch across left
+    double strain;       ///< |E|, Frobenius [-]
+};
+
+/// Of a cell whose faces are where they are put.
+template <int Dim>
+[[nodiscard]] CellStretch cell_stretch(const Matrix<Dim>& displacement_gradient);
+
 /// r^2, the squared stretch along the normal that the free face of a cell with one normal takes [-]. Not positive: there is no
 /// minimum, the tangents are stretched too far.
 template <int Dim>
 [[nodiscard]] double normal_stretch_squared(const FreeCell<Dim>& free, double contraction,
+                                            const Matrix<Dim>& displacement_gradient);
+
+/// Of a cell with one normal, under F_cond. Below r^2 = 0.05 the free face counts as lost.
+template <int Dim>
+[[nodiscard]] CellStretch condensed_stretch(const FreeCell<Dim>& free, double contraction,
                                             const Matrix<Dim>& displacement_gradient);
 
 /// Gradients F of a cell with one normal on a straight step: from those that the affine faces give, F = I + G, to those with

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <vector>
+
 #include "abut/base/parallel.hpp"
 #include "abut/solid/ccg/sweep_elements.hpp"
 
@@ -104,6 +107,39 @@ std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace fac
     return {affine + free->measure_over * ((condensed - g) * arrays_.normal_of(face)), condensed};
 }
 
+/// At the end of the step, or in the state.
+template <int Dim>
+CellStretch CcgSweeps<Dim>::end_stretch(std::ptrdiff_t c) const {
+    const CellGeometry<Dim>& cell = arrays_.cells[c];
+    LaneTensor<Dim> g = load_tensor<Dim>(g_, c);
+    const LaneTensor<Dim> change = load_tensor<Dim>(g_change_, c);
+    for (int j = 0; j < Dim; ++j) g.col[j] += 0.5 * change.col[j];
+    const FreeCell<Dim>* free = finite_.condensed(c);
+    return free ? condensed_stretch<Dim>(*free, contraction(cell.lambda, cell.mu), unload(g)) : cell_stretch<Dim>(unload(g));
+}
+
+template <int Dim>
+FiniteExtremes CcgSweeps<Dim>::finite_extremes() const {
+    const auto take = [](FiniteExtremes& extremes, const FiniteExtremes& other) {
+        if (!(other.determinant >= extremes.determinant)) {  // or not a number
+            extremes.determinant = other.determinant;
+            extremes.cell = other.cell;
+        }
+        extremes.strain = std::max(extremes.strain, other.strain);
+    };
+    std::vector<FiniteExtremes> of_part(static_cast<std::size_t>((arrays_.n_cells() + parallel_grain - 1) / parallel_grain));
+    parallel_parts(arrays_.cells.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
+        for (auto c = static_cast<std::int32_t>(begin); c < static_cast<std::int32_t>(end); ++c) {
+            if (!finite_.contains(c)) continue;
+            const auto [determinant, strain] = end_stretch(c);
+            take(of_part[begin / parallel_grain], {determinant, strain, c});
+        }
+    });
+    FiniteExtremes extremes;
+    for (const FiniteExtremes& of : of_part) take(extremes, of);
+    return extremes;
+}
+
 /// F S F^T/det F.
 template <int Dim>
 Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t c) const {
@@ -122,6 +158,7 @@ Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t c) const {
     template void CcgSweeps<Dim>::set_any_stress(std::ptrdiff_t);                                         \
     template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                \
     template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
+    template FiniteExtremes CcgSweeps<Dim>::finite_extremes() const;                                      \
     template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -50,6 +50,9 @@ public:
     void evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
+    /// See Ccg.
+    [[nodiscard]] FiniteExtremes finite_extremes() const;
+
     // Of the last call.
     [[nodiscard]] Vector<Dim> face_displacement(std::int32_t f) const {
         return unload<Dim>(load_packed<Dim>(relative_, f) + load_packed<Dim>(u_, arrays_.face_cells[f][0]));
@@ -86,6 +89,7 @@ private:
 
     // One element of a finite body, or of any
     [[nodiscard]] LaneTensor<Dim> finite_stress(std::ptrdiff_t c, const LaneTensor<Dim>& strain) const;
+    [[nodiscard]] CellStretch end_stretch(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::ptrdiff_t c);
     void set_finite_stress(std::ptrdiff_t c);

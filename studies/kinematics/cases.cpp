@@ -154,6 +154,8 @@ std::string name_of(Kinematics kinematics) {
             return "small";
         case Kinematics::floating:
             return "floating";
+        case Kinematics::finite:
+            return "finite";
         case Kinematics::rigid:
             return "rigid";
     }

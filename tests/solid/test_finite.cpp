@@ -290,6 +290,32 @@ TEST_CASE("a cantilever bends as the elastica does", "[solid][finite]") {
     CHECK(std::abs(tip / length / deflection - 1.0) <= 0.02);
 }
 
+TEST_CASE("a finite body that collapses is refused by the name of the cell, and says how near it came before",
+          "[solid][finite]") {
+    // The ends of a bar run into each other, with a speed that is linear along it.
+    const auto mesh = mesh::structured_box<2>({-1.0, -0.25}, {1.0, 0.25}, {16, 4}, CellShape::triangle);
+    const auto run = [&](double speed) {
+        solid::Solid<2> solid(mesh, apart<2>({Kinematics::finite}));
+        std::vector<double> p;
+        for (std::size_t c = 0; c < mesh.cell_centroid.size(); ++c) {
+            p.push_back(-speed * mesh.cell_centroid[c][0] * solid.masses()[c]);
+            p.push_back(0.0);
+        }
+        dynamics::Memm memm(solid, std::vector<double>(p.size(), 0.0), p, 0.4 * dynamics::stable_step(solid).dt);
+        while (memm.time() < 4.0) memm.step();
+        return solid.finite_extremes();
+    };
+    const auto slow = run(0.05), faster = run(0.2);
+    CHECK(slow.determinant < 1.0);
+    CHECK(faster.determinant < slow.determinant);
+    CHECK(faster.determinant > 0.1);
+    CHECK(slow.strain > 0.0);
+    CHECK(slow.strain < faster.strain);
+    CHECK_THROWS_WITH(run(2.0),
+                      Catch::Contains("Kinematics::finite") && Catch::Contains("collapsed") && Catch::Contains("cell "));
+    CHECK_THROWS_AS(run(2.0), Diverged);
+}
+
 TEST_CASE("what a finite body does not know is refused by name", "[solid][finite]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {3, 3}, CellShape::quadrangle);
     auto options = apart<2>({Kinematics::finite});
