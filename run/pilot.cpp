@@ -201,9 +201,12 @@ std::vector<Kinematics> PilotReport::kinematics() const {
 }
 
 template <int Dim>
-PilotReport choose_kinematics(const Scene<Dim>& scene, const RunOptions& options) {
+PilotReport choose_kinematics(const Scene<Dim>& given, const RunOptions& options) {
     PilotReport report;
     const Stopwatch watch(report.seconds);
+    Scene<Dim> scene = given;  // whoever looks on at the run does not see the pilot
+    scene.after_step = {};
+    scene.findings = {};
     const bool is_displaced = static_cast<bool>(scene.displacement);
     TrialLook<Dim> of_floating(is_displaced), of_small(is_displaced);
     const Trial floating = try_kind<Dim>(scene, options, BodyKinematics::floating, of_floating);
@@ -224,7 +227,8 @@ PilotReport choose_kinematics(const Scene<Dim>& scene, const RunOptions& options
     std::vector<double> share(lookout.strain.size());
     for (std::size_t i = 0; i < share.size(); ++i) {
         const double vibrates = start.kinetic.empty() ? 0.0 : start.kinetic[i] - lookout.kinetic_at_start[i];
-        share[i] = std::max(lookout.strain[i], vibrates + start.potential) / lookout.kinetic;
+        const double energy = std::max(lookout.strain[i], vibrates + start.potential);
+        share[i] = energy > 0.0 ? energy / lookout.kinetic : 0.0;
     }
     bool one_turns = false;
     for (std::size_t i = 0; i < share.size(); ++i)

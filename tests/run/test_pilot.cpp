@@ -82,8 +82,11 @@ TEST_CASE("automatic: a body that vibrates at the start is not rigid", "[run][pi
 TEST_CASE("an automatic run is the run with the kinematics that it picked", "[run][pilot]") {
     run::Scene<2> scene = block_on_block(1e3);
     scene.time = 5.0;
+    std::int64_t seen = 0;
+    scene.after_step = [&](const solid::Solid<2>&, double) { ++seen; };
     const run::RunResult<2> chosen = run::simulate<2>(scene, automatic);
     REQUIRE(chosen.pilot);
+    CHECK(seen == chosen.steps);
     scene.solid.kinematics = {Kinematics::rigid, Kinematics::small};
     const run::RunResult<2> given = run::simulate<2>(scene);
     CHECK_FALSE(given.pilot);
