@@ -78,6 +78,7 @@ struct RunResult {
     solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
+    solid::FiniteExtremes finite;         ///< of all steps: Solid::finite_extremes
     std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
     solid::SolidTimes times;              ///< of the steps
     RunSeconds seconds;

@@ -150,6 +150,7 @@ public:
         }
         result_.end = solid::body_motions<Dim>(integrator_, solid_);
         result_.local_rotations = solid_.local_rotations(integrator_.q());
+        result_.finite = solid_.finite_extremes();
         result_.contact = solid_.contact_report();
         result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();

@@ -142,6 +142,12 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
             fmt::format("a cell has turned by {:.2g} rad against the frame of its body, {:g} is safe. Strains are linear in "
                         "that frame. Parts that turn against each other are to be bodies of their own, joined by springs",
                         *most, far_rotation));
+    if (result.finite.strain > large_strain)
+        add(WarningKind::finite_strain, result.finite.strain, large_strain,
+            fmt::format("a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
+                        "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
+                        "if noise grows, a lower --cfl and --restart 50 help",
+                        result.finite.strain, large_strain, result.finite.determinant));
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were lost, 0 are allowed: the energy is not exact", contact.missed_contacts));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,

@@ -16,6 +16,9 @@ inline constexpr double deep_slip_compression = 0.3;
 /// How far a body may turn before it is worth a word [rad]: it has grown by 0.5 % then. docs/limits.md.
 inline constexpr double far_rotation = 0.1;
 
+/// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
+inline constexpr double large_strain = 0.2;
+
 enum class Severity {
     note,     ///< as it should be, and good to know
     warning,  ///< may spoil the result
@@ -38,6 +41,7 @@ enum class WarningKind {
     deep_slip,       ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
+    finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
     missed_contacts,        ///< contacts that were lost: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };

@@ -22,9 +22,7 @@
 namespace abut::solid {
 namespace {
 
-inline constexpr double least_determinant = 0.1;   // det F of a cell of a finite body
-inline constexpr double same_time = 1e-6;          // of a step: sums of steps are rounded
-inline constexpr double tiny_displacement = 1e-8;  // of the size of a cell
+inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
 
 }  // namespace
 
@@ -163,21 +161,6 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
     stiffness_of_cells(of_cells(u), result);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) result[i] = rigid_stiffness_[i] * u[i];
     point_loads_->add_stiffness(u, result);
-}
-
-/// Gradients of bodies of Kinematics::finite are linear for tiny displacements alone; powers of two cost no digits.
-template <int Dim>
-void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result) {
-    if (!bodies_->any_finite()) return ccg_.gradient(u, ccg_.load_free(), {}, result);
-    const mesh::Mesh<Dim>& part = bodies_->deformable();
-    double largest = 0.0;
-    for (const Vector<Dim>& of_cell : u) largest = larger(largest, of_cell.cwiseAbs().maxCoeff());
-    const double size = std::pow(std::ranges::min(part.cell_measure), 1.0 / Dim);
-    const double scale = largest > 0.0 ? std::exp2(std::floor(std::log2(tiny_displacement * size / largest))) : 1.0;
-    midpoint_.resize(u.size());
-    for (std::size_t c = 0; c < u.size(); ++c) midpoint_[c] = scale * u[c];
-    ccg_.gradient(midpoint_, ccg_.load_free(), {}, result);
-    for (std::size_t c = 0; c < u.size(); ++c) result[c] /= scale;
 }
 
 template <int Dim>
@@ -343,27 +326,6 @@ double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<con
     parallel_each(static_cast<std::ptrdiff_t>(q_0.size()),
                   [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); });
     return 0.0;
-}
-
-/// Of bodies of Kinematics::finite; the energy does not show it.
-template <int Dim>
-void Solid<Dim>::require_no_collapse() {
-    if (!bodies_->any_finite()) return;
-    FiniteExtremes now = ccg_.finite_extremes();
-    finite_extremes_.strain = std::max(finite_extremes_.strain, now.strain);
-    if (now.cell < 0) return;
-    now.cell = bodies_->mesh_cell(now.cell);
-    if (!(now.determinant >= finite_extremes_.determinant)) {
-        finite_extremes_.determinant = now.determinant;
-        finite_extremes_.cell = now.cell;
-    }
-    if (now.determinant > least_determinant) return;
-    throw Diverged(mesh_.name + ": cell " + std::to_string(mesh_.cell_label[now.cell]) + " of body '" +
-                       mesh_.body_names[mesh_.cell_body[now.cell]] + "', of Kinematics::finite, has collapsed: det F is " +
-                       number(now.determinant) + ", more than " + number(least_determinant) +
-                       " is needed (0: a free face is stretched too far). Load it less, refine its mesh, or take a shorter "
-                       "time step if it is noise that grows.",
-                   {.cell = now.cell, .value = now.determinant, .allowed = least_determinant});
 }
 
 /// `share` of the work from outside in the step that the present gradients of the boundary faces would do.

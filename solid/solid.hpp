@@ -63,8 +63,9 @@ public:
     /// Where no body turns strains are linear, and what is free keeps its angular momentum about the positions at rest; bodies
     /// with a frame of their own keep J~.
     [[nodiscard]] dynamics::MomentArms moment_arms() const;
-    /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells. docs/method.md, Space.
-    [[nodiscard]] double step_margin() const { return contact_ ? 0.85 : 1.0; }
+    /// The part of 2/omega_max that is stable [-]: a closed contact stiffens its cells, and noise feeds the alternating mode of
+    /// bodies of Kinematics::finite. docs/method.md, Space and Bodies that bend.
+    [[nodiscard]] double step_margin() const;
 
     /// With what holds rigid bodies together, at the velocities around the last node.
     void force(std::span<const double> q, std::span<double> force);

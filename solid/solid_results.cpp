@@ -17,6 +17,9 @@
 namespace abut::solid {
 namespace {
 
+constexpr double contact_margin = 0.85;      // of 2/omega_max
+constexpr double finite_margin = 2.0 / 3.0;  // the same: 0.6 of it with the 0.9 that runs take
+
 template <int Dim>
 std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
     std::vector<double> numbers;
@@ -164,6 +167,12 @@ dynamics::MomentArms Solid<Dim>::moment_arms() const {
                                                                                  : dynamics::MomentArms::rest;
 }
 
+template <int Dim>
+double Solid<Dim>::step_margin() const {
+    if (bodies_->any_finite()) return finite_margin;
+    return contact_ ? contact_margin : 1.0;
+}
+
 #define ABUT_INSTANTIATE(Dim)                                                                                      \
     template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                    \
     template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);     \
@@ -185,6 +194,7 @@ dynamics::MomentArms Solid<Dim>::moment_arms() const {
     template std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const;  \
     template std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const; \
     template Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const;                                              \
+    template double Solid<Dim>::step_margin() const;                                                               \
     template dynamics::MomentArms Solid<Dim>::moment_arms() const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -1,4 +1,4 @@
-// Bodies that turn, however they move: small, floating or rigid. What each keeps, where it is right, and what it costs.
+// Bodies that turn, however they move: small, floating, finite or rigid. What each keeps, where it is right, and what it costs.
 //
 // Cell-centred elasticity and rigid bodies touch by the potential of a pair (docs/method.md). Runs are asked for H~ less the
 // work from outside, momentum, J~ = sum x × p - dt/4 sum v^- × p^+ where nothing holds the bodies, missed contacts and the
@@ -18,6 +18,7 @@ const std::vector<Part>& parts() {
         {"bar", "A slender bar is struck near its end and turns: does it grow?", run_bar},
         {"tumble", "Blocks fall on a plane and tumble.", run_tumble},
         {"ball", "A rigid ball bounces on an elastic block: for how long does it touch?", run_ball},
+        {"bend", "A cantilever bends far, and is let go: where is its tip?", run_bend},
         {"chute", "A rigid disc slides down flat facets: does it begin to spin?", run_chute},
         {"cradle", "Five discs in a row: does the last one take the velocity?", run_cradle},
         {"spheres", "The same in space: of five spheres, does the last one take the velocity?", run_spheres},
@@ -32,7 +33,7 @@ namespace {
 
 const apps::Program program{
     .name = "kinematics",
-    .purpose = "Small, floating and rigid bodies: energies, momenta, closed forms, and what they cost.",
+    .purpose = "Small, floating, finite and rigid bodies: energies, momenta, closed forms, and what they cost.",
     .footer = "A target that is missed is said to be; the exit code is that of the program alone."};
 
 void add_options(CLI::App& app, Options& options) {

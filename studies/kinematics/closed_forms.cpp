@@ -67,6 +67,13 @@ std::vector<double> velocities_of(const Chain& chain, double time) {
     return v;
 }
 
+double elastica_tip(double alpha) {
+    const auto phi = [](double p) { return std::asin(1.0 / (p * std::numbers::sqrt2)); };
+    const double p = root(1.0 / std::numbers::sqrt2 + 1e-14, 1.0 - 1e-12,
+                          [&](double k) { return std::comp_ellint_1(k) - std::ellint_1(k, phi(k)) - std::sqrt(alpha); });
+    return 1.0 - 2.0 / std::sqrt(alpha) * (std::comp_ellint_2(p) - std::ellint_2(p, phi(p)));
+}
+
 double angle_between(const Matrix<3>& a, const Matrix<3>& b) {
     return 2.0 * std::asin(std::min(1.0, (a - b).norm() / std::sqrt(8.0)));
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +10,7 @@
 namespace abut::studies::kinematics {
 namespace {
 
-constexpr double spin = 0.1, noise = 1e-3;
+constexpr double spin = 0.1;
 
 /// How far the distance of two cells is from that at rest, at most: over that.
 template <int Dim>
@@ -23,7 +25,7 @@ double stretch_of(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& so
 }
 
 template <int Dim>
-void spin_block(Kinematics kinematics, bool noisy, const Options& options, const Sink& sink) {
+void spin_block(Kinematics kinematics, double noise, const Options& options, const Sink& sink, int restart = 0) {
     std::array<int, Dim> cells;
     cells.fill(options.quick ? 3 : Dim == 2 ? 8 : 4);
     Case<Dim> one = case_of<Dim>(Dim == 2 ? "square" : "cube", {block<Dim>({.cells = cells})}, kinematics);
@@ -33,14 +35,16 @@ void spin_block(Kinematics kinematics, bool noisy, const Options& options, const
         one.motion[0].spin = AxialVector<2>(spin);
     else
         one.motion[0].spin = spin * Vector<3>(0.3, -0.5, 0.8).normalized();
-    one.noise = noisy ? noise : 0.0;
+    one.noise = noise;
+    one.run.restart = restart;
     const double turns = options.quick ? 2.0 : 20.0;
     one.scene.time = turns * 2.0 * std::numbers::pi / spin;
     double stretch = 0.0;
     const Watch<Dim> watch = [&](const auto& run, const auto& solid) {
         stretch = std::max(stretch, stretch_of<Dim>(run, solid));
     };
-    const std::string setting = name_of(kinematics) + (noisy ? ", noise 1e-3" : "");
+    const std::string setting = name_of(kinematics) + (noise > 0.0 ? fmt::format(", noise {:g}", noise) : "") +
+                                (restart > 0 ? fmt::format(", restart {}", restart) : "");
     Row row = row_of<Dim>(one, setting, options, nullptr, watch);
     const std::string name = "largest change of a distance, over that at rest";
     if (kinematics == Kinematics::small) {
@@ -49,8 +53,8 @@ void spin_block(Kinematics kinematics, bool noisy, const Options& options, const
         row.quantities.push_back(near(name, stretch, std::sqrt(1.0 + flight * flight) - 1.0, Dim == 2 ? 0.02 : no_target));
     } else {
         const double centrifugal = 2.0 * spin * spin;  // of E = rho = 1, and of noise nothing is known
-        row.quantities.push_back(at_most(name, stretch, noisy ? no_target : centrifugal));
-        row.quantities.push_back(at_most("H - H~", row.run.excess, noisy ? 1.0 : 1e-3));
+        row.quantities.push_back(at_most(name, stretch, noise > 0.0 ? no_target : centrifugal));
+        row.quantities.push_back(at_most("H - H~", row.run.excess, noise > 0.0 ? 1.0 : 1e-3));
     }
     sink(row);
 }
@@ -58,12 +62,15 @@ void spin_block(Kinematics kinematics, bool noisy, const Options& options, const
 }  // namespace
 
 void run_free(const Options& options, const Sink& sink) {
-    for (const bool noisy : {false, true}) {
-        spin_block<2>(Kinematics::floating, noisy, options, sink);
-        spin_block<3>(Kinematics::floating, noisy, options, sink);
+    for (const double noise : {0.0, 1e-3}) {
+        spin_block<2>(Kinematics::floating, noise, options, sink);
+        spin_block<3>(Kinematics::floating, noise, options, sink);
     }
-    spin_block<2>(Kinematics::small, false, options, sink);
-    spin_block<3>(Kinematics::small, false, options, sink);
+    for (const double noise : {0.0, 1e-3, 1e-2, 3e-2}) spin_block<2>(Kinematics::finite, noise, options, sink);
+    for (const double noise : {0.0, 1e-3, 1e-2}) spin_block<3>(Kinematics::finite, noise, options, sink);
+    spin_block<2>(Kinematics::finite, 3e-2, options, sink, 50);
+    spin_block<2>(Kinematics::small, 0.0, options, sink);
+    spin_block<3>(Kinematics::small, 0.0, options, sink);
 }
 
 }  // namespace abut::studies::kinematics

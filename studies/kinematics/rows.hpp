@@ -38,6 +38,7 @@ void run_wall(const Options& options, const Sink& sink);
 void run_bar(const Options& options, const Sink& sink);
 void run_tumble(const Options& options, const Sink& sink);
 void run_ball(const Options& options, const Sink& sink);
+void run_bend(const Options& options, const Sink& sink);
 void run_chute(const Options& options, const Sink& sink);
 void run_cradle(const Options& options, const Sink& sink);
 void run_spheres(const Options& options, const Sink& sink);

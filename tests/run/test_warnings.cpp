@@ -56,6 +56,19 @@ TEST_CASE("each figure above its threshold is a warning of its kind with value a
     CHECK(kinds(run::warnings_during(3, result)) == std::vector{WarningKind::compression});
 }
 
+TEST_CASE("a finite body that is strained too far is told of, with how near a cell came to a collapse", "[run][warnings]") {
+    run::RunResult<2> result;
+    result.dt = result.finest_dt = 1.0;
+    result.finite = {.determinant = 0.43, .strain = run::large_strain, .cell = 3};
+    CHECK(run::warnings_after(result).empty());
+    result.finite.strain = 0.31;
+    const auto warnings = run::warnings_after(result);
+    CHECK(kinds(warnings) == std::vector{WarningKind::finite_strain});
+    CHECK(warnings.front().value == 0.31);
+    CHECK(warnings.front().threshold == run::large_strain);
+    CHECK(warnings.front().text.find("0.43") != std::string::npos);
+}
+
 TEST_CASE("a body that turns is told of from 0.1 rad on, with what it has grown by", "[run][warnings]") {
     for (const double angle : {0.09, 0.2}) {
         run::RunResult<2> result;
