@@ -69,7 +69,7 @@ public:
 
     /// With what holds rigid bodies together, at the velocities around the last node.
     void force(std::span<const double> q, std::span<double> force);
-    /// The bulk is linear and taken at the midpoint; contact is integrated exactly along the path (docs/method.md, Time).
+    /// The bulk is taken at the midpoint where it is linear, else by its discrete gradient; contact exactly along the path.
     /// Throws Misuse where the step should begin when the last one ended but does not, Diverged or TooDeep when the
     /// run has diverged or a pair is pressed in deeper than `compression_limit`. After such an error a run with loads that
     /// vary is over; another may try a shorter step.
