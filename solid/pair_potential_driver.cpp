@@ -182,8 +182,7 @@ void PairPotentialDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::spa
     contact_.search(x_0_, x_1_);
     searched_at_ = x_0_;
     far_reach_ = far_skins * contact_.skin();
-    listed_nodes_ = contact_.last().nodes;
-    listed_ = corners_.list(listed_nodes_);
+    listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
     near_ = corners_.list(near_nodes());
     near_watch_ = watch_from(near_, q_1, x_1_, time + dt);
     far_watch_ = watch_from(all_, q_1, x_1_, time + dt);
@@ -274,8 +273,7 @@ void PairPotentialDriver<Dim>::evaluate(std::span<const Vector<Dim>> q, double t
     corners_.place(all_, q, frames_.end(), loads_.end(), time, x_state_);
     contact_.evaluate(x_state_);
     if (contact_.last().nodes != listed_nodes_) {
-        listed_nodes_ = contact_.last().nodes;
-        listed_ = corners_.list(listed_nodes_);
+        listed_ = corners_.list(listed_nodes_ = contact_.last().nodes);
         has_stepped_ = false;
     }
     collect(x_state_, x_state_);

@@ -8,7 +8,7 @@ enum class Kinematics {
     floating,  ///< linear elasticity in a frame that turns with the body: any turn, small strains and small turns inside it
     /// St. Venant-Kirchhoff: any turn and bend, strains to some 0.1; refused where a cell collapses. docs/limits.md
     finite,
-    rigid,     ///< no deformation but the skin that contact presses in: six degrees of freedom in space, three in the plane
+    rigid,  ///< no deformation but the skin that contact presses in: six degrees of freedom in space, three in the plane
 };
 
 /// What acts between faces in contact.
