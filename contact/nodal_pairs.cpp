@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::ptrdiff_t grain = 256;  // pairs that are worth a task
 
-// Steps like the present one after which the pairs in reach are chosen anew.
+// Steps like the present one after which the pairs in reach are chosen again.
 constexpr double steps_between = 8.0;
 
 double admission_depth(double stiffness, double depth) {

@@ -60,7 +60,7 @@ public:
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
 
     /// The list is pruned again and again while it holds: these of its pairs can act in the step from x_0 to x_1, and in the
-    /// next ones as long as no node moves too far. They are chosen anew where they must be; what leaves them is admitted from
+    /// next ones as long as no node moves too far. They are chosen again where they must be; what leaves them is admitted from
     /// then on if it is apart, and else not, as if it had left the list. `memory`: of all pairs.
     [[nodiscard]] std::span<const NodalPair<Dim>> in_reach(PointsView<Dim> x_0, PointsView<Dim> x_1,
                                                            std::span<PairMemory> memory);

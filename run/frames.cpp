@@ -83,7 +83,9 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
     const Stresses<Dim> stresses(solid);
     const auto velocity = velocities(run, solid);
     const auto displacement = solid.cell_displacement(run.q);
-    mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement};
+    std::vector<Vector<Dim>> of_vertices;  // a body that turns is not where the mean displacement of its cells takes it
+    if (solid.moment_arms() == dynamics::MomentArms::mid_step) of_vertices = solid.vertex_displacement(run.q);
+    mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
     frame.cell_fields = {
         {"velocity [m/s]", velocity}, {"stress [Pa]", stresses.stress}, {"von Mises [Pa]", stresses.equivalent}};
     if constexpr (Dim == 2) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});

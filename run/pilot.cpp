@@ -18,8 +18,7 @@ namespace {
 
 using solid::Kinematics;
 
-/// Of the largest kinetic energy, what a body may take as elastic energy and pass for a rigid one: half of it is lost to its
-/// motion as a whole at most, and a velocity is off by a quarter of that share.
+/// Of the largest kinetic energy of the scene, what a body may take as elastic energy and pass for a rigid one.
 constexpr double rigid_strain_share = 0.01;
 /// The pilot run sees in steps of so much of the time at least how far bodies turn.
 constexpr double least_pilot_steps = 200.0;
@@ -91,14 +90,18 @@ template <int Dim>
 class Lookout final : public Observer<Dim> {
 public:
     explicit Lookout(std::vector<RestBody<Dim>> bodies)
-        : bodies_(std::move(bodies)), rotation(bodies_.size(), 0.0), strain(bodies_.size(), 0.0) {}
+        : rotation(bodies.size(), 0.0), strain(bodies.size(), 0.0), bodies_(std::move(bodies)) {}
+
+    std::vector<double> rotation;  // of each body, at most [rad]
+    std::vector<double> strain;    // the same, elastic energy [J]
+    double kinetic = 0.0;          // of all, at most [J]
+    StartEnergies<Dim> start;
 
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>&) override {
         kinetic = std::max(kinetic, entry.kinetic);
     }
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
-        start_.look(run, solid, false);
-        if (run.steps == 0) kinetic_at_start = start_.kinetic;
+        start.look(run, solid, false);
         const std::vector<double> rotations = solid.rotations(run.q);
         const auto motions = solid::body_motions<Dim>(run, solid);
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -127,13 +130,6 @@ private:
     }
 
     std::vector<RestBody<Dim>> bodies_;
-    StartEnergies<Dim> start_;
-
-public:
-    std::vector<double> rotation;          // of each body, at most [rad]
-    std::vector<double> strain;            // [J]
-    double kinetic = 0.0;                  // of all [J]
-    std::vector<double> kinetic_at_start;  // of each body [J]
 };
 
 RunOptions of_one_kind(RunOptions options, BodyKinematics kinematics) {
@@ -192,6 +188,50 @@ RunResult<Dim> run_rigid(const Scene<Dim>& scene, const RunOptions& given, doubl
     }
 }
 
+/// Of the elastic energy that each body takes at most, over the largest kinetic energy of all.
+template <int Dim>
+std::vector<double> strain_shares(const StartEnergies<Dim>& elastic_start, const Lookout<Dim>& lookout) {
+    std::vector<double> share(lookout.strain.size(), 0.0);
+    for (std::size_t i = 0; i < share.size(); ++i) {
+        const double vibrates = elastic_start.kinetic.empty() ? 0.0 : elastic_start.kinetic[i] - lookout.start.kinetic[i];
+        const double energy = std::max(lookout.strain[i], vibrates + elastic_start.potential);
+        if (energy > 0.0) share[i] = energy / lookout.kinetic;
+    }
+    return share;
+}
+
+std::vector<PilotBody> picked(const std::vector<double>& share, const std::vector<double>& rotation) {
+    bool one_turns = false;
+    for (std::size_t i = 0; i < share.size(); ++i)
+        one_turns = one_turns || (share[i] > rigid_strain_share && rotation[i] > 0.5 * far_rotation);
+    const Kinematics of_elastic = one_turns ? Kinematics::floating : Kinematics::small;
+    std::vector<PilotBody> bodies;
+    for (std::size_t i = 0; i < share.size(); ++i)
+        bodies.push_back({share[i] <= rigid_strain_share ? Kinematics::rigid : of_elastic, rotation[i], share[i]});
+    return bodies;
+}
+
+template <int Dim>
+PilotReport look_at_all_kinds(Scene<Dim> scene, const RunOptions& options) {
+    scene.after_step = {};  // whoever looks on at the run does not see the pilot
+    scene.findings = {};
+    const bool is_displaced = static_cast<bool>(scene.displacement);
+    TrialLook<Dim> of_floating(is_displaced), of_small(is_displaced);
+    const Trial floating = try_kind<Dim>(scene, options, BodyKinematics::floating, of_floating);
+    const Trial small = try_kind<Dim>(scene, options, BodyKinematics::small, of_small);
+    const bool by_steps = std::isnan(options.time) && options.steps > 0;
+    const double length = by_steps                   ? options.steps * (std::isnan(floating.dt) ? small.dt : floating.dt)
+                          : std::isnan(options.time) ? scene.time
+                                                     : options.time;
+    Lookout<Dim> lookout(bodies_at_rest(scene));
+    const RunResult<Dim> pilot = run_rigid<Dim>(scene, options, length, lookout);
+    return {.bodies = picked(strain_shares(of_floating.start, lookout), lookout.rotation),
+            .steps = pilot.steps,
+            .small = small.seconds(length),
+            .floating = floating.seconds(length),
+            .rigid = sum(pilot.times)};
+}
+
 }  // namespace
 
 std::vector<Kinematics> PilotReport::kinematics() const {
@@ -201,43 +241,14 @@ std::vector<Kinematics> PilotReport::kinematics() const {
 }
 
 template <int Dim>
-PilotReport choose_kinematics(const Scene<Dim>& given, const RunOptions& options) {
+PilotReport choose_kinematics(const Scene<Dim>& scene, const RunOptions& options) {
+    double seconds = 0.0;
     PilotReport report;
-    const Stopwatch watch(report.seconds);
-    Scene<Dim> scene = given;  // whoever looks on at the run does not see the pilot
-    scene.after_step = {};
-    scene.findings = {};
-    const bool is_displaced = static_cast<bool>(scene.displacement);
-    TrialLook<Dim> of_floating(is_displaced), of_small(is_displaced);
-    const Trial floating = try_kind<Dim>(scene, options, BodyKinematics::floating, of_floating);
-    const Trial small = try_kind<Dim>(scene, options, BodyKinematics::small, of_small);
-    const StartEnergies<Dim>& start = of_floating.start;
-    const bool by_steps = std::isnan(options.time) && options.steps > 0;
-    const double length = by_steps                   ? options.steps * (std::isnan(floating.dt) ? small.dt : floating.dt)
-                          : std::isnan(options.time) ? scene.time
-                                                     : options.time;
-
-    Lookout<Dim> lookout(bodies_at_rest(scene));
-    const RunResult<Dim> pilot = run_rigid<Dim>(scene, options, length, lookout);
-    report.steps = pilot.steps;
-    report.small = small.seconds(length);
-    report.floating = floating.seconds(length);
-    report.rigid = sum(pilot.times);
-
-    std::vector<double> share(lookout.strain.size());
-    for (std::size_t i = 0; i < share.size(); ++i) {
-        const double vibrates = start.kinetic.empty() ? 0.0 : start.kinetic[i] - lookout.kinetic_at_start[i];
-        const double energy = std::max(lookout.strain[i], vibrates + start.potential);
-        share[i] = energy > 0.0 ? energy / lookout.kinetic : 0.0;
+    {
+        const Stopwatch watch(seconds);
+        report = look_at_all_kinds<Dim>(scene, options);
     }
-    bool one_turns = false;
-    for (std::size_t i = 0; i < share.size(); ++i)
-        one_turns = one_turns || (share[i] > rigid_strain_share && lookout.rotation[i] > 0.5 * far_rotation);
-    for (std::size_t i = 0; i < share.size(); ++i)
-        report.bodies.push_back({share[i] <= rigid_strain_share ? Kinematics::rigid
-                                 : one_turns                    ? Kinematics::floating
-                                                                : Kinematics::small,
-                                 lookout.rotation[i], share[i]});
+    report.seconds = seconds;
     return report;
 }
 

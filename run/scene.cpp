@@ -8,6 +8,10 @@ namespace abut::run {
 
 template <int Dim>
 solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
+    if (options.kinematics == BodyKinematics::automatic)
+        throw BadInput(
+            "--kinematics automatic: a pilot run decides. Whoever takes the steps of a scene asks choose_kinematics, puts "
+            "what it picks into Scene::solid, and takes BodyKinematics::scene.");
     solid::SolidOptions<Dim> solid = scene.solid;
     solid.boundary.free_face_rule = options.neumann;
     solid.boundary.corner_rule = options.corners;

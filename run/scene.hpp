@@ -85,8 +85,7 @@ struct RunResult {
     std::vector<Finding> findings;  ///< of the scene
 };
 
-/// What the solid of a scene is made with; under BodyKinematics::automatic with the kinematics of the scene, which a pilot run
-/// replaces.
+/// What the solid of a scene is made with. Throws BadInput for BodyKinematics::automatic, which choose_kinematics resolves.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
 /// Of the points of the scene's solid, (n_points, Dim) [m].

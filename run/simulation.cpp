@@ -54,10 +54,12 @@ EnergyScale known_scale(EnergyScale scale, double kinetic) {
 
 /// With what the pilot run picked, if there was one.
 template <int Dim>
-solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options,
+solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions options,
                                        const std::optional<PilotReport>& pilot) {
+    if (!pilot) return run::solid_options(scene, options);
+    options.kinematics = BodyKinematics::scene;
     solid::SolidOptions<Dim> solid = run::solid_options(scene, options);
-    if (pilot) solid.kinematics = pilot->kinematics();
+    solid.kinematics = pilot->kinematics();
     return solid;
 }
 

@@ -158,6 +158,9 @@ public:
 
     /// Displacement of the cells of the mesh (n_cells) [m] in q.
     [[nodiscard]] std::vector<Vector<Dim>> cell_displacement(std::span<const double> q) const;
+    /// Displacement of the vertices of the mesh (n_vertices) [m] in q, which was evaluated last: the mean over the cells around
+    /// each of where these carry it, turned and stretched as they are.
+    [[nodiscard]] std::vector<Vector<Dim>> vertex_displacement(std::span<const double> q) const;
     /// Their velocity (n_cells) [m/s] at momenta p.
     [[nodiscard]] std::vector<Vector<Dim>> cell_velocity(std::span<const double> p) const;
     /// q (n_points, Dim) for displacements of the cells: rigid bodies take the rigid motion that is nearest [m].

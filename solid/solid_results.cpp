@@ -1,4 +1,5 @@
 // What a solid tells of itself: contact, bodies, and the way between its points and the cells of the mesh.
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -139,6 +140,30 @@ std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q
 }
 
 template <int Dim>
+std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const {
+    std::vector<Matrix<Dim>> turn(mesh_.body_names.size(), Matrix<Dim>::Identity());  // of rigid bodies
+    for (std::size_t i = 0; i < bodies_->rigid().size(); ++i)
+        turn[static_cast<std::size_t>(bodies_->rigid().mesh_body(i))] = bodies_->rigid().place(i, as_vectors<Dim>(q)).map;
+    const std::vector<Vector<Dim>> of_cells = cell_displacement(q);
+    std::vector<Vector<Dim>> displacement(mesh_.vertices.size(), Vector<Dim>::Zero());
+    std::vector<int> n_cells(mesh_.vertices.size(), 0);
+    for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) {
+        const auto [deformable, body] = bodies_->deformable_cell(c);
+        Matrix<Dim> change = turn[static_cast<std::size_t>(mesh_.cell_body[c])] - Matrix<Dim>::Identity();  // F - I
+        if (deformable >= 0) {
+            const Matrix<Dim>& of_frame = frames_->end()[static_cast<std::size_t>(body)].turn;
+            change = of_frame * ccg_.displacement_gradient(deformable) + of_frame - Matrix<Dim>::Identity();
+        }
+        for (const std::int32_t v : mesh_.cell_vertices[c]) {
+            displacement[v] += of_cells[c] + change * (mesh_.vertices[v] - mesh_.cell_centroid[c]);
+            ++n_cells[v];
+        }
+    }
+    for (std::size_t v = 0; v < displacement.size(); ++v) displacement[v] /= std::max(1, n_cells[v]);
+    return displacement;
+}
+
+template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const {
     return bodies_->velocities(as_vectors<Dim>(p));
 }
@@ -190,6 +215,7 @@ double Solid<Dim>::step_margin() const {
     template std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const;                           \
     template std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q);                           \
     template std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const;              \
+    template std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const;            \
     template std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const;                  \
     template std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const;  \
     template std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const; \

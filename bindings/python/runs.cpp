@@ -273,6 +273,11 @@ public:
 private:
     [[nodiscard]] static run::RunOptions checked(const run::Scene<Dim>& scene, const run::RunOptions& given) {
         run::check(given);
+        if (given.kinematics == run::BodyKinematics::automatic)
+            throw BadInput(
+                "kinematics: automatic is for simulate: a pilot run of the same time decides, and memm does not know how "
+                "long "
+                "you will step. Choose small, floating, finite or rigid.");
         if (scene.contact) mesh::check_apart(scene.mesh, "", given.contact.search.broad_phase);
         return run::with_defaults<Dim>(given);
     }

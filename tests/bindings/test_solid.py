@@ -145,6 +145,26 @@ class Runs(unittest.TestCase):
             ledger = result["ledger"]
             self.assertLess(np.ptp(ledger["pseudo_energy"] - ledger["work"]), 1e-13 * ledger["energy"][0])
 
+    def test_bodies_move_as_their_kinematics_say_in_one_call_and_step_by_step(self):
+        def struck(**options):
+            return dict(materials=[solid.Material()] * 2, velocity=[(0.0, 0.0), (0.0, -0.1)], **options)
+        mesh, ends = two_boxes(), {}
+        for kinematics in ("small", "floating", "finite", "rigid"):
+            result = solid.simulate(mesh, **struck(kinematics=kinematics), steps=40)
+            memm = solid.memm(mesh, **struck(kinematics=kinematics))
+            for _ in range(result["steps"]):
+                memm.step()
+            np.testing.assert_array_equal(memm.displacement, result["displacement"])
+            ends[kinematics] = result["displacement"]
+        for one, other in (("small", "floating"), ("floating", "finite"), ("finite", "rigid")):
+            self.assertGreater(np.abs(ends[one] - ends[other]).max(), 1e-9)
+        picked = solid.simulate(mesh, **struck(kinematics="automatic"), steps=40)
+        self.assertTrue(any(np.array_equal(picked["displacement"], end) for end in ends.values()))
+        with self.assertRaisesRegex(abut.BadInput, "automatic is for simulate"):
+            solid.memm(mesh, **struck(kinematics="automatic"))
+        with self.assertRaises(abut.BadInput):
+            solid.simulate(mesh, **falling(kinematics="automatic", steps=1))
+
     def test_files_and_ledger_say_the_same(self):
         with tempfile.TemporaryDirectory() as folder:
             result = solid.simulate(two_boxes(), **falling(), steps=40, out=folder, frames=3)

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 
+#include "abut/mesh/io/read_surface.hpp"
 #include "programs/program.hpp"
 
 namespace {
@@ -79,6 +81,17 @@ TEST_CASE("what tumbles, slides and bounces keeps pseudo-energy and loses no con
         INFO(row["name"]);
         CHECK(row["run"]["pair_steps"] > 0);
     }
+    const auto shown = abut::mesh::read_surface(outcome.directory / "tumbling_cuboid_rigid" / "bodies_surface_000001.vtp");
+    REQUIRE(shown.displacement.size() == shown.vertices.size());
+    double longest = 0.0, change = 0.0;
+    for (std::size_t i = 1; i < shown.vertices.size(); ++i) {
+        const abut::Vector<3> rest = shown.vertices[i] - shown.vertices[0],
+                              moved = shown.displacement[i] - shown.displacement[0];
+        longest = std::max(longest, moved.norm());
+        change = std::max(change, std::abs((rest + moved).norm() - rest.norm()));
+    }
+    CHECK(longest > 0.1);  // it has turned
+    CHECK(change < 1e-12);
 }
 
 TEST_CASE("in a cradle of rigid discs the last one takes the velocity", "[programs][kinematics]") {

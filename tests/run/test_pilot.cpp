@@ -95,6 +95,10 @@ TEST_CASE("an automatic run is the run with the kinematics that it picked", "[ru
     CHECK(chosen.contact.active_pairs_max > 0);
 }
 
+TEST_CASE("who takes the steps of a scene must ask for what automatic picks", "[run][pilot]") {
+    CHECK_THROWS_AS(static_cast<void>(run::solid_options(two_blocks(0.01), automatic)), BadInput);
+}
+
 TEST_CASE("automatic refuses a scene that rigid bodies cannot be run in, and says who decides", "[run][pilot]") {
     run::Scene<2> scene = test::block_on_plane(0.01);
     scene.solid.boundary.dirichlet.push_back({.group = "xmin"});

@@ -15,6 +15,15 @@
 
 namespace abut::test {
 
+/// The rotation by `angle`: in space about a slanted axis.
+template <int Dim>
+Matrix<Dim> turned_by(double angle) {
+    if constexpr (Dim == 2)
+        return Eigen::Rotation2Dd(angle).toRotationMatrix();
+    else
+        return Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, -0.4, 0.7).normalized()).toRotationMatrix();
+}
+
 using mesh::CellShape;
 
 template <int Dim>

@@ -1,5 +1,4 @@
 // Bodies of Kinematics::finite without contact: exact steps, patches, small limit, spins.
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -12,14 +11,6 @@ using namespace abut::test;
 using solid::Kinematics;
 
 namespace {
-
-template <int Dim>
-Matrix<Dim> turned_by(double angle) {
-    if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
-    else
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, -0.4, 0.7).normalized()).toRotationMatrix();
-}
 
 template <int Dim>
 solid::SolidOptions<Dim> apart(std::vector<Kinematics> kinematics) {

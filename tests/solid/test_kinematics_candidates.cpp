@@ -31,7 +31,7 @@ struct State {
 };
 
 template <int Dim>
-Matrix<Dim> turned_by(double angle) {
+Matrix<Dim> turned_about_z(double angle) {
     if constexpr (Dim == 2)
         return Eigen::Rotation2Dd(angle).toRotationMatrix();
     else
@@ -93,7 +93,7 @@ struct Crowd {
         Vector<Dim> pivot = at;
         pivot[0] = -0.5;
         bar.placement = [pivot, speed](double t) -> contact::Placement<Dim> {
-            const Matrix<Dim> turn = turned_by<Dim>(0.06 * speed * t);
+            const Matrix<Dim> turn = turned_about_z<Dim>(0.06 * speed * t);
             return {.turn = turn, .offset = pivot - turn * pivot};
         };
         options.obstacles.push_back(bar);

@@ -1,5 +1,4 @@
 // Forces and energies of bodies that turn and touch: one is the gradient of the other, and neither knows where the scene is.
-#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -57,14 +56,6 @@ void move_rigidly(const solid::Solid<Dim>& solid, std::int32_t body, const Matri
     }
 }
 
-template <int Dim>
-Matrix<Dim> some_turn(double angle) {
-    if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
-    else
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, -0.4, 0.7).normalized()).toRotationMatrix();
-}
-
 /// The upper body presses into the lower one and is turned a little; those that are not rigid are deformed.
 template <int Dim>
 std::vector<double> touching_state(const Touching<Dim>& scene, double unit, const std::vector<Kinematics>& kinematics) {
@@ -72,7 +63,7 @@ std::vector<double> touching_state(const Touching<Dim>& scene, double unit, cons
     Vector<Dim> shift = Vector<Dim>::Zero();
     shift[Dim - 1] = -0.04 * unit;
     Vector<Dim> about = scene.mesh.cell_centroid.back();
-    move_rigidly<Dim>(scene.solid, 1, some_turn<Dim>(0.02), about, shift, q);
+    move_rigidly<Dim>(scene.solid, 1, turned_by<Dim>(0.02), about, shift, q);
     const auto noise = random_state(q.size(), 5, 2e-3 * unit);
     for (std::size_t i = 0; i < q.size(); ++i)
         if (kinematics[static_cast<std::size_t>(scene.solid.body_of_points()[i / Dim])] != Kinematics::rigid)
@@ -152,7 +143,7 @@ TEMPLATE_TEST_CASE_SIG("the energy of bodies that turn does not know how the who
     REQUIRE(solid.compression() > 0.0);
     for (const double angle : {0.3, 1.5, 3.0}) {
         auto moved = q;
-        move_rigidly<Dim>(solid, -1, some_turn<Dim>(angle), Vector<Dim>::Constant(0.4), Vector<Dim>::Constant(3.0), moved);
+        move_rigidly<Dim>(solid, -1, turned_by<Dim>(angle), Vector<Dim>::Constant(0.4), Vector<Dim>::Constant(3.0), moved);
         CHECK(std::abs(solid.potential(moved) - energy) <= 1e-11 * energy);
     }
 }

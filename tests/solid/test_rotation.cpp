@@ -1,5 +1,4 @@
 // How far bodies have turned, and what linear strains make of that.
-#include <Eigen/Geometry>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,19 +7,6 @@
 
 using namespace abut;
 using namespace abut::test;
-
-namespace {
-
-/// The rotation by `angle` about the last axis (2D), or about a slanted one.
-template <int Dim>
-Matrix<Dim> turned_by(double angle) {
-    if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(angle).toRotationMatrix();
-    else
-        return Eigen::AngleAxisd(angle, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix();
-}
-
-}  // namespace
 
 TEMPLATE_TEST_CASE_SIG("the rotation of each body is that of its positions, whatever its shape, place and stretch",
                        "[solid][rotation]", ((int Dim), Dim), 2, 3) {
@@ -82,4 +68,31 @@ TEMPLATE_TEST_CASE_SIG("a body that spins freely grows by 1/cos of its angle, an
     // The corner cell is farther from the middle than it was, and no number but the rotation says so.
     const Vector<Dim> x = mesh.cell_centroid[0], u = as_vectors<Dim>(memm.q())[0];
     CHECK((x + u).template head<2>().norm() / x.template head<2>().norm() == Approx(1.0 / std::cos(angle)).epsilon(1e-9));
+}
+
+TEMPLATE_TEST_CASE_SIG(
+    "vertices of a body that has turned are where it is, though they lie far from the centres of their cells",
+    "[solid][rotation][kinematics]", ((int Dim), Dim), 2, 3) {
+    using solid::Kinematics;
+    const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "box"});
+    const Matrix<Dim> rotation = turned_by<Dim>(2.0);
+    const std::vector<double> q = sampled<Dim>(
+        mesh, [&](const Vector<Dim>& x) -> Vector<Dim> { return rotation * x - x + Vector<Dim>::Constant(0.3); });
+    for (const Kinematics kinematics : {Kinematics::floating, Kinematics::finite, Kinematics::rigid}) {
+        auto options = bodies<Dim>(1);
+        options.contact.reset();
+        options.kinematics = {kinematics};
+        solid::Solid<Dim> solid(mesh, options);
+        const std::vector<double> state = solid.displacement_of_points(vectors<Dim>(q));
+        static_cast<void>(solid.potential(state));
+        const std::vector<Vector<Dim>> displacement = solid.vertex_displacement(state);
+        REQUIRE(displacement.size() == mesh.vertices.size());
+        double worst = 0.0;
+        for (std::size_t v = 0; v < displacement.size(); ++v) {
+            const Vector<Dim>& x = mesh.vertices[v];
+            raise(worst, (displacement[v] - (rotation * x - x + Vector<Dim>::Constant(0.3))).norm());
+        }
+        CAPTURE(static_cast<int>(kinematics));
+        CHECK(worst < 1e-12);
+    }
 }
