@@ -1,10 +1,53 @@
 #include "abut/run/scene.hpp"
 
+#include <fmt/format.h>
+
 #include <span>
 
 #include "abut/base/error.hpp"
 
 namespace abut::run {
+namespace {
+
+template <int Dim>
+Vector<Dim> cross(const AxialVector<Dim>& spin, const Vector<Dim>& arm) {
+    if constexpr (Dim == 2)
+        return {-spin[0] * arm.y(), spin[0] * arm.x()};
+    else
+        return {spin.y() * arm.z() - spin.z() * arm.y(), spin.z() * arm.x() - spin.x() * arm.z(),
+                spin.x() * arm.y() - spin.y() * arm.x()};
+}
+
+/// By body [m].
+template <int Dim>
+std::vector<Vector<Dim>> centroids(const mesh::Mesh<Dim>& mesh) {
+    std::vector<Vector<Dim>> sums(mesh.body_names.size(), Vector<Dim>::Zero());
+    std::vector<double> measures(mesh.body_names.size(), 0.0);
+    for (std::size_t cell = 0; cell < mesh.cell_measure.size(); ++cell) {
+        const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
+        sums[body] += mesh.cell_measure[cell] * mesh.cell_centroid[cell];
+        measures[body] += mesh.cell_measure[cell];
+    }
+    for (std::size_t body = 0; body < sums.size(); ++body) sums[body] /= measures[body];
+    return sums;
+}
+
+/// Of cells, beside the velocity of their body [m/s].
+template <int Dim>
+std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene) {
+    const mesh::Mesh<Dim>& mesh = scene.mesh;
+    std::vector<Vector<Dim>> added(mesh.cell_centroid.size(), Vector<Dim>::Zero());
+    const auto middles = scene.spin.empty() ? std::vector<Vector<Dim>>() : centroids(mesh);
+    for (std::size_t cell = 0; cell < added.size(); ++cell) {
+        const Vector<Dim>& x = mesh.cell_centroid[cell];
+        const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
+        if (!scene.spin.empty()) added[cell] += cross<Dim>(scene.spin[body], x - middles[body]);
+        if (scene.added_velocity) added[cell] += scene.added_velocity(x);
+    }
+    return added;
+}
+
+}  // namespace
 
 template <int Dim>
 solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options) {
@@ -33,14 +76,15 @@ std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::
 template <int Dim>
 std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     std::vector<double> momentum = solid::uniform_momentum<Dim>(solid, scene.velocity);
-    if (!scene.added_velocity) return momentum;
+    if (!scene.added_velocity && scene.spin.empty()) return momentum;
+    if (!scene.spin.empty() && scene.spin.size() != scene.mesh.body_names.size())
+        throw BadInput(fmt::format("Scene::spin: {} are given, the scene has {} bodies. Give one for each, or none.",
+                                   scene.spin.size(), scene.mesh.n_bodies()));
     if (scene.displacement && solid.has_constraints())
         throw BadInput(
-            "Scene::added_velocity: a rigid body takes its spin from velocities of its cells at rest, and "
+            "Scene::spin, Scene::added_velocity: a rigid body takes its spin from velocities of its cells at rest, and "
             "Scene::displacement moves it from there. Turn its mesh instead, and leave the displacement out.");
-    std::vector<Vector<Dim>> of_cells;
-    for (const Vector<Dim>& x : scene.mesh.cell_centroid) of_cells.push_back(scene.added_velocity(x));
-    const std::vector<double> added = solid.momentum_of_points(of_cells);
+    const std::vector<double> added = solid.momentum_of_points(added_velocities(scene));
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] += added[i];
     return momentum;
 }

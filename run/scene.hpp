@@ -29,9 +29,10 @@ struct RunResult;
 template <int Dim>
 struct Scene {
     mesh::Mesh<Dim> mesh{};
-    solid::SolidOptions<Dim> solid{};     ///< all except the choices of RunOptions: contact and the rule of free faces
-    std::vector<Vector<Dim>> velocity{};  ///< at the start, one per body [m/s]
-    /// Added to that of the body at the start, as of a spin [m/s]; empty: none
+    solid::SolidOptions<Dim> solid{};      ///< all except the choices of RunOptions: contact and the rule of free faces
+    std::vector<Vector<Dim>> velocity{};   ///< at the start, one per body [m/s]
+    std::vector<AxialVector<Dim>> spin{};  ///< at the start about the centroid, one per body [rad/s]; empty: none
+    /// Added to that of the body at the start [m/s]; empty: none
     std::function<Vector<Dim>(const Vector<Dim>& position)> added_velocity{};
     std::function<Vector<Dim>(const Vector<Dim>& position)> displacement{};  ///< at the start [m]; empty: none
     bool contact = true;                  ///< false: bodies pass through each other, at no cost
@@ -91,7 +92,8 @@ template <int Dim>
 /// Of the points of the scene's solid, (n_points, Dim) [m].
 template <int Dim>
 [[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
-/// Of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities than bodies.
+/// Of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities or
+/// spins than bodies.
 template <int Dim>
 [[nodiscard]] std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
 
