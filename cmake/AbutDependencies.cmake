@@ -61,6 +61,11 @@ if(run IN_LIST abut_wanted_layers)
   endif()
 endif()
 
+if(input IN_LIST abut_wanted_layers)
+  abut_find(tomlplusplus 3.3 ARGS CONFIG TARGETS tomlplusplus::tomlplusplus)
+  abut_find(muparser 2.3 ARGS CONFIG TARGETS muparser::muparser)
+endif()
+
 # bindings: the module for Python is made where pybind11 is
 if(contact IN_LIST abut_wanted_layers AND BUILD_SHARED_LIBS AND NOT ABUT_SANITIZE)
   if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)

@@ -1,0 +1,114 @@
+#include <array>
+#include <filesystem>
+
+#include "abut/input/keys.hpp"
+
+namespace abut::input {
+namespace {
+
+using Of = Make<BodySettings>;
+using Body = BodySettings;
+
+constexpr Limits a_length{.unit = "m", .above = 0.0};
+
+struct CellWord {
+    const char* word;
+    mesh::CellShape choice;
+};
+constexpr std::array<CellWord, 6> cell_words{{{"triangle", mesh::CellShape::triangle},
+                                              {"quadrangle", mesh::CellShape::quadrangle},
+                                              {"tetrahedron", mesh::CellShape::tetrahedron},
+                                              {"hexahedron", mesh::CellShape::hexahedron},
+                                              {"prism", mesh::CellShape::prism},
+                                              {"pyramid", mesh::CellShape::pyramid}}};
+constexpr std::array<run::Word<mesh::NonPlanarFaces>, 2> non_planar_words{
+    {{"fail", mesh::NonPlanarFaces::fail}, {"split", mesh::NonPlanarFaces::split}}};
+constexpr std::array<run::Word<solid::Kinematics>, 3> body_kinematics{
+    {{"small", solid::Kinematics::small}, {"floating", solid::Kinematics::floating}, {"rigid", solid::Kinematics::rigid}}};
+
+Key<Body> radius() { return required(Of::number("radius", &Body::radius, a_length, "radius")); }
+Key<Body> size() { return required(Of::number("size", &Body::size, a_length, "wanted edge length of cells")); }
+Key<Body> variant() {
+    return Of::count("variant", &Body::variant, 0, Of::many,
+                     "makes equal shapes differ in their meshes: give each body another");
+}
+Key<Body> lower() { return required(Of::vector("lower", &Body::lower, "m", "", "corner with the smallest coordinates")); }
+Key<Body> upper() { return required(Of::vector("upper", &Body::upper, "m", "", "corner with the largest coordinates")); }
+Key<Body> length() { return required(Of::number("length", &Body::length, a_length, "length along z")); }
+
+Key<Body> refinement() {
+    const auto read = [](Reader& reader, const Node& node, const std::string& key) -> std::optional<RefinementSettings> {
+        if (!reader.is_table(node, key)) return std::nullopt;
+        RefinementSettings settings;
+        read_table(settings, node, key, refinement_keys(), reader);
+        return settings;
+    };
+    return key_of<Body>("refinement", "table", "smaller cells near a point: keys below", &Body::refinement, read);
+}
+
+Key<Body> counts() {
+    const auto read = [](Reader& reader, const Node& node, const std::string& key) { return reader.counts(node, key); };
+    return required(key_of<Body>("counts", "whole numbers", "bricks along each direction", &Body::counts, read));
+}
+
+}  // namespace
+
+const Keys<RefinementSettings>& refinement_keys() {
+    using Part = RefinementSettings;
+    using From = Make<Part>;
+    static const Keys<Part> keys = {
+        required(
+            From::vector("point", &Part::point, "m", "", "where cells are smallest, before the body is turned and placed")),
+        required(From::number("size", &Part::size, a_length, "edge length of cells there")),
+        required(From::number("distance", &Part::distance, a_length, "over which cells grow to the size of the body")),
+        From::number("uniform", &Part::uniform, {.unit = "m", .above = 0.0, .zero = true},
+                     "distance from the point within which cells are smallest")};
+    return keys;
+}
+
+const Keys<Body>& body_keys() {
+    const auto material = [](double solid::Material::*member) {
+        return [member](Body& body) -> double& { return body.material.*member; };
+    };
+    static const Keys<Body> keys = {
+        required(Of::number("young", material(&solid::Material::young), {.unit = "Pa", .above = 0.0}, "Young's modulus E")),
+        Of::number("poisson", material(&solid::Material::poisson), {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"),
+        required(
+            Of::number("density", material(&solid::Material::density), {.unit = "kg/m^3", .above = 0.0}, "density rho")),
+        Of::number("eta", material(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
+                   "stabilisation of jumps between cells; 0: Young's modulus"),
+        Of::word("kinematics", &Body::kinematics, body_kinematics,
+                 "how it may move: without turns, in a frame that turns, rigid"),
+        Of::vector("place", &Body::place, "m", "0",
+                   "where its own origin goes: of disc, fan_disc, cylinder and sphere their centre"),
+        Of::axial("turn", &Body::turn, "rad", "turn about its own origin before it is placed; in 3D axis times angle"),
+        Of::vector("velocity", &Body::velocity, "m/s", "0", "velocity at the start"),
+        Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start")};
+    return keys;
+}
+
+const std::vector<Variety<Body, Shape>>& body_varieties() {
+    static const std::vector<Variety<Body, Shape>> varieties = with_all_keys<Body, Shape>(
+        {{"disc", Shape::disc, {2}, {radius(), size(), refinement(), variant()}},
+         {"fan_disc",
+          Shape::fan_disc,
+          {2},
+          {radius(), required(Of::count("sectors", &Body::sectors, 3, Of::many, "triangles around the centre"))}},
+         {"box", Shape::box, {2, 3}, {lower(), upper(), size(), refinement(), variant()}},
+         {"structured_box",
+          Shape::structured_box,
+          {2, 3},
+          {lower(), upper(), counts(),
+           Of::word("cells", &Body::cells, cell_words, "shape of cells; by default quadrangles in 2D, hexahedra in 3D")}},
+         {"cylinder", Shape::cylinder, {3}, {radius(), length(), size(), refinement(), variant()}},
+         {"sphere", Shape::sphere, {3}, {radius(), size(), refinement(), variant()}},
+         {"file",
+          Shape::file,
+          {2, 3},
+          {required(Of::text("mesh", &Body::mesh, "path", ".msh or .vtu file, from the folder of the scene")),
+           Of::word("non_planar", &Body::non_planar, non_planar_words,
+                    "cells with faces that are not planar: refuse them, or split them into tetrahedra")}}});
+    return varieties;
+}
+
+}  // namespace abut::input

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abut/input/fault.hpp"
+#include "abut/input/scene_file.hpp"
+
+namespace abut::input {
+
+/// What a run would take.
+struct Estimate {
+    std::int32_t bodies = 0;
+    std::int32_t cells = 0;
+    std::int64_t boundary_faces = 0;
+    double stable_dt = 0.0;  ///< [s]
+    double dt = 0.0;         ///< [s], of memm_async before its levels
+    std::int64_t steps = 0;
+    double end = 0.0;  ///< of the run [s]
+};
+
+struct CheckedScene {
+    std::vector<Fault> faults;
+    std::optional<Estimate> estimate;  ///< where there is no fault
+};
+
+/// All that can be known before a run: faults of keys and values, of meshes, groups and places, of a solid that cannot be made,
+/// of a step that is not stable. What a body with a fault would say of others is not looked for. Throws nothing for a scene
+/// that is wrong.
+[[nodiscard]] CheckedScene check_scene(const std::filesystem::path& path, const Overrides& overrides = {});
+
+/// A line for each figure, with its unit.
+[[nodiscard]] std::string text_of(const Estimate& estimate);
+
+}  // namespace abut::input

@@ -1,0 +1,140 @@
+#include "abut/input/make_body.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "abut/base/error.hpp"
+#include "abut/mesh/io/read_mesh.hpp"
+#include "abut/mesh/place.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+
+namespace abut::input {
+namespace {
+
+template <int Dim>
+Vector<Dim> head(const Vector<3>& vector) {
+    return vector.head<Dim>();
+}
+
+template <int Dim>
+std::array<int, Dim> head(const std::array<int, 3>& counts) {
+    std::array<int, Dim> result;
+    std::copy_n(counts.begin(), Dim, result.begin());
+    return result;
+}
+
+template <int Dim>
+Matrix<Dim> rotation(const Vector<3>& turn) {
+    if constexpr (Dim == 2)
+        return Eigen::Rotation2Dd(turn.z()).toRotationMatrix();
+    else
+        return Eigen::AngleAxisd(turn.norm(), Eigen::Vector3d(turn.normalized())).toRotationMatrix();
+}
+
+/// Where the middle of a shape goes when Gmsh makes it: a body that turns is made about the origin.
+Vector<3> centre(const BodySettings& body) { return body.turn.isZero(0.0) ? body.place : Vector<3>(Vector<3>::Zero()); }
+
+/// `origin`: where that of the body is while its mesh is made.
+template <int Dim>
+std::optional<mesh::Refinement<Dim>> refinement(const BodySettings& body, const Vector<3>& origin) {
+    if (!body.refinement) return {};
+    return mesh::Refinement<Dim>{head<Dim>(Vector<3>(origin + body.refinement->point)), body.refinement->size,
+                                 body.refinement->distance, body.refinement->uniform};
+}
+
+template <int Dim>
+mesh::CellShape cells_of(const BodySettings& body) {
+    return body.cells.value_or(Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron);
+}
+
+template <int Dim>
+mesh::Mesh<Dim> box(const BodySettings& body) {
+    return mesh::box<Dim>({.lower = head<Dim>(body.lower),
+                           .upper = head<Dim>(body.upper),
+                           .size = body.size,
+                           .refinement = refinement<Dim>(body, Vector<3>::Zero()),
+                           .variant = body.variant,
+                           .name = body.name});
+}
+
+template <int Dim>
+mesh::Mesh<Dim> structured_box(const BodySettings& body) {
+    return mesh::structured_box<Dim>(head<Dim>(body.lower), head<Dim>(body.upper), head<Dim>(body.counts),
+                                     cells_of<Dim>(body), body.name);
+}
+
+mesh::Mesh<2> round_body_in_plane(const BodySettings& body) {
+    const Vector<2> middle = head<2>(centre(body));
+    if (body.shape == Shape::fan_disc) return mesh::fan_disc(middle, body.radius, body.sectors, 0.0, body.name);
+    return mesh::disc({.centre = middle,
+                       .radius = body.radius,
+                       .size = body.size,
+                       .refinement = refinement<2>(body, centre(body)),
+                       .variant = body.variant,
+                       .name = body.name});
+}
+
+mesh::Mesh<3> round_body_in_space(const BodySettings& body) {
+    if (body.shape == Shape::sphere)
+        return mesh::sphere({.centre = centre(body),
+                             .radius = body.radius,
+                             .size = body.size,
+                             .refinement = refinement<3>(body, centre(body)),
+                             .variant = body.variant,
+                             .name = body.name});
+    return mesh::cylinder({.centre = centre(body),
+                           .radius = body.radius,
+                           .length = body.length,
+                           .size = body.size,
+                           .refinement = refinement<3>(body, centre(body)),
+                           .variant = body.variant,
+                           .name = body.name});
+}
+
+bool has_centre(Shape shape) {
+    return shape == Shape::disc || shape == Shape::fan_disc || shape == Shape::cylinder || shape == Shape::sphere;
+}
+
+template <int Dim>
+mesh::Mesh<Dim> round_body(const BodySettings& body) {
+    if constexpr (Dim == 2)
+        return round_body_in_plane(body);
+    else
+        return round_body_in_space(body);
+}
+
+template <int Dim>
+mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& folder) {
+    if (has_centre(body.shape)) return round_body<Dim>(body);
+    if (body.shape == Shape::box) return box<Dim>(body);
+    if (body.shape == Shape::structured_box) return structured_box<Dim>(body);
+    return mesh::read_mesh<Dim>(folder / body.mesh, {.non_planar = body.non_planar});
+}
+
+template <int Dim>
+void name_parts(mesh::Mesh<Dim>& mesh, const std::string& name) {
+    mesh.name = name;
+    if (mesh.n_bodies() == 1)
+        mesh.body_names = {name};
+    else
+        for (std::string& body : mesh.body_names) body = name + "." + body;
+    for (auto& group : mesh.groups) group.name = name + "." + group.name;
+}
+
+}  // namespace
+
+template <int Dim>
+mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder) {
+    mesh::Mesh<Dim> mesh = unplaced<Dim>(body, folder);
+    const bool turns = !body.turn.isZero(0.0);
+    if (turns || (!has_centre(body.shape) && !body.place.isZero(0.0)))
+        mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>(Matrix<Dim>::Identity()), head<Dim>(body.place));
+    name_parts(mesh, body.name);
+    return mesh;
+}
+
+template mesh::Mesh<2> make_body<2>(const BodySettings&, const std::filesystem::path&);
+template mesh::Mesh<3> make_body<3>(const BodySettings&, const std::filesystem::path&);
+
+}  // namespace abut::input

@@ -1,0 +1,12 @@
+#pragma once
+// Private to the layer.
+#include <string>
+#include <vector>
+
+namespace abut::input {
+
+/// " Did you mean 'density'?" for the known word with the fewest letters to change, take out, put in or swap; where none is
+/// near, " Known are 'a', 'b'."; empty if nothing is known.
+[[nodiscard]] std::string hint(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace abut::input

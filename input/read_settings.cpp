@@ -1,0 +1,183 @@
+#include "abut/input/read_settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "abut/input/keys.hpp"
+
+namespace abut::input {
+namespace {
+
+/// "a disc", "an obstacle"
+template <class Section, class Kind>
+std::vector<std::string> words_of(const std::vector<Variety<Section, Kind>>& varieties, int dimension) {
+    std::vector<std::string> words;
+    for (const auto& variety : varieties)
+        if (variety.choice != Kind::none &&
+            (dimension == 0 || std::ranges::find(variety.dimensions, dimension) != variety.dimensions.end()))
+            words.push_back(variety.word);
+    return words;
+}
+
+/// The variety that `shape` names; that of none, with a fault, if it names none of this dimension.
+template <class Section, class Kind>
+const Variety<Section, Kind>& chosen_variety(const Node& table, const std::string& path,
+                                             const std::vector<Variety<Section, Kind>>& varieties, Reader& reader) {
+    const auto words = words_of(varieties, reader.dimension);
+    const Node* shape = table.find("shape");
+    if (!shape) {
+        reader.fault(table, fmt::format("{}.shape is missing: what it is.{}", path, hint("", words)));
+        return varieties.front();
+    }
+    const auto index = reader.word(*shape, path + ".shape", words);
+    if (!index) return varieties.front();
+    return *std::ranges::find_if(varieties, [&](const auto& variety) { return variety.word == words[*index]; });
+}
+
+const Variety<BodySettings, Shape>& variety_of_body(const Node& table, const std::string& path, Reader& reader) {
+    if (table.find("mesh") && !table.find("shape")) return body_varieties().back();
+    return chosen_variety(table, path, body_varieties(), reader);
+}
+const Variety<ObstacleSettings, ObstacleShape>& variety_of_obstacle(const Node& table, const std::string& path,
+                                                                    Reader& reader) {
+    return chosen_variety(table, path, obstacle_varieties(), reader);
+}
+
+/// Its own keys, those of its kind, and `shape`, which is read already.
+template <class Section, class Kind>
+void read_varied(Section& section, const Node& table, const std::string& path, const Variety<Section, Kind>& variety,
+                 const Keys<Section>& common, Reader& reader) {
+    section.shape = variety.choice;
+    Keys<Section> keys = variety.keys;
+    keys.insert(keys.end(), common.begin(), common.end());
+    keys.push_back({.name = "shape", .take = [](Section&, const Node&, const std::string&, Reader&) {}});
+    read_table(section, table, path, keys, reader);
+}
+
+void read(BodySettings& body, const Node& table, const std::string& path, Reader& reader) {
+    const std::size_t before = reader.faults().size();
+    read_varied(body, table, path, variety_of_body(table, path, reader), body_keys(), reader);
+    if (reader.faults().size() != before) body.shape = Shape::none;  // not to be made
+}
+
+void check_path(const ObstacleSettings& obstacle, const Node& table, const std::string& path, Reader& reader) {
+    if (obstacle.path && table.find("velocity"))
+        reader.fault(table, fmt::format("{} has both velocity and path. Leave one of them out.", path));
+    if (obstacle.shape == ObstacleShape::plane && table.find("normal") && obstacle.normal.isZero(0.0))
+        reader.fault(table, fmt::format("{}.normal is zero. Give the direction it faces.", path));
+}
+
+void read(ObstacleSettings& obstacle, const Node& table, const std::string& path, Reader& reader) {
+    const std::size_t before = reader.faults().size();
+    read_varied(obstacle, table, path, variety_of_obstacle(table, path, reader), obstacle_keys(), reader);
+    if (reader.faults().size() == before) check_path(obstacle, table, path, reader);
+    if (reader.faults().size() != before) obstacle.shape = ObstacleShape::none;
+}
+
+void read(SupportSettings& support, const Node& table, const std::string& path, Reader& reader) {
+    read_table(support, table, path, support_keys(), reader);
+    const bool by_components = support.constraint == solid::Constraint::components;
+    if (by_components != (table.find("components") != nullptr))
+        reader.fault(table, by_components
+                                ? fmt::format("{}.components is missing: which are prescribed, such as [\"x\"].", path)
+                                : fmt::format("{} has components. Add constraint = \"components\".", path));
+}
+
+void read(TractionSettings& traction, const Node& table, const std::string& path, Reader& reader) {
+    read_table(traction, table, path, traction_keys(), reader);
+}
+
+/// A table of tables that have names.
+template <class Section>
+void read_named(std::vector<Section>& sections, const Node& node, const std::string& name, Reader& reader) {
+    if (!reader.is_table(node, name)) return;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const std::string path = name + "." + node.names[i];
+        if (!reader.is_table(node.items[i], path)) continue;
+        Section section;
+        section.name = node.names[i];
+        section.where = node.items[i].where;
+        read(section, node.items[i], path, reader);
+        sections.push_back(std::move(section));
+    }
+}
+
+/// Sections that are tables of keys.
+Key<Settings> table_key(const char* name, const Keys<Settings>& keys) {
+    const auto take = [&keys](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
+        if (reader.is_table(node, key)) read_table(settings, node, key, keys, reader);
+    };
+    return {.name = name, .take = take};
+}
+
+template <class Section>
+Key<Settings> named_key(const char* name, std::vector<Section> Settings::*member) {
+    const auto take = [member](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
+        read_named(settings.*member, node, key, reader);
+    };
+    return {.name = name, .take = take};
+}
+
+Keys<Settings> all_keys() {
+    Keys<Settings> keys = top_keys();
+    keys.push_back(required(named_key("bodies", &Settings::bodies)));
+    keys.back().help = "what is run, [bodies.NAME]";
+    keys.push_back(named_key("obstacles", &Settings::obstacles));
+    keys.push_back(named_key("supports", &Settings::supports));
+    keys.push_back(named_key("tractions", &Settings::tractions));
+    keys.push_back(table_key("run", run_keys()));
+    keys.push_back(table_key("contact", contact_keys()));
+    keys.push_back(table_key("output", output_keys()));
+    return keys;
+}
+
+/// Vectors cannot be read before.
+int dimension_of(const Node& document) {
+    const Node* dim = document.find("dim");
+    return dim && (dim->whole == 2 || dim->whole == 3) ? static_cast<int>(dim->whole) : 0;
+}
+
+void merge_overrides(Node& document, const std::vector<std::string>& set, std::vector<Fault>& faults) {
+    for (const std::string& text : set) try {
+            merge(document, read_override(text));
+        } catch (const SceneError& error) {
+            faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+        }
+}
+
+/// What no key by itself can know.
+void check_options(const Settings& settings, std::vector<Fault>& faults) {
+    const std::string where = settings.file.string();
+    const run::RunOptions& options = settings.options;
+    if (std::isnan(options.time) && options.steps == 0)
+        faults.push_back({where, "nothing says when the run ends. Give run.time [s] or run.steps."});
+    if (options.allow_unstable && std::isnan(options.dt))
+        faults.push_back({where, "run.allow_unstable is for run.dt, which is missing. Give it, or leave both out."});
+    try {
+        run::check(options);
+    } catch (const BadInput& error) {
+        faults.push_back({where, error.what()});
+    }
+}
+
+}  // namespace
+
+ReadSettings read_settings(const std::filesystem::path& path, const Overrides& overrides) {
+    ReadSettings read{.settings = {.file = path, .set = overrides.set}};
+    Node document = read_document(path);
+    Reader reader;
+    merge_overrides(document, overrides.set, reader.faults());
+    reader.dimension = dimension_of(document);
+    read.settings.options.out = std::filesystem::path("out") / path.stem();
+    read_table(read.settings, document, "", all_keys(), reader);
+    if (read.settings.dim != 0 && document.find("bodies") && read.settings.bodies.empty())
+        reader.fault(*document.find("bodies"), "bodies has no table. Give a body, [bodies.NAME].");
+    if (overrides.options) overrides.options(read.settings.options);
+    check_options(read.settings, reader.faults());
+    read.faults = std::move(reader.faults());
+    return read;
+}
+
+}  // namespace abut::input

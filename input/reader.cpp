@@ -1,0 +1,171 @@
+#include "abut/input/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "abut/input/nearest_word.hpp"
+
+namespace abut::input {
+namespace {
+
+/// " [m/s]"
+std::string in_brackets(const Limits& limits) { return *limits.unit == '\0' ? "" : fmt::format(" [{}]", limits.unit); }
+
+/// "bodies.left.place, component 2"
+std::string of_item(const std::string& key, std::size_t index) { return fmt::format("{}, component {}", key, index + 1); }
+
+}  // namespace
+
+void Reader::fault(const Node& node, std::string text) { faults_.push_back({node.where, std::move(text)}); }
+
+void Reader::wrong_type(const Node& node, const std::string& key, const std::string& wanted) {
+    fault(node, fmt::format("{} is {}, {} is needed.", key, description(node), wanted));
+}
+
+std::optional<Formula> Reader::formula(const Node& node, const std::string& key, const Limits& limits, Variables variables) {
+    if (node.type == Node::Type::whole) return Formula(static_cast<double>(node.whole));
+    if (node.type == Node::Type::number) return Formula(node.number);
+    if (node.type != Node::Type::text) {
+        wrong_type(node, key, fmt::format("a number{}", in_brackets(limits)));
+        return std::nullopt;
+    }
+    try {
+        return Formula(node.text, variables);
+    } catch (const BadInput& error) {
+        fault(node,
+              fmt::format("{} is {}, a number{} is needed: {}", key, description(node), in_brackets(limits), error.what()));
+        return std::nullopt;
+    }
+}
+
+std::optional<double> Reader::number(const Node& node, const std::string& key, const Limits& limits) {
+    const auto value = formula(node, key, limits, Variables::none);
+    if (!value) return std::nullopt;
+    if (limits.allow(value->value())) return value->value();
+    const std::string allowed = text_of(limits);
+    fault(node, fmt::format("{} is {}, {} is needed.", key, with_unit(value->value(), limits),
+                            allowed.empty() ? "a finite number" : allowed));
+    return std::nullopt;
+}
+
+std::optional<int> Reader::count(const Node& node, const std::string& key, int least, int most) {
+    if (node.type != Node::Type::whole) {
+        wrong_type(node, key, "a whole number");
+        return std::nullopt;
+    }
+    if (node.whole >= least && node.whole <= most) return static_cast<int>(node.whole);
+    fault(node, fmt::format("{} is {}, {} is needed.", key, node.whole,
+                            most == std::numeric_limits<int>::max() ? fmt::format("{} or more", least)
+                                                                    : fmt::format("{} to {}", least, most)));
+    return std::nullopt;
+}
+
+std::optional<bool> Reader::truth(const Node& node, const std::string& key) {
+    if (node.type == Node::Type::truth) return node.truth;
+    wrong_type(node, key, "true or false");
+    return std::nullopt;
+}
+
+std::optional<std::string> Reader::text(const Node& node, const std::string& key) {
+    if (node.type == Node::Type::text && !node.text.empty()) return node.text;
+    wrong_type(node, key, "a text");
+    return std::nullopt;
+}
+
+std::optional<std::size_t> Reader::word(const Node& node, const std::string& key, const std::vector<std::string>& words) {
+    const auto given = text(node, key);
+    if (!given) return std::nullopt;
+    const auto found = std::ranges::find(words, *given);
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    fault(node, fmt::format("{} is '{}', which is none of its words.{}", key, *given, hint(*given, words)));
+    return std::nullopt;
+}
+
+bool Reader::has_components(const Node& node, const std::string& key, const std::string& of_what) {
+    const std::size_t n = node.items.size();
+    const bool fits = dimension == 0 ? n == 2 || n == 3 : n == static_cast<std::size_t>(dimension);
+    if (node.type == Node::Type::array && fits) return true;
+    wrong_type(node, key, fmt::format("a list of {} {}", dimension == 0 ? "2 or 3" : std::to_string(dimension), of_what));
+    return false;
+}
+
+std::optional<FieldSettings> Reader::field(const Node& node, const std::string& key, const Limits& limits,
+                                           Variables variables) {
+    if (!has_components(node, key, "numbers" + in_brackets(limits))) return std::nullopt;
+    FieldSettings field;
+    bool good = true;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const auto component = formula(node.items[i], of_item(key, i), limits, variables);
+        if (component && !component->varies() && !limits.allow(component->value()))
+            fault(node.items[i], fmt::format("{} is {}, a finite number is needed.", of_item(key, i), component->value()));
+        else if (component) {
+            field[i] = *component;
+            continue;
+        }
+        good = false;
+    }
+    return good ? std::optional(field) : std::nullopt;
+}
+
+std::optional<Vector<3>> Reader::vector(const Node& node, const std::string& key, const Limits& limits) {
+    const auto components = field(node, key, limits, Variables::none);
+    if (!components) return std::nullopt;
+    return Vector<3>((*components)[0].value(), (*components)[1].value(), (*components)[2].value());
+}
+
+std::optional<Vector<3>> Reader::axial(const Node& node, const std::string& key, const Limits& limits) {
+    if (dimension == 3 || node.type == Node::Type::array) return vector(node, key, limits);
+    const auto about_z = number(node, key, limits);
+    return about_z ? std::optional(Vector<3>(0.0, 0.0, *about_z)) : std::nullopt;
+}
+
+std::optional<std::array<int, 3>> Reader::counts(const Node& node, const std::string& key) {
+    if (!has_components(node, key, "whole numbers")) return std::nullopt;
+    std::array<int, 3> counts{};
+    bool good = true;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const auto value = count(node.items[i], of_item(key, i), 1, std::numeric_limits<int>::max());
+        counts[i] = value.value_or(0);
+        good = good && value;
+    }
+    return good ? std::optional(counts) : std::nullopt;
+}
+
+std::optional<std::vector<Vector<3>>> Reader::points(const Node& node, const std::string& key, const Limits& limits) {
+    if (node.type != Node::Type::array || node.items.size() < 3) {
+        wrong_type(node, key, "a list of 3 points or more" + in_brackets(limits));
+        return std::nullopt;
+    }
+    std::vector<Vector<3>> points;
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+        if (const auto point = vector(node.items[i], fmt::format("{}, point {}", key, i + 1), limits))
+            points.push_back(*point);
+    return points.size() == node.items.size() ? std::optional(points) : std::nullopt;
+}
+
+std::optional<std::array<bool, 3>> Reader::components(const Node& node, const std::string& key) {
+    if (node.type != Node::Type::array || node.items.empty()) {
+        wrong_type(node, key, "a list of components such as [\"x\"]");
+        return std::nullopt;
+    }
+    std::vector<std::string> names{"x", "y", "z"};
+    if (dimension == 2) names.pop_back();
+    std::array<bool, 3> components{};
+    bool good = true;
+    for (const Node& item : node.items) {
+        const auto index = word(item, key, names);
+        good = good && index;
+        if (index) components[*index] = true;
+    }
+    return good ? std::optional(components) : std::nullopt;
+}
+
+bool Reader::is_table(const Node& node, const std::string& key) {
+    if (node.type == Node::Type::table) return true;
+    wrong_type(node, key, "a table");
+    return false;
+}
+
+}  // namespace abut::input

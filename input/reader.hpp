@@ -1,0 +1,53 @@
+#pragma once
+// Private to the layer.
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/input/document.hpp"
+#include "abut/input/fault.hpp"
+#include "abut/input/limits.hpp"
+#include "abut/input/settings.hpp"
+
+namespace abut::input {
+
+/// Takes values out of nodes; what cannot be taken becomes a fault and nothing. `key` is what messages call the node.
+class Reader {
+public:
+    int dimension = 0;  ///< of vectors; 0: not known, 2 or 3
+
+    void fault(const Node& node, std::string text);
+    [[nodiscard]] std::vector<Fault>& faults() { return faults_; }
+
+    /// A number, or a formula of numbers.
+    [[nodiscard]] std::optional<double> number(const Node& node, const std::string& key, const Limits& limits);
+    [[nodiscard]] std::optional<int> count(const Node& node, const std::string& key, int least, int most);
+    [[nodiscard]] std::optional<bool> truth(const Node& node, const std::string& key);
+    [[nodiscard]] std::optional<std::string> text(const Node& node, const std::string& key);
+    /// The index of one of these words.
+    [[nodiscard]] std::optional<std::size_t> word(const Node& node, const std::string& key,
+                                                  const std::vector<std::string>& words);
+    [[nodiscard]] std::optional<Vector<3>> vector(const Node& node, const std::string& key, const Limits& limits);
+    /// About z in the plane.
+    [[nodiscard]] std::optional<Vector<3>> axial(const Node& node, const std::string& key, const Limits& limits);
+    [[nodiscard]] std::optional<FieldSettings> field(const Node& node, const std::string& key, const Limits& limits,
+                                                     Variables variables);
+    [[nodiscard]] std::optional<std::array<int, 3>> counts(const Node& node, const std::string& key);
+    [[nodiscard]] std::optional<std::vector<Vector<3>>> points(const Node& node, const std::string& key,
+                                                               const Limits& limits);
+    /// "x", "y", "z"
+    [[nodiscard]] std::optional<std::array<bool, 3>> components(const Node& node, const std::string& key);
+    [[nodiscard]] bool is_table(const Node& node, const std::string& key);
+
+private:
+    [[nodiscard]] bool has_components(const Node& node, const std::string& key, const std::string& of_what);
+    [[nodiscard]] std::optional<Formula> formula(const Node& node, const std::string& key, const Limits& limits,
+                                                 Variables variables);
+    void wrong_type(const Node& node, const std::string& key, const std::string& wanted);
+
+    std::vector<Fault> faults_;
+};
+
+}  // namespace abut::input

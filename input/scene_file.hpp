@@ -1,0 +1,44 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "abut/input/fault.hpp"
+#include "abut/run/scene.hpp"
+
+namespace abut::input {
+
+struct Settings;
+
+/// What takes the place of what a file says.
+struct Overrides {
+    std::vector<std::string> set{};                   ///< "bodies.left.density=2": key and value
+    std::function<void(run::RunOptions&)> options{};  ///< changes those of the file; may be empty
+};
+
+/// A scene in a TOML file, docs/scenes.md.
+///
+///     const input::SceneFile file("scenes/slipping_cylinders.toml");
+///     const run::Scene<2> scene = file.scene<2>();
+///     run::RunResult<2> result = run::simulate<2>(scene, file.options());
+class SceneFile {
+public:
+    /// Throws SceneError with all faults of keys and values: what is unknown or missing, of a wrong type or out of range, what
+    /// does not go together.
+    explicit SceneFile(const std::filesystem::path& path, const Overrides& overrides = {});
+
+    [[nodiscard]] int dimension() const;  ///< 2 or 3
+    [[nodiscard]] const run::RunOptions& options() const;
+    [[nodiscard]] std::string name() const;  ///< "slipping_cylinders"
+    /// Makes the meshes and all that acts on them. Throws SceneError for meshes that cannot be made or read, for groups that no
+    /// mesh has, and for bodies that overlap; Misuse if `Dim` is not the dimension.
+    template <int Dim>
+    [[nodiscard]] run::Scene<Dim> scene() const;
+
+private:
+    std::shared_ptr<const Settings> settings_;
+};
+
+}  // namespace abut::input

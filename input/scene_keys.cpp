@@ -1,0 +1,183 @@
+#include <array>
+
+#include "abut/geometry/broad_phase/broad_phase.hpp"
+#include "abut/input/keys.hpp"
+
+namespace abut::input {
+namespace {
+
+using Of = Make<Settings>;
+using run::RunOptions;
+
+/// A member of the options of the run.
+template <class Value>
+auto option(Value RunOptions::*member) {
+    return [member](Settings& settings) -> Value& { return settings.options.*member; };
+}
+template <class Value>
+auto contact(Value contact::ContactOptions::*member) {
+    return [member](Settings& settings) -> Value& { return settings.options.contact.*member; };
+}
+template <class Value>
+auto search(Value contact::CandidateOptions::*member) {
+    return [member](Settings& settings) -> Value& { return settings.options.contact.search.*member; };
+}
+
+std::vector<run::Word<geometry::BroadPhase>> broad_phase_words() {
+    std::vector<run::Word<geometry::BroadPhase>> words;
+    for (const auto method : geometry::broad_phases()) words.push_back({geometry::name(method).data(), method});
+    return words;
+}
+
+constexpr Limits any{};
+constexpr Limits a_time{.unit = "s", .above = 0.0};
+
+constexpr std::array<run::Word<solid::Constraint>, 3> constraint_words{{{"full", solid::Constraint::full},
+                                                                        {"normal", solid::Constraint::normal},
+                                                                        {"components", solid::Constraint::components}}};
+
+template <class Section>
+Key<Section> group() {
+    return required(Make<Section>::text("group", &Section::group, "text",
+                                        "group of boundary faces, \"<body>.<group>\": groups of shapes are listed below"));
+}
+
+}  // namespace
+
+const Keys<Settings>& top_keys() {
+    static const Keys<Settings> keys = {
+        required(Of::count("dim", &Settings::dim, 2, 3, "dimension: 2, plane strain, or 3")),
+        Of::vector("gravity", &Settings::gravity, "m/s^2", "0", "acceleration of all bodies"),
+        Of::number("energy_scale", &Settings::energy_scale, {.unit = "J", .above = 0.0, .zero = true},
+                   "what energies are measured with; 0: the kinetic energy at the start. Needed where all is at rest")};
+    return keys;
+}
+
+const Keys<Settings>& run_keys() {
+    static const Keys<Settings> keys = {
+        Of::number("time", option(&RunOptions::time), a_time, "end of the run"),
+        Of::count("steps", option(&RunOptions::steps), 0, Of::many, "steps of the run where no time is given"),
+        Of::number("cfl", option(&RunOptions::cfl), {.above = 0.0, .below = 1.0, .closed = true},
+                   "time step over the stable step"),
+        Of::number("dt", option(&RunOptions::dt), a_time, "time step, instead of cfl"),
+        Of::truth("allow_unstable", option(&RunOptions::allow_unstable), "take dt even above the stable step"),
+        Of::word("integrator", option(&RunOptions::integrator), run::integrator_words, "scheme in time (integrators.md)"),
+        Of::count("levels", option(&RunOptions::levels), 0, Of::many, "of memm_async: different steps at most; 0: 8"),
+        Of::count("contact_margin", option(&RunOptions::contact_margin), 0, Of::many,
+                  "of memm_async: levels that cells in contact are finer than they need to be alone"),
+        Of::count("contact_levels", option(&RunOptions::contact_levels), 0, Of::many,
+                  "of memm_async: levels that cells in contact are finer than all others"),
+        Of::number("gauge", option(&RunOptions::gauge), {.unit = "J", .above = 0.0},
+                   "c of the Bilbao scheme; by default the energy at the start"),
+        Of::word("filter", option(&RunOptions::filter), run::filter_words, "energy-neutral filter of the parasitic mode"),
+        Of::count("restart", option(&RunOptions::restart), 0, Of::many, "of memm: steps between neutral restarts; 0: none"),
+        Of::word("kinematics", option(&RunOptions::kinematics), run::kinematics_words,
+                 "of all bodies: as each body says (scene), the same for all, or chosen by a pilot run (automatic)"),
+        Of::count("threads", option(&RunOptions::threads), 0, Of::many,
+                  "threads at most; 0: all. The results do not depend on it")};
+    return keys;
+}
+
+const Keys<Settings>& contact_keys() {
+    using contact::CandidateOptions;
+    using contact::ContactOptions;
+    static const Keys<Settings> keys = {
+        Of::truth("enabled", &Settings::contact, "false: bodies pass through each other"),
+        Of::word("law", option(&RunOptions::law), run::law_words,
+                 "the modified reconstruction for bodies that do not turn, the pair potential for all"),
+        Of::word("broad_phase", search(&CandidateOptions::broad_phase), broad_phase_words(),
+                 "what finds faces that are near"),
+        Of::word("overlap", contact(&ContactOptions::overlap), run::overlap_words,
+                 "area that follows the motion in a step or is frozen"),
+        Of::word("weights", contact(&ContactOptions::weighting), run::weighting_words,
+                 "share of a correction between two faces"),
+        Of::word("area", contact(&ContactOptions::area), run::area_words, "arithmetic of overlap areas"),
+        Of::truth("events", contact(&ContactOptions::events), "cut steps where a pair opens, closes or changes its overlap"),
+        Of::count("quadrature", contact(&ContactOptions::quadrature), 0, 3,
+                  "Gauss points on each part of a step; 0: the exact number, 2 in 2D, 3 in 3D"),
+        Of::number("facing_cosine", search(&CandidateOptions::facing_cosine), {.above = -1.0, .below = 0.0},
+                   "faces look at each other where the cosine between their normals is below it"),
+        Of::number("skin", search(&CandidateOptions::skin), {.unit = "m", .above = 0.0, .zero = true},
+                   "how far faces move before the list of near faces is rebuilt; 0: chosen"),
+        Of::number("compression_limit", contact(&ContactOptions::compression_limit), {.above = 0.0},
+                   "depth over that of a cell at which the run stops"),
+        Of::word("neumann", option(&RunOptions::neumann), run::free_face_words, "displacement of free faces"),
+        Of::word("corners", option(&RunOptions::corners), run::corner_words, "free faces of a cell beside one in contact")};
+    return keys;
+}
+
+const Keys<Settings>& output_keys() {
+    static const Keys<Settings> keys = [] {
+        Keys<Settings> all = {
+            Of::text("out", option(&RunOptions::out), "path", "folder of all results, from where the program is started"),
+            Of::count("interval", option(&RunOptions::interval), 0, Of::many,
+                      "steps between records of the energies; 0: 1 in 2D, 10 in 3D"),
+            Of::count("frames", option(&RunOptions::frames), 0, Of::many,
+                      "frames for ParaView, first and last included; 0: none")};
+        all.front().by_default = "out/<scene>";
+        return all;
+    }();
+    return keys;
+}
+
+const Keys<ObstacleSettings>& obstacle_keys() {
+    using Obstacle = ObstacleSettings;
+    using From = Make<Obstacle>;
+    static const Keys<Obstacle> keys = {
+        From::vector("velocity", &Obstacle::velocity, "m/s", "0", "velocity, constant in time"),
+        From::field("path", &Obstacle::path, "m", Variables::time, "how far it has moved at t [s], instead of velocity")};
+    return keys;
+}
+
+const std::vector<Variety<ObstacleSettings, ObstacleShape>>& obstacle_varieties() {
+    using Obstacle = ObstacleSettings;
+    using From = Make<Obstacle>;
+    const auto inside = From::truth("inside", &Obstacle::inside, "bodies are inside of it, as in a room");
+    const auto points = [](Reader& reader, const Node& node, const std::string& key) {
+        return reader.points(node, key, {.unit = "m"});
+    };
+    auto corners = required(
+        key_of<Obstacle>("corners", "list of points", "corners in order, in either sense", &Obstacle::corners, points));
+    corners.unit = "m";
+    static const std::vector<Variety<Obstacle, ObstacleShape>> varieties = with_all_keys<Obstacle, ObstacleShape>(
+        {{"plane",
+          ObstacleShape::plane,
+          {2, 3},
+          {required(From::vector("point", &Obstacle::point, "m", "", "its middle")),
+           required(From::vector("normal", &Obstacle::normal, "", "", "direction it faces, of any length")),
+           From::number("half_width", &Obstacle::half_width, {.unit = "m", .above = 0.0},
+                        "how far it reaches in every direction: more than the bodies do")}},
+         {"box",
+          ObstacleShape::box,
+          {2, 3},
+          {required(From::vector("lower", &Obstacle::lower, "m", "", "corner with the smallest coordinates")),
+           required(From::vector("upper", &Obstacle::upper, "m", "", "corner with the largest coordinates")), inside}},
+         {"polygon", ObstacleShape::polygon, {2}, {corners, inside}}});
+    return varieties;
+}
+
+const Keys<SupportSettings>& support_keys() {
+    using Support = SupportSettings;
+    using From = Make<Support>;
+    static const Keys<Support> keys = {
+        group<Support>(),
+        From::word("constraint", &Support::constraint, constraint_words,
+                   "all of the displacement, along the normal alone (roller), or some components"),
+        key_of<Support>(
+            "components", "list of x, y, z", "of constraint \"components\": which", &Support::components,
+            [](Reader& reader, const Node& node, const std::string& key) { return reader.components(node, key); }),
+        From::field("value", &Support::value, "m", Variables::time_and_place, "displacement; by default 0")};
+    return keys;
+}
+
+const Keys<TractionSettings>& traction_keys() {
+    using Traction = TractionSettings;
+    using From = Make<Traction>;
+    static const Keys<Traction> keys = {
+        group<Traction>(),
+        required(From::field("value", &Traction::value, "Pa", Variables::time_and_place, "force per area")),
+        From::truth("follows", &Traction::follows, "it turns with the body, as a pressure does")};
+    return keys;
+}
+
+}  // namespace abut::input

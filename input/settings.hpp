@@ -1,0 +1,102 @@
+#pragma once
+// Private to the layer.
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+#include "abut/input/formula.hpp"
+#include "abut/mesh/mesh.hpp"
+#include "abut/run/options.hpp"
+#include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
+#include "abut/solid/material.hpp"
+
+/// What a scene file says, key by key and for both dimensions: of vectors in the plane z is 0, and turns are about z.
+namespace abut::input {
+
+/// A table of the file with a name of its own.
+struct Named {
+    std::string name;
+    std::string where;  ///< Fault::where
+};
+
+/// A vector whose components may be formulas.
+using FieldSettings = std::array<Formula, 3>;
+
+enum class Shape { none, disc, fan_disc, box, structured_box, cylinder, sphere, file };
+
+struct RefinementSettings {
+    Vector<3> point = Vector<3>::Zero();  ///< [m]
+    double size = 0.0;                    ///< [m]
+    double distance = 0.0;                ///< [m]
+    double uniform = 0.0;                 ///< [m]
+};
+
+struct BodySettings : Named {
+    Shape shape = Shape::none;
+    std::filesystem::path mesh;
+    mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;
+    double radius = 1.0;                  ///< [m]
+    double length = 1.0;                  ///< [m]
+    double size = 0.1;                    ///< [m]
+    Vector<3> lower = Vector<3>::Zero();  ///< [m]
+    Vector<3> upper = Vector<3>::Ones();  ///< [m]
+    std::array<int, 3> counts{};
+    std::optional<mesh::CellShape> cells;
+    int sectors = 12;
+    int variant = 0;
+    std::optional<RefinementSettings> refinement;
+    Vector<3> place = Vector<3>::Zero();  ///< [m]
+    Vector<3> turn = Vector<3>::Zero();   ///< axis times angle [rad]
+    solid::Material material;
+    solid::Kinematics kinematics = solid::Kinematics::small;
+    Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
+    Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
+};
+
+enum class ObstacleShape { none, plane, box, polygon };
+
+struct ObstacleSettings : Named {
+    ObstacleShape shape = ObstacleShape::none;
+    Vector<3> point = Vector<3>::Zero();   ///< [m]
+    Vector<3> normal = Vector<3>::Zero();  ///< [-]
+    double half_width = 1.0;               ///< [m]
+    Vector<3> lower = Vector<3>::Zero();   ///< [m]
+    Vector<3> upper = Vector<3>::Ones();   ///< [m]
+    std::vector<Vector<3>> corners;        ///< [m]
+    bool inside = false;
+    Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
+    std::optional<FieldSettings> path;       ///< [m]
+};
+
+struct SupportSettings : Named {
+    std::string group;
+    solid::Constraint constraint = solid::Constraint::full;
+    std::array<bool, 3> components{};
+    FieldSettings value;  ///< [m]
+};
+
+struct TractionSettings : Named {
+    std::string group;
+    FieldSettings value;  ///< [Pa]
+    bool follows = false;
+};
+
+struct Settings {
+    std::filesystem::path file;
+    std::vector<std::string> set;           ///< values that replace those of the file, as given
+    int dim = 0;                            ///< 2 or 3; 0: not known
+    Vector<3> gravity = Vector<3>::Zero();  ///< [m/s^2]
+    double energy_scale = 0.0;              ///< [J]
+    bool contact = true;
+    std::vector<BodySettings> bodies;
+    std::vector<ObstacleSettings> obstacles;
+    std::vector<SupportSettings> supports;
+    std::vector<TractionSettings> tractions;
+    run::RunOptions options;
+};
+
+}  // namespace abut::input

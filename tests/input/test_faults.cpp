@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "input/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using test::two_blocks;
+using test::WrittenScene;
+
+/// Something wrong behind the scene of two blocks, whose last line is 18, or set in it, and what the message has to say.
+struct Wrong {
+    std::string more;
+    std::vector<std::string> set;
+    std::string where;               ///< from the end of the name of the file on, or of "--set"
+    std::vector<std::string> words;  ///< value, unit, limit, remedy
+};
+
+const std::vector<Wrong> wrong_scenes = {
+    {"[bodies.third]\nshape = \"dsc\"\nyoung = 1\ndensity = 1",
+     {},
+     ".toml:20:1",
+     {"bodies.third.shape is 'dsc'", "Did you mean 'disc'?"}},
+    {"[bodies.third]\nyoung = 1\ndensity = 1", {}, ".toml:19:9", {"bodies.third.shape is missing", "'fan_disc'"}},
+    {"[bodies.third]\nshape = \"sphere\"\nyoung = 1\ndensity = 1",
+     {},
+     ".toml:20:1",
+     {"'sphere'", "none of its words", "'disc'"}},
+    {"[bodies.third]\nshape = \"disc\"\nyoung = 1\ndensity = 1\nsize = 1", {}, ".toml:19:9", {"radius is missing", "[m]"}},
+    {"[bodies.third]\nmesh = \"nowhere.vtu\"\nyoung = 1\ndensity = 1", {}, ".toml:19:9", {"nowhere.vtu"}},
+    {"[bodies.third]\nmesh = \"scene.toml\"\nyoung = 1\ndensity = 1", {}, ".toml:19:9", {"scene.toml", ".msh"}},
+    {"[bodies.third]\nshape = \"disc\"\nradius = 1\nsize = 0.5\nyoung = 1\ndensity = 1\nplace = [0.5, 0.5]",
+     {},
+     ".toml:19:9",
+     {"'left' and 'third' overlap", "m inside each other", "place"}},
+    {"[bodys.left]\nyoung = 1", {}, ".toml:19:2", {"bodys is an unknown key", "'bodies'"}},
+    {"cfk = 0.5", {}, ".toml:19:1", {"run.cfk is an unknown key", "'cfl'"}},
+    {"cfl = 1.5", {}, ".toml:19:1", {"run.cfl is 1.5", "above 0, at most 1"}},
+    {"cfl = true", {}, ".toml:19:1", {"run.cfl is true", "a number is needed"}},
+    {"dt = -1", {}, ".toml:19:1", {"run.dt is -1 s", "above 0 s"}},
+    {"integrator = \"leapfrg\"", {}, ".toml:19:1", {"'leapfrg'", "Did you mean 'leapfrog'?"}},
+    {"threads = 1.5", {}, ".toml:19:1", {"run.threads is the number 1.5", "a whole number"}},
+    {"restart = -2", {}, ".toml:19:1", {"run.restart is -2", "0 or more"}},
+    {"allow_unstable = true", {}, ".toml", {"run.allow_unstable", "run.dt"}},
+    {"integrator = \"leapfrog\"\nfilter = \"neutral\"", {}, ".toml", {"--filter neutral", "leapfrog"}},
+    {"dt = 10", {}, ".toml", {"--dt", "above the stable step"}},
+    {"[run]", {}, ".toml:19:", {"no TOML"}},
+    {"cfl = ", {}, ".toml:19:", {"no TOML"}},
+    {"cfl = 2020-01-01", {}, ".toml:19:1", {"a date"}},
+    {"[contact]\nevents = \"on\"", {}, ".toml:20:1", {"contact.events is the text 'on'", "true or false"}},
+    {"[contact]\nquadrature = 4", {}, ".toml:20:1", {"contact.quadrature is 4", "0 to 3"}},
+    {"[contact]\nskin = -1", {}, ".toml:20:1", {"-1 m", "0 m or above"}},
+    {"[contact]\nfacing_cosine = 0.5", {}, ".toml:20:1", {"0.5", "above -1, below 0"}},
+    {"[output]\nframes = [1]", {}, ".toml:20:1", {"output.frames is a list of 1", "whole number"}},
+    {"[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 0]", {}, ".toml:19:12", {"normal is zero"}},
+    {"[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1]",
+     {},
+     ".toml:21:1",
+     {"a list of 2 numbers [m]"}},
+    {"[obstacles.floor]\nshape = \"box\"\nlower = [0, 0]\nupper = [1, -1]",
+     {},
+     ".toml:19:12",
+     {"lower has to be below upper"}},
+    {"[obstacles.floor]\nshape = \"polygon\"\ncorners = [[0, 0], [1, 0]]", {}, ".toml:21:1", {"3 points or more [m]"}},
+    {"[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 1]\nvelocity = [0, 0]\npath = [0, \"t\"]",
+     {},
+     ".toml:19:12",
+     {"velocity and path"}},
+    {"[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 1]\npath = [0, \"x\"]",
+     {},
+     ".toml:23:1",
+     {"path, component 2", "no name 'x'", "'t'"}},
+    {"[supports.end]\ngroup = \"left.xmim\"", {}, ".toml:19:11", {"'left.xmim'", "Did you mean 'left.xmin'?"}},
+    {"[supports.end]\nvalue = [0, 0]", {}, ".toml:19:11", {"supports.end.group is missing"}},
+    {"[supports.end]\ngroup = \"left.xmin\"\nconstraint = \"components\"", {}, ".toml:19:11", {"components is missing"}},
+    {"[supports.end]\ngroup = \"left.xmin\"\ncomponents = [\"x\"]", {}, ".toml:19:11", {"constraint = \"components\""}},
+    {"[supports.end]\ngroup = \"left.xmin\"\nconstraint = \"components\"\ncomponents = [\"z\"]",
+     {},
+     ".toml:22:1",
+     {"'z'", "'x', 'y'"}},
+    {"[supports.a]\ngroup = \"left.xmin\"\n[supports.b]\ngroup = \"left.xmin\"", {}, ".toml", {"left.xmin"}},
+    {"[tractions.pull]\ngroup = \"left.xmin\"\nvalue = [\"2*\", 0]", {}, ".toml:21:", {"component 1", "cannot be read"}},
+    {"[tractions.pull]\ngroup = \"left.xmin\"", {}, ".toml:19:12", {"tractions.pull.value is missing", "[Pa]"}},
+    {"", {"dim=4"}, "--set dim=4", {"dim is 4", "2 to 3"}},
+    {"", {"bodies.left.density=0"}, "--set bodies.left.density=0", {"0 kg/m^3", "above 0 kg/m^3"}},
+    {"", {"bodies.left.densty=2"}, "--set bodies.left.densty=2", {"'density'"}},
+    {"", {"bodies.left.poisson=0.5"}, "--set bodies.left.poisson=0.5", {"below 0.5"}},
+    {"", {"bodies.left.young='1/0'"}, "--set bodies.left.young='1/0'", {"not finite"}},
+    {"", {"bodies.left.kinematics=stiff"}, "--set bodies.left.kinematics=stiff", {"'stiff'", "'rigid'"}},
+    {"", {"bodies.left=3"}, "--set bodies.left=3", {"bodies.left is the number 3", "a table is needed"}},
+    {"", {"bodies.left.counts=[2, 0]"}, "--set bodies.left.counts=[2, 0]", {"counts, component 2 is 0", "1 or more"}},
+    {"", {"bodies.right.place=[-0.6, 0]"}, ".toml:10:9", {"overlap", "0.1 m"}},
+    {"", {"run.steps=0"}, ".toml", {"when the run ends", "run.time [s]"}},
+    {"", {"density"}, "--set density", {"a key and its value"}}};
+
+}  // namespace
+
+TEST_CASE("every wrong scene gets a message that says where, what, how much is allowed and what to do", "[input][faults]") {
+    for (const Wrong& wrong : wrong_scenes) {
+        CAPTURE(wrong.more, wrong.set);
+        const WrittenScene file(two_blocks(wrong.more));
+        const input::CheckedScene checked = input::check_scene(file.path(), {.set = wrong.set});
+        CHECK_FALSE(checked.estimate);
+        CAPTURE(input::text_of(checked.faults));
+        CHECK(std::ranges::any_of(checked.faults, [&](const input::Fault& fault) {
+            const bool says_all = std::ranges::all_of(
+                wrong.words, [&](const std::string& word) { return fault.text.find(word) != std::string::npos; });
+            return says_all && fault.where.find(wrong.where) != std::string::npos;
+        }));
+        CHECK(checked.faults.size() == 1);  // none that only follows from it
+    }
+    CHECK(wrong_scenes.size() >= 25);
+}
+
+TEST_CASE("all faults of a scene come at once, those of meshes and groups too", "[input][faults]") {
+    const WrittenScene file(two_blocks(R"toml(cfl = 2
+[contact]
+skinn = 1
+[supports.end]
+group = "right.ymas"
+[supports.held]
+group = "left.xmin"
+[obstacles.floor]
+shape = "plane"
+)toml"));
+    const auto checked = input::check_scene(file.path(), {.set = {"bodies.left.density=-1"}});
+    const std::string text = input::text_of(checked.faults);
+    CAPTURE(text);
+    for (const char* word : {"run.cfl", "contact.skinn", "right.ymas", "floor.point", "floor.normal", "density is -1"})
+        CHECK(text.find(word) != std::string::npos);
+    CHECK(text.find("supports.held") == std::string::npos);  // its body has no mesh: nothing is known of its groups
+    CHECK(checked.faults.size() == 6);
+}
+
+TEST_CASE("a scene with a fault is not run: reading throws all of them", "[input][faults]") {
+    const WrittenScene file(two_blocks("cfk = 1"));
+    CHECK_THROWS_AS(input::SceneFile(file.path()), input::SceneError);
+    CHECK_THROWS_AS(input::SceneFile(file.path().parent_path() / "none.toml"), input::SceneError);
+    CHECK_THROWS_AS(input::SceneFile(file.path().parent_path()), input::SceneError);
+    const input::Overrides good{.set = {"bodies.right.place=[-1, 0]"}};
+    const WrittenScene apart(two_blocks());
+    const input::SceneFile overlapping(apart.path(), good);  // keys are right, places are not
+    CHECK_THROWS_AS(overlapping.scene<2>(), input::SceneError);
+    CHECK_THROWS_AS(overlapping.scene<3>(), Misuse);
+}

@@ -1,0 +1,357 @@
+#include <Eigen/Geometry>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "abut/mesh/io/write_vtu.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+#include "abut/run/simulation.hpp"
+#include "input/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using test::two_blocks;
+using test::WrittenScene;
+namespace fs = std::filesystem;
+
+/// Some steps of a scene of the project: it starts, and its pseudo-energy stays.
+template <int Dim>
+void run_some_steps(const input::SceneFile& file) {
+    const run::RunResult<Dim> result = run::simulate<Dim>(file.scene<Dim>(), file.options());
+    CHECK(result.steps == 12);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.contact.missed_contacts == 0);
+}
+
+/// Outwards of a closed outline or surface: sum of n . (x - middle) over its faces, each of which has one sign.
+int outward(const std::vector<Vector<2>>& face, const Vector<2>& middle) {
+    const Vector<2> along = face[1] - face[0];
+    return Vector<2>(along.y(), -along.x()).dot(face[0] - middle) > 0.0 ? 1 : -1;
+}
+int outward(const std::vector<Vector<3>>& face, const Vector<3>& middle) {
+    return (face[1] - face[0]).cross(face[2] - face[0]).dot(face[0] - middle) > 0.0 ? 1 : -1;
+}
+
+/// Mean over a run of the integral of the displacement along x over the area [m^3].
+class MeanPull : public run::Observer<2> {
+public:
+    explicit MeanPull(const mesh::Mesh<2>& mesh) : mesh_(mesh) {}
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
+        const auto u = solid.cell_displacement(view.q);
+        for (std::size_t cell = 0; cell < u.size(); ++cell) moment_ += mesh_.cell_measure[cell] * u[cell].x();
+        ++n_;
+    }
+    [[nodiscard]] double mean() const { return moment_ / n_; }
+
+private:
+    const mesh::Mesh<2>& mesh_;
+    double moment_ = 0.0;
+    int n_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo-energy", "[input][scenes]") {
+    int n = 0;
+    for (const auto& entry : fs::directory_iterator(ABUT_SOURCE "/scenes")) {
+        if (entry.path().extension() != ".toml") continue;
+        CAPTURE(entry.path());
+        const auto checked = input::check_scene(entry.path());
+        CAPTURE(input::text_of(checked.faults));
+        REQUIRE(checked.estimate);
+        CHECK(checked.estimate->cells > 0);
+        CHECK(checked.estimate->steps > 12);
+        CHECK(checked.estimate->dt < checked.estimate->stable_dt);
+        const input::SceneFile file(entry.path(), {.options = [](run::RunOptions& options) {
+                                        options.time = run::not_given;
+                                        options.steps = 12;
+                                    }});
+        file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
+        ++n;
+    }
+    CHECK(n == 6);
+}
+
+TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
+    const WrittenScene written(two_blocks("time = 5"));
+    const input::Overrides slow{.set = {"bodies.left.velocity=[0.01, 0]"}};
+    const auto checked = input::check_scene(written.path(), slow);
+    REQUIRE(checked.estimate);
+    const input::SceneFile file(written.path(), slow);
+    const auto result = run::simulate<2>(file.scene<2>(), file.options());
+    CHECK(checked.estimate->bodies == 2);
+    CHECK(checked.estimate->cells == 4 + 9);
+    CHECK(checked.estimate->boundary_faces == 8 + 12);
+    CHECK(checked.estimate->dt == result.dt);
+    CHECK(checked.estimate->steps == result.steps);
+    CHECK(input::text_of(*checked.estimate).find("13") != std::string::npos);
+}
+
+TEST_CASE("every key of [run], [contact] and [output] reaches its option", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml(time = 2
+cfl = 0.5
+dt = 1e-3
+allow_unstable = true
+integrator = "memm_async"
+levels = 3
+contact_margin = 2
+contact_levels = 1
+kinematics = "floating"
+threads = 2
+[contact]
+enabled = false
+law = "pair_potential"
+broad_phase = "brute_force"
+overlap = "frozen"
+weights = "half"
+area = "exact"
+events = false
+quadrature = 1
+facing_cosine = -0.3
+skin = 0.25
+compression_limit = 7
+neumann = "adjacent"
+corners = "fixed"
+[output]
+out = "somewhere"
+interval = 5
+frames = 4
+)toml"));
+    const input::SceneFile file(written.path());
+    const run::RunOptions& o = file.options();
+    CHECK(o.time == 2.0);
+    CHECK(o.steps == 3);
+    CHECK(o.cfl == 0.5);
+    CHECK(o.dt == 1e-3);
+    CHECK(o.allow_unstable);
+    CHECK(o.integrator == run::SolidIntegrator::memm_async);
+    CHECK(o.levels == 3);
+    CHECK(o.contact_margin == 2);
+    CHECK(o.contact_levels == 1);
+    CHECK(o.kinematics == run::BodyKinematics::floating);
+    CHECK(o.threads == 2);
+    CHECK(o.law == solid::ContactLaw::pair_potential);
+    CHECK(o.contact.search.broad_phase == geometry::BroadPhase::brute_force);
+    CHECK(o.contact.overlap == contact::OverlapMode::frozen);
+    CHECK(o.contact.weighting == contact::InterfaceWeighting::half);
+    CHECK(o.contact.area == geometry::AreaMethod::exact);
+    CHECK_FALSE(o.contact.events);
+    CHECK(o.contact.quadrature == 1);
+    CHECK(o.contact.search.facing_cosine == -0.3);
+    CHECK(o.contact.search.skin == 0.25);
+    CHECK(o.contact.compression_limit == 7.0);
+    CHECK(o.neumann == solid::FreeFaceRule::adjacent);
+    CHECK(o.corners == solid::CornerRule::fixed);
+    CHECK(o.out == "somewhere");
+    CHECK(o.interval == 5);
+    CHECK(o.frames == 4);
+    CHECK_FALSE(file.scene<2>().contact);
+
+    const input::SceneFile memm(written.path(), {.set = {"run.integrator=memm", "run.filter=neutral", "run.restart=9",
+                                                         "run.levels=0", "run.contact_margin=1", "run.contact_levels=0"}});
+    CHECK(memm.options().filter);
+    CHECK(memm.options().restart == 9);
+    const input::SceneFile bilbao(written.path(), {.set = {"run.integrator='bilbao'", "run.gauge=3", "run.levels=0",
+                                                           "run.contact_margin=1", "run.contact_levels=0"}});
+    CHECK(bilbao.options().gauge == 3.0);
+}
+
+TEST_CASE("bodies have their materials, motions and places", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([bodies.round]
+shape = "disc"
+radius = "1/4"
+size = 0.1
+place = [0, 5]
+turn = "pi/6"
+young = 3
+poisson = 0.2
+density = 4
+eta = 5
+kinematics = "rigid"
+velocity = [0, -2]
+spin = 6
+)toml"));
+    const input::SceneFile file(written.path(), {.set = {"gravity=[0, -10]", "energy_scale=8", "bodies.left.young=7"}});
+    const run::Scene<2> scene = file.scene<2>();
+    CHECK(scene.mesh.body_names == std::vector<std::string>{"left", "right", "round"});
+    REQUIRE(scene.solid.materials.size() == 3);
+    CHECK(scene.solid.materials[0].young == 7.0);
+    const solid::Material& material = scene.solid.materials[2];
+    CHECK(material.young == 3.0);
+    CHECK(material.poisson == 0.2);
+    CHECK(material.density == 4.0);
+    CHECK(material.eta == 5.0);
+    CHECK(scene.solid.kinematics ==
+          std::vector{solid::Kinematics::small, solid::Kinematics::small, solid::Kinematics::rigid});
+    CHECK(scene.velocity[0] == Vector<2>(1.0, 0.0));
+    CHECK(scene.velocity[2] == Vector<2>(0.0, -2.0));
+    CHECK(scene.spin[2][0] == 6.0);
+    CHECK(scene.spin[1][0] == 0.0);
+    CHECK(scene.solid.acceleration[1] == Vector<2>(0.0, -10.0));
+    CHECK(scene.energy_scale.value == 8.0);
+    for (const std::int32_t face : scene.mesh.group("round.boundary").faces)
+        for (const std::int32_t vertex : scene.mesh.face_vertices[face])
+            CHECK((scene.mesh.vertices[static_cast<std::size_t>(vertex)] - Vector<2>(0.0, 5.0)).norm() == Approx(0.25));
+}
+
+TEST_CASE("a body of a file is read from the folder of the scene, turned and placed", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([bodies.brick]
+mesh = "brick.vtu"
+turn = "pi/2"
+place = [0, 4]
+young = 1
+density = 1
+)toml"));
+    const auto brick = mesh::structured_box<2>({0.0, 0.0}, {2.0, 1.0}, {2, 1}, mesh::CellShape::quadrangle);
+    mesh::write_vtu(brick, written.path().parent_path() / "brick.vtu");
+    const auto mesh = input::SceneFile(written.path()).scene<2>().mesh;
+    REQUIRE(mesh.n_cells() == 13 + 2);
+    CHECK((mesh.cell_centroid[13] - Vector<2>(-0.5, 4.5)).norm() < 1e-15);
+    CHECK((mesh.cell_centroid[14] - Vector<2>(-0.5, 5.5)).norm() < 1e-15);
+}
+
+TEST_CASE("shapes in space are where their keys say", "[input][scenes]") {
+    const WrittenScene written(R"toml(dim = 3
+[bodies.brick]
+shape = "structured_box"
+lower = [0, 0, 0]
+upper = [1, 2, 3]
+counts = [1, 2, 3]
+cells = "prism"
+young = 1
+density = 1
+[bodies.rod]
+shape = "cylinder"
+radius = 0.5
+length = 2
+size = 0.4
+place = [5, 0, 0]
+turn = [0, "pi/2", 0]    # its axis along x
+young = 1
+density = 1
+[bodies.ball]
+shape = "sphere"
+radius = 1
+size = 0.5
+place = [0, 5, 0]
+refinement = {point = [1, 0, 0], size = 0.2, distance = 0.5}
+young = 1
+density = 1
+[run]
+steps = 1
+)toml");
+    const auto mesh = input::SceneFile(written.path()).scene<3>().mesh;
+    CHECK(mesh.cell_shape[0] == mesh::CellShape::prism);
+    const auto extent = [&](const char* group, int axis) {
+        std::array<double, 2> range{1e9, -1e9};
+        for (const std::int32_t face : mesh.group(group).faces)
+            for (const std::int32_t vertex : mesh.face_vertices[face]) {
+                const double x = mesh.vertices[static_cast<std::size_t>(vertex)][axis];
+                range = {std::min(range[0], x), std::max(range[1], x)};
+            }
+        return range;
+    };
+    CHECK(extent("brick.zmax", 2) == std::array{3.0, 3.0});
+    CHECK(extent("rod.side", 0)[0] == Approx(4.0));
+    CHECK(extent("rod.side", 0)[1] == Approx(6.0));
+    CHECK(extent("rod.side", 2)[1] == Approx(0.5).epsilon(0.1));
+    CHECK(extent("ball.boundary", 1)[1] == Approx(6.0).epsilon(0.05));
+    double near = 0.0, far = 0.0;  // mean size of the faces of the ball at x = 1 and at x = -1
+    int n_near = 0, n_far = 0;
+    for (const std::int32_t face : mesh.group("ball.boundary").faces) {
+        const auto f = static_cast<std::size_t>(face);
+        if (mesh.face_centroid[f].x() > 0.9) near += mesh.face_measure[f], ++n_near;
+        if (mesh.face_centroid[f].x() < -0.5) far += mesh.face_measure[f], ++n_far;
+    }
+    CHECK(near / n_near < 0.5 * far / n_far);
+}
+
+TEST_CASE("obstacles face outwards, or inwards where bodies are inside, and follow their paths", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([obstacles.stone]
+shape = "polygon"
+corners = [[0, -3], [0, -2], [1, -2]]
+path = ["0.1*sin(t)", "t^2"]
+[obstacles.room]
+shape = "box"
+lower = [-9, -9]
+upper = [9, 9]
+inside = true
+velocity = [2, 0]
+[obstacles.floor]
+shape = "plane"
+point = [0, -1]
+normal = [0, 2]
+half_width = 4
+)toml"));
+    const auto obstacles = input::SceneFile(written.path()).scene<2>().solid.obstacles;
+    REQUIRE(obstacles.size() == 3);
+    CHECK(obstacles[0].faces.size() == 3);
+    for (const auto& face : obstacles[0].faces) CHECK(outward(face, Vector<2>(0.3, -2.3)) == 1);  // given clockwise
+    CHECK(obstacles[1].faces.size() == 4);
+    for (const auto& face : obstacles[1].faces) CHECK(outward(face, Vector<2>::Zero()) == -1);
+    CHECK((obstacles[0].path(0.5) - Vector<2>(0.1 * std::sin(0.5), 0.25)).norm() < 1e-16);
+    CHECK(obstacles[1].path(1.5) == Vector<2>(3.0, 0.0));
+    CHECK_FALSE(obstacles[2].path);
+    CHECK(outward(obstacles[2].faces[0], Vector<2>(0.0, -2.0)) == 1);
+    CHECK((obstacles[2].faces[0][1] - obstacles[2].faces[0][0]).norm() == Approx(8.0));
+}
+
+TEST_CASE("the faces of an obstacle in space face outwards, of a room inwards", "[input][scenes]") {
+    const WrittenScene written(R"toml(dim = 3
+bodies.ball = {shape = "sphere", radius = 1, size = 1, young = 1, density = 1}
+obstacles.stone = {shape = "box", lower = [2, 0, 0], upper = [3, 1, 2]}
+obstacles.room = {shape = "box", lower = [-4, -4, -4], upper = [4, 4, 4], inside = true}
+run.steps = 1
+)toml");
+    const auto obstacles = input::SceneFile(written.path()).scene<3>().solid.obstacles;
+    REQUIRE(obstacles.size() == 2);
+    CHECK(obstacles[0].faces.size() == 6);
+    for (const auto& face : obstacles[0].faces) CHECK(outward(face, Vector<3>(2.5, 0.5, 1.0)) == 1);
+    for (const auto& face : obstacles[1].faces) CHECK(outward(face, Vector<3>::Zero()) == -1);
+}
+
+TEST_CASE("supports and tractions have values or formulas in time and place", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([supports.moved]
+group = "left.xmin"
+constraint = "components"
+components = ["y"]
+value = [0, "2*t + x*y"]
+[supports.held]
+group = "right.ymin"
+constraint = "normal"
+value = [0.1, 0.2]
+[tractions.pressed]
+group = "right.ymax"
+value = [0, "-3"]
+follows = true
+)toml"));
+    const auto boundary = input::SceneFile(written.path()).scene<2>().solid.boundary;
+    REQUIRE(boundary.dirichlet.size() == 2);
+    CHECK(boundary.dirichlet[0].group == "left.xmin");
+    CHECK(boundary.dirichlet[0].constraint == solid::Constraint::components);
+    CHECK(boundary.dirichlet[0].components == std::array{false, true});
+    CHECK(boundary.dirichlet[0].history(3.0, Vector<2>(2.0, 5.0)) == Vector<2>(0.0, 16.0));
+    CHECK(boundary.dirichlet[1].constraint == solid::Constraint::normal);
+    CHECK(boundary.dirichlet[1].value == Vector<2>(0.1, 0.2));
+    CHECK_FALSE(boundary.dirichlet[1].history);
+    REQUIRE(boundary.traction.size() == 1);
+    CHECK(boundary.traction[0].value == Vector<2>(0.0, -3.0));
+    CHECK(boundary.traction[0].follows);
+}
+
+TEST_CASE("a plate that a growing traction pulls moves as plane strain has it", "[input][scenes]") {
+    const input::SceneFile file(ABUT_SOURCE "/scenes/pulled_plate.toml");
+    const run::Scene<2> scene = file.scene<2>();
+    MeanPull pull(scene.mesh);
+    const auto result = run::simulate<2>(scene, file.options(), pull);
+    // Once t is t_0 = 1 Pa: u = t_0 x (1 - nu^2)/E, on the mean of x in (0, 1) and the area 0.5 half of that; the traction grows
+    // as (1 - cos(pi t/2))/2 for 2 s, 1/2 on the mean, and stays for 2 s: 3/4 over all.
+    const double end = 0.91 / 100.0;
+    CHECK(pull.mean() == Approx(0.75 * 0.5 * end * 0.5).epsilon(0.02));
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+}
