@@ -1,0 +1,136 @@
+#include "apps/abut/commands.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/input/check.hpp"
+#include "abut/input/grammar.hpp"
+#include "abut/input/scene_file.hpp"
+#include "apps/support/preset.hpp"
+#include "apps/support/program.hpp"
+#include "apps/support/run_options.hpp"
+#include "apps/support/run_scene.hpp"
+
+namespace abut::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a command line says.
+struct CommandLine {
+    fs::path scene;
+    fs::path new_file;
+    std::vector<std::string> set;
+    run::RunOptions options;
+    CLI::App* run = nullptr;
+    CLI::App* check = nullptr;
+    CLI::App* make = nullptr;
+};
+
+const Program program{
+    .name = "abut",
+    .purpose = "Runs scenes of deformable bodies in contact that are written in TOML.",
+    .series = "bodies",
+    .footer =
+        "abut run --help lists the options of a run. Units are SI. Exit codes: 0 good, 1 an error, with its message, 130 "
+        "or 143 ended by SIGINT or SIGTERM."};
+
+void add_scene_options(CLI::App& command, CommandLine& line) {
+    command.add_option("scene", line.scene, "the scene, a TOML file")->required()->type_name("FILE");
+    command
+        .add_option("--set", line.set, "a value in place of that of the file: bodies.left.density=2; as often as you like")
+        ->expected(1)
+        ->take_all()
+        ->type_name("KEY=VALUE");
+    add_preset_option(command, line.options);
+    add_time_options(command, line.options, "that of the scene");
+    add_contact_options(command, line.options);
+    add_output_options(command, line.options);
+}
+
+void add_commands(CLI::App& app, CommandLine& line) {
+    app.set_version_flag("--version", std::string("abut " ABUT_VERSION));
+    app.require_subcommand(1);
+    line.run = app.add_subcommand("run", "runs a scene; options stand above its values");
+    add_scene_options(*line.run, line);
+    line.check = app.add_subcommand("check", "says all that is wrong with a scene, or what a run of it would take");
+    add_scene_options(*line.check, line);
+    line.make = app.add_subcommand("new", "writes a commented scene to start from");
+    line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
+    app.add_subcommand("keys", "prints all keys of a scene");
+}
+
+/// Of two options that exclude each other on the command line the one of the scene goes.
+void drop_excluded(const CLI::App& command, run::RunOptions& options) {
+    if (command.count("--steps") > 0) options.time = run::not_given;
+    if (command.count("--time") > 0) options.steps = 0;
+    if (command.count("--cfl") + command.count("--preset") > 0) {
+        options.dt = run::not_given;
+        options.allow_unstable = false;
+    }
+}
+
+/// Reads the command line once more, above the options of the scene.
+input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
+    return {.set = first.set, .options = [argc, argv](run::RunOptions& options) {
+                CLI::App app;
+                CommandLine line{.options = options};
+                add_commands(app, line);
+                app.parse(argc, argv);
+                options = line.options;
+                drop_excluded(line.run->parsed() ? *line.run : *line.check, options);
+            }};
+}
+
+void run_file(const fs::path& path, const input::Overrides& overrides) {
+    const input::SceneFile file(path, overrides);
+    Program named = program;
+    named.name = file.name();
+    if (file.dimension() == 2)
+        run_scene<2>(named, file.options(), [&] { return file.scene<2>(); });
+    else
+        run_scene<3>(named, file.options(), [&] { return file.scene<3>(); });
+}
+
+void check_file(const fs::path& path, const input::Overrides& overrides) {
+    const input::CheckedScene checked = input::check_scene(path, overrides);
+    if (!checked.faults.empty()) throw input::SceneError(checked.faults);
+    fmt::print("{}: no fault found\n{}", path.string(), input::text_of(*checked.estimate));
+}
+
+void write_new_scene(fs::path path) {
+    if (path.extension() != ".toml") path += ".toml";
+    if (fs::exists(path)) throw BadInput(fmt::format("{}: the file is there already. Give another name.", path.string()));
+    std::ofstream file(path);
+    file << new_scene();
+    file.close();
+    if (!file) throw BadInput(fmt::format("{}: the file cannot be written. Give a folder that can.", path.string()));
+    fmt::print("{}: written. Next: abut check {}\n", path.string(), path.string());
+}
+
+}  // namespace
+
+int run_abut(int argc, char** argv) {
+    CommandLine line;
+    const auto add_options = [&](CLI::App& app) { add_commands(app, line); };
+    return run_program(program, argc, argv, add_options, [&] {
+        if (line.run->parsed())
+            run_file(line.scene, overrides(argc, argv, line));
+        else if (line.check->parsed())
+            check_file(line.scene, overrides(argc, argv, line));
+        else if (line.make->parsed())
+            write_new_scene(line.new_file);
+        else
+            fmt::print("{}", input::grammar());
+    });
+}
+
+}  // namespace abut::apps

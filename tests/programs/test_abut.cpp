@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "programs/program.hpp"
+
+namespace {
+
+using namespace abut::test::programs;
+namespace fs = std::filesystem;
+
+std::string scene(const std::string& name) { return fmt::format("'{}/{}.toml'", ABUT_SCENES, name); }
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a scene gives the bits of the program for the same bodies", "[programs][abut]") {
+    for (const char* name : {"slipping_cylinders", "rebounding_cylinders"}) {
+        CAPTURE(name);
+        const auto by_scene = run_well("abut", fmt::format("run {} --frames 0", scene(name)), "of_scene");
+        const auto by_program = run_well(name, "--frames 0", "of_program");
+        CHECK(read_text(by_scene.directory / "energy.csv") == read_text(by_program.directory / "energy.csv"));
+        CHECK(read_summary(by_scene)["complete"] == true);
+        CHECK(read_summary(by_scene)["program"] == name);
+        CHECK(read_summary(by_scene)["lost_contacts"] == 0);
+    }
+}
+
+TEST_CASE("options of the command line stand above values that are set, and these above the file", "[programs][abut]") {
+    const auto run = [](const std::string& more) {
+        return read_summary(
+            run_well("abut", fmt::format("run {} --frames 0 {}", scene("slipping_cylinders"), more), "abut_options"));
+    };
+    const auto plain = run("--steps 4");  // in place of the time of the scene
+    CHECK(plain["steps"] == 4);
+    CHECK(plain["options"]["cfl"] == 0.9);
+    const auto set = run("--steps 4 --set run.cfl=0.5 --set bodies.left.density=2");
+    CHECK(set["options"]["cfl"] == 0.5);
+    CHECK(set["kinetic_initial"].get<double>() == Approx(1.5 * plain["kinetic_initial"].get<double>()));
+    const auto both = run("--steps 4 --set run.dt=1e-3 --cfl 0.25 --law pair_potential");
+    CHECK(both["options"]["cfl"] == 0.25);
+    CHECK(both["options"]["law"] == "pair_potential");
+    CHECK(both["dt"].get<double>() > 1e-3);
+    CHECK(run("--steps 4 --preset fast")["options"]["events"] == "off");
+    CHECK(run("--time 0.2 --set run.steps=4")["steps"] > 4);
+}
+
+TEST_CASE("abut check estimates a run, says all that is wrong, and leaves no file", "[programs][abut]") {
+    const auto good = run_program("abut", "check " + scene("slipping_cylinders") + " --cfl 0.5", "");
+    CHECK(good.exit_code == 0);
+    for (const char* word : {"no fault found", "bodies          2", "stable step", "steps"}) CHECK(has(good.out, word));
+    const auto bad =
+        run_program("abut", "check " + scene("slipping_cylinders") + " --set bodies.left.yuong=1 --set dim=5", "");
+    CHECK(bad.exit_code == 1);
+    for (const char* word : {"2 faults", "'young'", "dim is 5"}) CHECK(has(bad.error, word));
+    CHECK(bad.out.empty());
+}
+
+TEST_CASE("abut run refuses what abut check refuses, and touches no file", "[programs][abut]") {
+    const Folder folder("abut_refused");
+    const auto out = folder.path() / "results";
+    for (const char* wrong :
+         {"--set bodies.left.yuong=1", "--set bodies.left.size=-1", "--set bodies.left", "--colour red"}) {
+        CAPTURE(wrong);
+        const auto outcome =
+            run_program("abut", fmt::format("run {} {} --out '{}'", scene("slipping_cylinders"), wrong, out.string()), "");
+        CHECK(outcome.exit_code == 1);
+        CHECK(has(outcome.error, "abut"));
+        CHECK_FALSE(fs::exists(out));
+    }
+    CHECK(run_program("abut", "run nowhere.toml", "").exit_code == 1);
+    CHECK(run_program("abut", "", "").exit_code == 1);
+}
+
+TEST_CASE("abut new writes a scene that has no fault and runs, and no file twice", "[programs][abut]") {
+    const Folder folder("abut_new");
+    const auto file = folder.path() / "mine.toml";
+    const auto written = run_program("abut", fmt::format("new '{}'", (folder.path() / "mine").string()), "");
+    CHECK(written.exit_code == 0);
+    CHECK(has(written.out, "abut check"));
+    REQUIRE(fs::exists(file));
+    const auto again = run_program("abut", fmt::format("new '{}'", file.string()), "");
+    CHECK(again.exit_code == 1);
+    CHECK(has(again.error, "there already"));
+    const auto checked = run_program("abut", fmt::format("check '{}'", file.string()), "");
+    CHECK(checked.exit_code == 0);
+    const auto run = run_well("abut", fmt::format("run '{}' --frames 2", file.string()), "abut_new_results");
+    CHECK(relative_drift(run) < 1e-11);
+    CHECK(read_summary(run)["lost_contacts"] == 0);
+    CHECK(read_summary(run)["active_pairs_max"] > 0);  // something does happen in it
+}
+
+TEST_CASE("abut says its version, its commands and all keys of a scene", "[programs][abut]") {
+    CHECK(has(run_program("abut", "--version", "").out, "abut 0."));
+    const auto help = run_program("abut", "--help", "");
+    CHECK(help.exit_code == 0);
+    for (const char* command : {"run", "check", "new", "keys", "Exit codes"}) CHECK(has(help.out, command));
+    const auto of_run = run_program("abut", "run --help", "");
+    CHECK(of_run.exit_code == 0);
+    for (const char* option : {"--set", "--cfl", "--out", "--preset", "--law"}) CHECK(has(of_run.out, option));
+    CHECK(has(run_program("abut", "keys", "").out, "| `young` | number | Pa |"));
+}
