@@ -1,0 +1,104 @@
+#include "abut/mesh/shapes/fill.hpp"
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "abut/base/messages.hpp"
+#include "abut/geometry/health/surface_health.hpp"
+#include "abut/mesh/io/gmsh_session.hpp"
+#include "abut/mesh/quality.hpp"
+
+namespace abut::mesh {
+namespace {
+
+constexpr int gmsh_triangle = 2, delaunay_3d = 1, surface_tag = 1, volume_tag = 1;
+
+void refuse(const SurfaceMesh& surface, const std::string& what) {
+    throw MeshError(surface.name + ": " + what +
+                    " A body is filled where one closed surface of triangles is around it. Mend the file; detect says what "
+                    "else is wrong with it.");
+}
+
+void check_closed(const SurfaceMesh& surface) {
+    for (std::int32_t face = 0; face < surface.faces.size(); ++face)
+        if (surface.faces[face].size() != 3) refuse(surface, "face " + std::to_string(surface.label(face)) + " is no triangle.");
+    const auto health = geometry::check_surface(surface.soup());
+    const auto require_none = [&](std::size_t n, const std::string& of_what) {
+        if (n > 0) refuse(surface, std::to_string(n) + " " + of_what + ", 0 are allowed.");
+    };
+    require_none(health.unusable_faces.size(), "faces cannot be used");
+    require_none(health.boundary_edges.size(), "edges belong to one face alone");
+    require_none(health.non_manifold_edges.size(), "edges belong to more than two faces");
+    require_none(health.inconsistent_edges.size(), "edges are run along the same way by both of their faces");
+    if (health.components.size() != 1) refuse(surface, "it is in " + std::to_string(health.components.size()) + " parts.");
+}
+
+/// Gmsh measures with lengths of its own: it gets the surface about the origin and of about unit size.
+struct Frame {
+    Vector<3> origin;
+    double unit;  ///< [m]
+};
+
+Frame frame_of(const SurfaceMesh& surface) {
+    Vector<3> lower = surface.vertices.front(), upper = lower;
+    for (const Vector<3>& x : surface.vertices) {
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
+    }
+    return {0.5 * (lower + upper), (upper - lower).maxCoeff()};
+}
+
+void add_surface(const SurfaceMesh& surface, const Frame& frame) {
+    std::vector<std::size_t> nodes(surface.vertices.size()), corners;
+    std::iota(nodes.begin(), nodes.end(), std::size_t{1});
+    std::vector<double> coordinates;
+    for (const Vector<3>& x : surface.vertices)
+        for (int i = 0; i < 3; ++i) coordinates.push_back((x[i] - frame.origin[i]) / frame.unit);
+    for (const std::int32_t vertex : surface.faces.values) corners.push_back(static_cast<std::size_t>(vertex) + 1);
+    gmsh::model::addDiscreteEntity(2, surface_tag);
+    gmsh::model::mesh::addNodes(2, surface_tag, nodes, coordinates);
+    gmsh::model::mesh::addElementsByType(surface_tag, gmsh_triangle, {}, corners);
+}
+
+void mesh_inside(const FillOptions& options, const Frame& frame) {
+    gmsh::model::geo::addSurfaceLoop({surface_tag}, surface_tag);
+    gmsh::model::geo::addVolume({surface_tag}, volume_tag);
+    gmsh::model::geo::synchronize();
+    gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume_tag}), options.name);
+    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface_tag}), "boundary");
+    gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
+    gmsh::option::setNumber("Mesh.Optimize", 1);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / frame.unit);
+    gmsh::model::mesh::generate(3);
+}
+
+}  // namespace
+
+Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options) {
+    if (!(options.size > 0.0 && std::isfinite(options.size)))
+        throw MeshError(options.name + ": size is " + number(options.size) +
+                        " m, a finite length above 0 is needed. Change the option.");
+    check_closed(surface);
+    const Frame frame = frame_of(surface);
+    CellSoup<3> soup;
+    {
+        const GmshSession session;
+        session.run(surface.name, "filling failed", "Mend the surface; detect --self-intersections finds where it cuts itself.",
+                    [&] {
+                        add_surface(surface, frame);
+                        mesh_inside(options, frame);
+                        soup = soup_of_gmsh_model<3>(options.name);
+                    });
+    }
+    soup.n_ignored_elements = 0;
+    soup.vertex_label.clear();
+    soup.cell_label.clear();
+    for (Vector<3>& x : soup.vertices) x = Vector<3>(frame.origin + frame.unit * x);
+    return build_mesh(std::move(soup), mesh_options);
+}
+
+}  // namespace abut::mesh
