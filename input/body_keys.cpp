@@ -105,9 +105,18 @@ const std::vector<Variety<Body, Shape>>& body_varieties() {
          {"file",
           Shape::file,
           {2, 3},
-          {required(Of::text("mesh", &Body::mesh, "path", ".msh or .vtu file, from the folder of the scene")),
+          {required(
+               Of::text("mesh", &Body::mesh, "path", ".msh or .vtu file, from the folder of the scene; no shape is needed")),
            Of::word("non_planar", &Body::non_planar, non_planar_words,
-                    "cells with faces that are not planar: refuse them, or split them into tetrahedra")}}});
+                    "cells with faces that are not planar: refuse them, or split them into tetrahedra")}},
+         {"surface",
+          Shape::surface,
+          {3},
+          {required(
+               Of::text("surface", &Body::surface, "path",
+                        ".stl, .obj, .off, .ply or .vtp file with one closed surface of triangles, which is filled with "
+                        "tetrahedra; no shape is needed")),
+           size(), Of::number("scale", &Body::scale, a_length, "length of the file's unit, 1e-3 for millimetres")}}});
     return varieties;
 }
 

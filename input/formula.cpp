@@ -45,7 +45,10 @@ private:
 namespace {
 
 std::vector<std::string> names_of(Variables variables, const std::array<const char*, 4>& names) {
-    const std::ptrdiff_t n = variables == Variables::none ? 0 : variables == Variables::time ? 1 : 4;
+    const std::ptrdiff_t n = variables == Variables::none             ? 0
+                             : variables == Variables::time           ? 1
+                             : variables == Variables::time_and_plane ? 3
+                                                                      : 4;
     return {names.begin(), names.begin() + n};
 }
 

@@ -8,7 +8,7 @@
 namespace abut::input {
 
 /// What a formula may depend on.
-enum class Variables { none, time, time_and_place };
+enum class Variables { none, time, time_and_plane, time_and_space };
 
 /// A number, or an expression of muParser in t [s] and x, y, z [m], with pi. Calls from several threads wait for each other.
 class Formula {

@@ -6,7 +6,9 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
+#include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/place.hpp"
+#include "abut/mesh/shapes/fill.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::input {
@@ -104,11 +106,19 @@ mesh::Mesh<Dim> round_body(const BodySettings& body) {
         return round_body_in_space(body);
 }
 
+mesh::Mesh<3> filled_surface(const BodySettings& body, const std::filesystem::path& folder) {
+    mesh::SurfaceMesh surface = mesh::read_surface(folder / body.surface);
+    for (Vector<3>& x : surface.vertices) x *= body.scale;
+    return mesh::fill(surface, {.size = body.size, .name = body.name});
+}
+
 template <int Dim>
 mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& folder) {
     if (has_centre(body.shape)) return round_body<Dim>(body);
     if (body.shape == Shape::box) return box<Dim>(body);
     if (body.shape == Shape::structured_box) return structured_box<Dim>(body);
+    if constexpr (Dim == 3)
+        if (body.shape == Shape::surface) return filled_surface(body, folder);
     return mesh::read_mesh<Dim>(folder / body.mesh, {.non_planar = body.non_planar});
 }
 

@@ -10,14 +10,16 @@
 namespace abut::input {
 namespace {
 
-/// "a disc", "an obstacle"
+template <class Variety>
+bool fits(const Variety& variety, int dimension) {
+    return dimension == 0 || std::ranges::find(variety.dimensions, dimension) != variety.dimensions.end();
+}
+
 template <class Section, class Kind>
 std::vector<std::string> words_of(const std::vector<Variety<Section, Kind>>& varieties, int dimension) {
     std::vector<std::string> words;
     for (const auto& variety : varieties)
-        if (variety.choice != Kind::none &&
-            (dimension == 0 || std::ranges::find(variety.dimensions, dimension) != variety.dimensions.end()))
-            words.push_back(variety.word);
+        if (variety.choice != Kind::none && fits(variety, dimension)) words.push_back(variety.word);
     return words;
 }
 
@@ -37,7 +39,10 @@ const Variety<Section, Kind>& chosen_variety(const Node& table, const std::strin
 }
 
 const Variety<BodySettings, Shape>& variety_of_body(const Node& table, const std::string& path, Reader& reader) {
-    if (table.find("mesh") && !table.find("shape")) return body_varieties().back();
+    if (!table.find("shape"))
+        for (const auto& variety : body_varieties())
+            for (const auto& [choice, key] : {std::pair(Shape::file, "mesh"), std::pair(Shape::surface, "surface")})
+                if (variety.choice == choice && fits(variety, reader.dimension) && table.find(key)) return variety;
     return chosen_variety(table, path, body_varieties(), reader);
 }
 const Variety<ObstacleSettings, ObstacleShape>& variety_of_obstacle(const Node& table, const std::string& path,

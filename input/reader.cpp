@@ -94,6 +94,7 @@ bool Reader::has_components(const Node& node, const std::string& key, const std:
 std::optional<FieldSettings> Reader::field(const Node& node, const std::string& key, const Limits& limits,
                                            Variables variables) {
     if (!has_components(node, key, "numbers" + in_brackets(limits))) return std::nullopt;
+    if (variables == Variables::time_and_space && dimension == 2) variables = Variables::time_and_plane;
     FieldSettings field;
     bool good = true;
     for (std::size_t i = 0; i < node.items.size(); ++i) {

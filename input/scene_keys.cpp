@@ -166,7 +166,7 @@ const Keys<SupportSettings>& support_keys() {
         key_of<Support>(
             "components", "list of x, y, z", "of constraint \"components\": which", &Support::components,
             [](Reader& reader, const Node& node, const std::string& key) { return reader.components(node, key); }),
-        From::field("value", &Support::value, "m", Variables::time_and_place, "displacement; by default 0")};
+        From::field("value", &Support::value, "m", Variables::time_and_space, "displacement; by default 0")};
     return keys;
 }
 
@@ -175,7 +175,7 @@ const Keys<TractionSettings>& traction_keys() {
     using From = Make<Traction>;
     static const Keys<Traction> keys = {
         group<Traction>(),
-        required(From::field("value", &Traction::value, "Pa", Variables::time_and_place, "force per area")),
+        required(From::field("value", &Traction::value, "Pa", Variables::time_and_space, "force per area")),
         From::truth("follows", &Traction::follows, "it turns with the body, as a pressure does")};
     return keys;
 }

@@ -26,7 +26,7 @@ struct Named {
 /// A vector whose components may be formulas.
 using FieldSettings = std::array<Formula, 3>;
 
-enum class Shape { none, disc, fan_disc, box, structured_box, cylinder, sphere, file };
+enum class Shape { none, disc, fan_disc, box, structured_box, cylinder, sphere, file, surface };
 
 struct RefinementSettings {
     Vector<3> point = Vector<3>::Zero();  ///< [m]
@@ -38,6 +38,8 @@ struct RefinementSettings {
 struct BodySettings : Named {
     Shape shape = Shape::none;
     std::filesystem::path mesh;
+    std::filesystem::path surface;
+    double scale = 1.0;  ///< of the lengths of `surface` [m]
     mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;
     double radius = 1.0;                  ///< [m]
     double length = 1.0;                  ///< [m]

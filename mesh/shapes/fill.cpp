@@ -25,7 +25,8 @@ void refuse(const SurfaceMesh& surface, const std::string& what) {
 
 void check_closed(const SurfaceMesh& surface) {
     for (std::int32_t face = 0; face < surface.faces.size(); ++face)
-        if (surface.faces[face].size() != 3) refuse(surface, "face " + std::to_string(surface.label(face)) + " is no triangle.");
+        if (surface.faces[face].size() != 3)
+            refuse(surface, "face " + std::to_string(surface.label(face)) + " is no triangle.");
     const auto health = geometry::check_surface(surface.soup());
     const auto require_none = [&](std::size_t n, const std::string& of_what) {
         if (n > 0) refuse(surface, std::to_string(n) + " " + of_what + ", 0 are allowed.");
@@ -87,8 +88,8 @@ Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshO
     CellSoup<3> soup;
     {
         const GmshSession session;
-        session.run(surface.name, "filling failed", "Mend the surface; detect --self-intersections finds where it cuts itself.",
-                    [&] {
+        session.run(surface.name, "filling failed",
+                    "Mend the surface; detect --self-intersections finds where it cuts itself.", [&] {
                         add_surface(surface, frame);
                         mesh_inside(options, frame);
                         soup = soup_of_gmsh_model<3>(options.name);

@@ -36,6 +36,10 @@ const std::vector<Wrong> wrong_scenes = {
      {},
      ".toml:19:9",
      {"'left' and 'third' overlap", "m inside each other", "place"}},
+    {"[bodies.third]\nsurface = \"ball.stl\"\nyoung = 1\ndensity = 1",
+     {},
+     ".toml:19:9",
+     {"shape is missing", "'disc'"}},  // 3D only
     {"[bodys.left]\nyoung = 1", {}, ".toml:19:2", {"bodys is an unknown key", "'bodies'"}},
     {"cfk = 0.5", {}, ".toml:19:1", {"run.cfk is an unknown key", "'cfl'"}},
     {"cfl = 1.5", {}, ".toml:19:1", {"run.cfl is 1.5", "above 0, at most 1"}},
@@ -84,6 +88,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"[supports.a]\ngroup = \"left.xmin\"\n[supports.b]\ngroup = \"left.xmin\"", {}, ".toml", {"left.xmin"}},
     {"[tractions.pull]\ngroup = \"left.xmin\"\nvalue = [\"2*\", 0]", {}, ".toml:21:", {"component 1", "cannot be read"}},
     {"[tractions.pull]\ngroup = \"left.xmin\"", {}, ".toml:19:12", {"tractions.pull.value is missing", "[Pa]"}},
+    {"[tractions.pull]\ngroup = \"left.xmin\"\nvalue = [\"z\", 0]", {}, ".toml:21:", {"no name 'z'", "'x', 'y'"}},
     {"", {"dim=4"}, "--set dim=4", {"dim is 4", "2 to 3"}},
     {"", {"bodies.left.density=0"}, "--set bodies.left.density=0", {"0 kg/m^3", "above 0 kg/m^3"}},
     {"", {"bodies.left.densty=2"}, "--set bodies.left.densty=2", {"'density'"}},

@@ -47,8 +47,8 @@ TEST_CASE("what is not one closed surface of triangles is refused", "[mesh][fill
     CHECK_THROWS_AS(fill(flipped, {}), MeshError);
     const SurfaceMesh bricks = boundary_of(structured_box<3>({0, 0, 0}, {1, 1, 1}, {2, 2, 2}, CellShape::hexahedron));
     CHECK_THROWS_AS(fill(bricks, {}), MeshError);
-    const std::vector<SurfaceMesh> two{box_of_triangles(),
-                                       boundary_of(structured_box<3>({0, 0, 0}, {1, 1, 1}, {1, 1, 1}, CellShape::tetrahedron))};
+    const std::vector<SurfaceMesh> two{
+        box_of_triangles(), boundary_of(structured_box<3>({0, 0, 0}, {1, 1, 1}, {1, 1, 1}, CellShape::tetrahedron))};
     CHECK_THROWS_AS(fill(combine(two), {}), MeshError);
     CHECK_THROWS_AS(fill(box_of_triangles(), {.size = 0.0}), MeshError);
 }
