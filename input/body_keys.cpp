@@ -23,8 +23,13 @@ constexpr std::array<CellWord, 6> cell_words{{{"triangle", mesh::CellShape::tria
                                               {"pyramid", mesh::CellShape::pyramid}}};
 constexpr std::array<run::Word<mesh::NonPlanarFaces>, 2> non_planar_words{
     {{"fail", mesh::NonPlanarFaces::fail}, {"split", mesh::NonPlanarFaces::split}}};
-constexpr std::array<run::Word<solid::Kinematics>, 3> body_kinematics{
-    {{"small", solid::Kinematics::small}, {"floating", solid::Kinematics::floating}, {"rigid", solid::Kinematics::rigid}}};
+/// Those of run::kinematics_words that a body may have by itself.
+std::vector<run::Word<solid::Kinematics>> body_kinematics() {
+    std::vector<run::Word<solid::Kinematics>> words;
+    for (const auto& [word, choice] : run::kinematics_words)
+        if (const auto kinematics = run::kinematics_of_all(choice)) words.push_back({word, *kinematics});
+    return words;
+}
 
 Key<Body> radius() { return required(Of::number("radius", &Body::radius, a_length, "radius")); }
 Key<Body> size() { return required(Of::number("size", &Body::size, a_length, "wanted edge length of cells")); }
@@ -77,8 +82,8 @@ const Keys<Body>& body_keys() {
             Of::number("density", material(&solid::Material::density), {.unit = "kg/m^3", .above = 0.0}, "density rho")),
         Of::number("eta", material(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
                    "stabilisation of jumps between cells; 0: Young's modulus"),
-        Of::word("kinematics", &Body::kinematics, body_kinematics,
-                 "how it may move: without turns, in a frame that turns, rigid"),
+        Of::word("kinematics", &Body::kinematics, body_kinematics(),
+                 "how it may move: without turns, in a frame that turns, bending, or rigid"),
         Of::vector("place", &Body::place, "m", "0",
                    "where its own origin goes: of disc, fan_disc, cylinder and sphere their centre"),
         Of::axial("turn", &Body::turn, "rad", "turn about its own origin before it is placed; in 3D axis times angle"),

@@ -21,7 +21,7 @@ place = [0, 1.0]         # [m] its centre
 density = 1000           # [kg/m^3]
 young = 1e6              # [Pa]
 poisson = 0.3
-kinematics = "small"     # "floating" where it turns, "rigid" where it does not deform
+kinematics = "small"     # "floating" where it turns, "finite" where it bends, "rigid" where it does not deform
 velocity = [0, -1]       # [m/s] at the start; spin = 3 [rad/s] turns it
 
 [bodies.block]
