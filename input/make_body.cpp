@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
@@ -15,12 +14,7 @@ namespace abut::input {
 namespace {
 
 template <int Dim>
-Vector<Dim> head(const Vector<3>& vector) {
-    return vector.head<Dim>();
-}
-
-template <int Dim>
-std::array<int, Dim> head(const std::array<int, 3>& counts) {
+std::array<int, Dim> counts_in(const std::array<int, 3>& counts) {
     std::array<int, Dim> result;
     std::copy_n(counts.begin(), Dim, result.begin());
     return result;
@@ -62,7 +56,7 @@ mesh::Mesh<Dim> box(const BodySettings& body) {
 
 template <int Dim>
 mesh::Mesh<Dim> structured_box(const BodySettings& body) {
-    return mesh::structured_box<Dim>(head<Dim>(body.lower), head<Dim>(body.upper), head<Dim>(body.counts),
+    return mesh::structured_box<Dim>(head<Dim>(body.lower), head<Dim>(body.upper), counts_in<Dim>(body.counts),
                                      cells_of<Dim>(body), body.name);
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -16,11 +15,6 @@
 
 namespace abut::input {
 namespace {
-
-template <int Dim>
-Vector<Dim> head(const Vector<3>& vector) {
-    return vector.head<Dim>();
-}
 
 template <int Dim>
 AxialVector<Dim> axial(const Vector<3>& vector) {
@@ -131,23 +125,30 @@ bool has_group(const mesh::Mesh<Dim>& mesh, const std::string& group, const Name
     return false;
 }
 
+/// Its history, or its value where nothing varies.
+template <int Dim, class Condition>
+void set_value(Condition& condition, const FieldSettings& field) {
+    condition.history = history_of<Dim>(field);
+    if (!condition.history) condition.value = value_at<Dim>(field, 0.0, Vector<3>::Zero());
+}
+
 template <int Dim>
 void add_conditions(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     for (const SupportSettings& support : settings.supports) {
         if (!has_group(scene.mesh, support.group, support, "supports", settings.bodies, faults)) continue;
-        solid::DirichletCondition<Dim> condition{.group = support.group, .constraint = support.constraint};
+        solid::DirichletCondition<Dim> condition;
+        condition.group = support.group;
+        condition.constraint = support.constraint;
         std::copy_n(support.components.begin(), Dim, condition.components.begin());
-        condition.history = history_of<Dim>(support.value);
-        condition.value =
-            condition.history ? Vector<Dim>(Vector<Dim>::Zero()) : value_at<Dim>(support.value, 0.0, Vector<3>::Zero());
+        set_value<Dim>(condition, support.value);
         scene.solid.boundary.dirichlet.push_back(std::move(condition));
     }
     for (const TractionSettings& traction : settings.tractions) {
         if (!has_group(scene.mesh, traction.group, traction, "tractions", settings.bodies, faults)) continue;
-        solid::TractionCondition<Dim> condition{.group = traction.group, .follows = traction.follows};
-        condition.history = history_of<Dim>(traction.value);
-        condition.value =
-            condition.history ? Vector<Dim>(Vector<Dim>::Zero()) : value_at<Dim>(traction.value, 0.0, Vector<3>::Zero());
+        solid::TractionCondition<Dim> condition;
+        condition.group = traction.group;
+        condition.follows = traction.follows;
+        set_value<Dim>(condition, traction.value);
         scene.solid.boundary.traction.push_back(std::move(condition));
     }
 }

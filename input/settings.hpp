@@ -17,6 +17,12 @@
 /// What a scene file says, key by key and for both dimensions: of vectors in the plane z is 0, and turns are about z.
 namespace abut::input {
 
+/// What of a vector counts in a dimension.
+template <int Dim>
+[[nodiscard]] Vector<Dim> head(const Vector<3>& vector) {
+    return vector.head<Dim>();
+}
+
 /// A table of the file with a name of its own.
 struct Named {
     std::string name;
