@@ -26,9 +26,9 @@ struct CheckedScene {
     std::optional<Estimate> estimate;  ///< where there is no fault
 };
 
-/// All that can be known before a run: faults of keys and values, of meshes, groups and places, of a solid that cannot be made,
-/// of a step that is not stable. What a body with a fault would say of others is not looked for. Throws nothing for a scene
-/// that is wrong.
+/// All that can be known before a run: faults of keys and values, of meshes, groups and places, of a solid that cannot be
+/// made, of a step that is not stable. What a body with a fault would say of others is not looked for. Throws nothing for
+/// a scene that is wrong.
 [[nodiscard]] CheckedScene check_scene(const std::filesystem::path& path, const Overrides& overrides = {});
 
 /// A line for each figure, with its unit.

@@ -10,13 +10,14 @@ namespace abut::input {
 /// What a formula may depend on.
 enum class Variables { none, time, time_and_plane, time_and_space };
 
-/// A number, or an expression of muParser in t [s] and x, y, z [m], with pi. Calls from several threads wait for each other.
+/// A number, or an expression of muParser in t [s] and x, y, z [m], with pi. Calls from several threads wait for each
+/// other.
 class Formula {
 public:
     Formula() = default;
     explicit Formula(double value) : value_(value) {}
-    /// Throws BadInput saying what is wrong with the text: a name that is not known here, bad syntax, no finite number where it
-    /// depends on nothing.
+    /// Throws BadInput saying what is wrong with the text: a name that is not known here, bad syntax, no finite number
+    /// where it depends on nothing.
     Formula(const std::string& text, Variables variables);
 
     [[nodiscard]] double operator()(double time, const Vector<3>& position) const;

@@ -14,8 +14,8 @@
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/reader.hpp"
 
-/// The keys of a table of the file as a table of ours: it reads, it checks, it knows the nearest key, and it is printed as the
-/// grammar. `Section` is what the values go to; an `access` is a member of it, or a function that returns a reference.
+/// The keys of a table of the file as a table of ours: it reads, it checks, it knows the nearest key, and it is printed as
+/// the grammar. `Section` is what the values go to; an `access` is a member of it, or a function that returns a reference.
 namespace abut::input {
 
 template <class Section>
@@ -46,8 +46,8 @@ template <class Section>
     return names;
 }
 
-/// Takes every key that the table has; faults for those that are not known and for required ones that are not there. `path` is
-/// what messages put in front of a key: "bodies.left".
+/// Takes every key that the table has; faults for those that are not known and for required ones that are not there.
+/// `path` is what messages put in front of a key: "bodies.left".
 template <class Section>
 void read_table(Section& section, const Node& table, const std::string& path, const Keys<Section>& keys, Reader& reader) {
     const std::string in = path.empty() ? "" : path + ".";

@@ -25,15 +25,15 @@ struct Overrides {
 ///     run::RunResult<2> result = run::simulate<2>(scene, file.options());
 class SceneFile {
 public:
-    /// Throws SceneError with all faults of keys and values: what is unknown or missing, of a wrong type or out of range, what
-    /// does not go together.
+    /// Throws SceneError with all faults of keys and values: what is unknown or missing, of a wrong type or out of range,
+    /// what does not go together.
     explicit SceneFile(const std::filesystem::path& path, const Overrides& overrides = {});
 
     [[nodiscard]] int dimension() const;  ///< 2 or 3
     [[nodiscard]] const run::RunOptions& options() const;
     [[nodiscard]] std::string name() const;  ///< "slipping_cylinders"
-    /// Makes the meshes and all that acts on them. Throws SceneError for meshes that cannot be made or read, for groups that no
-    /// mesh has, and for bodies that overlap; Misuse if `Dim` is not the dimension.
+    /// Makes the meshes and all that acts on them. Throws SceneError for meshes that cannot be made or read, for groups
+    /// that no mesh has, and for bodies that overlap; Misuse if `Dim` is not the dimension.
     template <int Dim>
     [[nodiscard]] run::Scene<Dim> scene() const;
 

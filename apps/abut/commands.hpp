@@ -3,8 +3,8 @@
 
 namespace abut::apps {
 
-/// Main function of the program abut. 0 after a good end; 1 with a message on standard error for a command line or a scene that
-/// is wrong, and for a run that fails; 130 or 143 after SIGINT or SIGTERM.
+/// Main function of the program abut. 0 after a good end; 1 with a message on standard error for a command line or a scene
+/// that is wrong, and for a run that fails; 130 or 143 after SIGINT or SIGTERM.
 int run_abut(int argc, char** argv);
 
 /// The commented scene that `abut new` writes.

@@ -14,9 +14,9 @@ struct FillOptions {
 /// Tetrahedra inside a closed surface of triangles, by Gmsh: one body, group "boundary". The triangles stay as they are, so
 /// that cells beside them are as large as these. Calls from several threads wait for one another.
 ///
-/// Throws MeshError if a face is no triangle or cannot be used, if the surface has a rim, if an edge belongs to more than two
-/// faces or two faces run along it the same way, if it is in several parts, if `size` is not above 0, and if Gmsh fails, as
-/// where the surface cuts itself.
+/// Throws MeshError if a face is no triangle or cannot be used, if the surface has a rim, if an edge belongs to more than
+/// two faces or two faces run along it the same way, if it is in several parts, if `size` is not above 0, and if Gmsh
+/// fails, as where the surface cuts itself.
 [[nodiscard]] Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshOptions& mesh_options = {});
 
 }  // namespace abut::mesh

@@ -349,8 +349,8 @@ TEST_CASE("a plate that a growing traction pulls moves as plane strain has it", 
     const run::Scene<2> scene = file.scene<2>();
     MeanPull pull(scene.mesh);
     const auto result = run::simulate<2>(scene, file.options(), pull);
-    // Once t is t_0 = 1 Pa: u = t_0 x (1 - nu^2)/E, on the mean of x in (0, 1) and the area 0.5 half of that; the traction grows
-    // as (1 - cos(pi t/2))/2 for 2 s, 1/2 on the mean, and stays for 2 s: 3/4 over all.
+    // Under t_0 = 1 Pa u = t_0 x (1 - nu^2)/E; its integral over 0.5 m^2, with the mean of x 1/2, is a quarter of that at
+    // the end. The traction grows as (1 - cos(pi t/2))/2 for 2 s, 1/2 on the mean, and stays for 2 s: 3/4 over all.
     const double end = 0.91 / 100.0;
     CHECK(pull.mean() == Approx(0.75 * 0.5 * end * 0.5).epsilon(0.02));
     CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
