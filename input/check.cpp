@@ -13,10 +13,12 @@
 namespace abut::input {
 namespace {
 
-/// Throws BadInput for a solid that cannot be made and a step that cannot be taken.
+/// Of the kinematics of the scene where a pilot run would choose them. Throws BadInput for a solid that cannot be made and a
+/// step that cannot be taken.
 template <int Dim>
 Estimate estimate(const run::Scene<Dim>& scene, const run::RunOptions& given) {
-    const run::RunOptions options = run::with_defaults<Dim>(given);
+    run::RunOptions options = run::with_defaults<Dim>(given);
+    if (options.kinematics == run::BodyKinematics::automatic) options.kinematics = run::BodyKinematics::scene;
     solid::Solid<Dim> solid(scene.mesh, run::solid_options(scene, options));
     Estimate estimate{.bodies = scene.mesh.n_bodies(),
                       .cells = scene.mesh.n_cells(),
