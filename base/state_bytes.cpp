@@ -66,11 +66,16 @@ StateReader::StateReader(std::span<const std::byte> bytes, const std::string& ki
 }
 
 std::string StateReader::get_text() {
-    const auto size = get<std::uint64_t>();
-    if (size > left()) throw BadInput("state of " + kind_ + ": it ends in the middle of a text.");
-    std::string text(size, ' ');
+    std::string text(take_size(1), ' ');
     take(std::as_writable_bytes(std::span(text)));
     return text;
+}
+
+/// A number of things that follow: memory is taken for what is there, not for what is promised.
+std::size_t StateReader::take_size(std::size_t bytes_of_one) {
+    const auto size = get<std::uint64_t>();
+    if (size > left() / bytes_of_one) throw BadInput("state of " + kind_ + ": it ends too early.");
+    return size;
 }
 
 void StateReader::take(std::span<std::byte> to) {

@@ -33,6 +33,12 @@ public:
         append(std::as_bytes(std::span<const T, 1>(&value, 1)));
     }
     void put(const std::string& text);
+    /// With their number.
+    template <class T>
+    void put_all(std::span<const T> values) requires(std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>) {
+        put(static_cast<std::uint64_t>(values.size()));
+        append(std::as_bytes(values));
+    }
 
     /// The bytes, with the checksum at their end.
     [[nodiscard]] std::vector<std::byte> finish() &&;
@@ -56,6 +62,13 @@ public:
         return value;
     }
     [[nodiscard]] std::string get_text();
+    /// As many as were put.
+    template <class T>
+    [[nodiscard]] std::vector<T> get_all() requires(std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>) {
+        std::vector<T> values(take_size(sizeof(T)));
+        take(std::as_writable_bytes(std::span(values)));
+        return values;
+    }
     /// What is left [bytes].
     [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
     /// Throws BadInput if something is left.
@@ -63,6 +76,7 @@ public:
 
 private:
     void take(std::span<std::byte> to);
+    [[nodiscard]] std::size_t take_size(std::size_t bytes_of_one);
 
     std::span<const std::byte> bytes_;  // content without the checksum
     std::size_t at_ = 0;

@@ -83,6 +83,11 @@ private:
         return 0.5 * (this->mass_product(this->p_after_, this->p_after_) + psi_after_ * psi_after_) - gauge_;
     }
     void turn() { std::swap(psi_before_, psi_after_); }
+    [[nodiscard]] std::vector<double> of_scheme() const { return {psi_before_, psi_after_}; }
+    void set_of_scheme(std::span<const double> psi) {
+        psi_before_ = psi[0];
+        psi_after_ = psi[1];
+    }
 
     double gauge_;
     double psi_before_ = 0.0;  // psi^{n-1/2} [J^(1/2)]

@@ -1,6 +1,7 @@
 #include "abut/dynamics/integrator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -10,11 +11,12 @@
 namespace abut::dynamics::detail {
 namespace {
 
-void require_finite(std::span<const double> values, const std::string& name, const std::string& unit) {
+void require_finite(std::span<const double> values, const std::string& name, const std::string& unit,
+                    const std::string& where = "at the start") {
     const auto wrong = std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
     if (wrong != values.end())
         throw BadInput("integrator: " + name + " " + std::to_string(wrong - values.begin()) + " is " + number(*wrong) + " " +
-                           unit + " at the start; it must be finite.",
+                           unit + " " + where + "; it must be finite.",
                        {.value = *wrong});
 }
 
@@ -35,6 +37,29 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
             {.value = static_cast<double>(q.size() != size ? q.size() : p.size()), .allowed = static_cast<double>(size)});
     require_finite(q, "position", "m");
     require_finite(p, "momentum", "kg m/s");
+}
+
+void check_state(const IntegratorState& state, std::size_t size, std::size_t of_scheme) {
+    for (const std::size_t found : {state.q.size(), state.p_before.size(), state.p_after.size()})
+        if (found != size)
+            throw BadInput("integrator: a saved state has " + std::to_string(found) +
+                               " values of positions or momenta, the system " + std::to_string(size) +
+                               " degrees of freedom. Restore it where it was saved.",
+                           {.value = static_cast<double>(found), .allowed = static_cast<double>(size)});
+    if (state.of_scheme.size() != of_scheme)
+        throw BadInput("integrator: a saved state has " + std::to_string(state.of_scheme.size()) +
+                       " values of its scheme, " + std::to_string(of_scheme) +
+                       " are needed. Restore it under the scheme that saved it.");
+    check_step(state.dt);
+    const std::string saved = "in a saved state";
+    require_finite(state.q, "position", "m", saved);
+    require_finite(state.p_before, "momentum", "kg m/s", saved);
+    require_finite(state.p_after, "momentum", "kg m/s", saved);
+    require_finite(state.of_scheme, "value of the scheme", "", saved);
+    require_finite(std::array{state.time, state.restart_jumps}, "time or energy", "", saved);
+    if (state.steps < 0)
+        throw BadInput("integrator: a saved state has taken " + std::to_string(state.steps) +
+                       " steps; 0 or more are possible.");
 }
 
 void refuse_constraints() {

@@ -19,9 +19,22 @@ enum class StepChange {
     restart,  ///< they are rebuilt from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
 };
 
+/// All that the next steps of a scheme depend on, but for its system.
+struct IntegratorState {
+    std::vector<double> q;         ///< q^n
+    std::vector<double> p_before;  ///< p^{n-1/2}
+    std::vector<double> p_after;   ///< p^{n+1/2}
+    double dt = 0.0;               ///< [s]
+    double time = 0.0;             ///< [s]
+    std::int64_t steps = 0;
+    double restart_jumps = 0.0;     ///< [J]
+    std::vector<double> of_scheme;  ///< what only this scheme knows
+};
+
 namespace detail {
 /// Throw BadInput.
 void check_step(double dt);
+void check_state(const IntegratorState& state, std::size_t size, std::size_t of_scheme);
 void check_start(std::size_t size, std::span<const double> q, std::span<const double> p);
 [[noreturn]] void refuse_constraints();
 }  // namespace detail
@@ -35,6 +48,8 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     has_half_steps                      whether its momenta are at half steps
 ///     takes_constraints                whether it runs a ConstrainedSystem that has constraints
 ///     takes_after_step, takes_node_restart    whether `set_after_step` and `set_node_restart` are offered
+/// and, if it keeps numbers beside those of this class, `of_scheme()` that returns them and `set_of_scheme(span)`; if it keeps
+/// what follows from the momenta, `momenta_changed()`.
 /// Static polymorphism: no virtual calls. After an exception from `step`, except for a bad dt, the run is over unless the
 /// scheme says more.
 template <class Scheme, System S>
@@ -79,7 +94,33 @@ public:
         std::swap(p_before_, p_after_);
         for (auto* momenta : {&p_before_, &p_after_})
             for (double& p : *momenta) p = -p;
+        if constexpr (requires(Scheme & s) { s.momenta_changed(); }) scheme().momenta_changed();
         if constexpr (requires(Scheme & s) { s.turn(); }) scheme().turn();
+    }
+
+    /// Between two steps.
+    [[nodiscard]] IntegratorState state() const {
+        IntegratorState state{q_, p_before_, p_after_, dt_, time_, steps_, restart_jumps_, {}};
+        if constexpr (requires(const Scheme& s) { s.of_scheme(); })
+            state.of_scheme = static_cast<const Scheme&>(*this).of_scheme();
+        return state;
+    }
+    /// Goes on from there: with a system that is restored, too, the next steps have the same bits. Throws BadInput, and stays
+    /// as it is, for a state of another size or with a value that is not finite.
+    void restore(IntegratorState state) {
+        constexpr bool keeps_more = requires(const Scheme& s) { s.of_scheme(); };
+        std::size_t n_more = 0;
+        if constexpr (keeps_more) n_more = scheme().of_scheme().size();
+        detail::check_state(state, q_.size(), n_more);
+        q_ = std::move(state.q);
+        p_before_ = std::move(state.p_before);
+        p_after_ = std::move(state.p_after);
+        dt_ = state.dt;
+        time_ = state.time;
+        steps_ = state.steps;
+        restart_jumps_ = state.restart_jumps;
+        if constexpr (keeps_more) scheme().set_of_scheme(state.of_scheme);
+        if constexpr (requires(Scheme & s) { s.momenta_changed(); }) scheme().momenta_changed();
     }
 
     [[nodiscard]] double time() const { return time_; }

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
+#include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 
 namespace abut::dynamics {
@@ -15,6 +17,22 @@ void append_names(std::vector<std::string>& names, const std::string& name, Entr
         names.push_back(name);
     else
         for (int i = 0; i < n; ++i) names.push_back(name + axis[i]);
+}
+
+/// The numbers of an entry, in the order of `ledger_columns`.
+template <int Dim, class Entry, class Visit>
+void for_each_value(Entry& entry, const Visit& visit) {
+    const auto visit_all = [&](auto&... values) { (visit(values), ...); };
+    const auto visit_vector = [&](auto& vector) {
+        for (auto& value : vector) visit(value);
+    };
+    visit_all(entry.step, entry.time, entry.pseudo_energy, entry.energy, entry.kinetic, entry.potential, entry.work);
+    visit_vector(entry.linear_momentum);
+    visit_vector(entry.angular_momentum);
+    visit_all(entry.parasitic, entry.active_pairs, entry.events, entry.restart_jumps, entry.rotation);
+    visit_vector(entry.rest_angular_momentum);
+    visit_all(entry.restarts.restarts, entry.restarts.shortened, entry.restarts.skipped, entry.restarts.paid);
+    visit_vector(entry.pseudo_angular_momentum);
 }
 
 }  // namespace
@@ -33,23 +51,21 @@ std::vector<std::string> ledger_columns() {
 
 template <int Dim>
 std::vector<double> ledger_values(const LedgerEntry<Dim>& entry) {
-    std::vector<double> values{static_cast<double>(entry.step),
-                               entry.time,
-                               entry.pseudo_energy,
-                               entry.energy,
-                               entry.kinetic,
-                               entry.potential,
-                               entry.work};
-    values.insert(values.end(), entry.linear_momentum.begin(), entry.linear_momentum.end());
-    values.insert(values.end(), entry.angular_momentum.begin(), entry.angular_momentum.end());
-    values.insert(values.end(), {entry.parasitic, static_cast<double>(entry.active_pairs), static_cast<double>(entry.events),
-                                 entry.restart_jumps, entry.rotation});
-    values.insert(values.end(), entry.rest_angular_momentum.begin(), entry.rest_angular_momentum.end());
-    const RestartReport& restarts = entry.restarts;
-    values.insert(values.end(), {static_cast<double>(restarts.restarts), static_cast<double>(restarts.shortened),
-                                 static_cast<double>(restarts.skipped), restarts.paid});
-    values.insert(values.end(), entry.pseudo_angular_momentum.begin(), entry.pseudo_angular_momentum.end());
+    std::vector<double> values;
+    for_each_value<Dim>(entry, [&](const auto& value) { values.push_back(static_cast<double>(value)); });
     return values;
+}
+
+template <int Dim>
+LedgerEntry<Dim> ledger_entry(std::span<const double> values) {
+    if (const std::size_t n = ledger_columns<Dim>().size(); values.size() != n)
+        throw BadInput("ledger: an entry has " + std::to_string(n) + " values, not " + std::to_string(values.size()) + ".",
+                       {.value = static_cast<double>(values.size()), .allowed = static_cast<double>(n)});
+    LedgerEntry<Dim> entry{};
+    std::size_t at = 0;
+    for_each_value<Dim>(entry,
+                        [&](auto& value) { value = static_cast<std::remove_cvref_t<decltype(value)>>(values[at++]); });
+    return entry;
 }
 
 template <int Dim>
@@ -108,6 +124,7 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
 #define ABUT_INSTANTIATE(Dim)                                                                                             \
     template std::vector<std::string> ledger_columns<Dim>();                                                              \
     template std::vector<double> ledger_values<Dim>(const LedgerEntry<Dim>&);                                             \
+    template LedgerEntry<Dim> ledger_entry<Dim>(std::span<const double>);                                                 \
     template AngularMomentum<Dim> pseudo_angular_momentum<Dim>(const RunView<Dim>&, double, std::span<const Vector<Dim>>, \
                                                                std::span<const double>);                                  \
     template void detail::add_motion<Dim>(LedgerEntry<Dim>&, const RunView<Dim>&, std::span<const double>,                \

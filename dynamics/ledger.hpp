@@ -54,6 +54,9 @@ template <int Dim>
 /// The entry as numbers in the order of `ledger_columns`.
 template <int Dim>
 [[nodiscard]] std::vector<double> ledger_values(const LedgerEntry<Dim>& entry);
+/// The other way round. Throws BadInput for another number of values than columns.
+template <int Dim>
+[[nodiscard]] LedgerEntry<Dim> ledger_entry(std::span<const double> values);
 
 /// The state of an integrator of moving points as ledger and output read it, whatever the scheme. A view, valid until the
 /// next step.

@@ -100,7 +100,7 @@ private:
         const std::span<const double> inverse_mass = this->system_.inverse_mass();
         for (const std::size_t i : dofs) velocity_[i] = inverse_mass[i] * this->p_after_[i];
     }
-    void turn() {
+    void momenta_changed() {
         for (const auto& dofs : dofs_) set_velocity(dofs);
     }
     [[nodiscard]] double conserved_energy(double potential) const { return this->staggered_kinetic_energy() + potential; }

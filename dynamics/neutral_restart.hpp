@@ -17,6 +17,7 @@ concept BodySystem = MomentSystem<S> && requires(const S& system) {
 struct RestartOptions {
     int period = 50;                ///< steps from one restart to the next
     std::int64_t steps_before = 0;  ///< that the run had taken when it was saved, for it to go on with the same bits
+    RestartReport report_before;    ///< what it had reported by then
 };
 
 namespace detail {
@@ -71,7 +72,8 @@ public:
           options_(options),
           steps_(options.steps_before),
           bodies_(detail::points_of_bodies(system.body_of_points(), system.masses().size())),
-          force_(system.size()) {
+          force_(system.size()),
+          report_(options.report_before) {
         detail::check_restart(options);
     }
 

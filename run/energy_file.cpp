@@ -19,6 +19,12 @@ void EnergyFile<Dim>::begin(const Scene<Dim>&, const RunResult<Dim>&) {
 }
 
 template <int Dim>
+void EnergyFile<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader&) {
+    begin(scene, result);
+    for (const auto& entry : result.ledger.entries()) record(entry, result);
+}
+
+template <int Dim>
 void EnergyFile<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>&) {
     std::vector<std::string> values;
     for (const double value : dynamics::ledger_values(entry)) values.push_back(fmt::format("{:.17g}", value));

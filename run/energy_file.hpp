@@ -15,6 +15,8 @@ public:
 
     /// Opens the file. Throws BadInput if it cannot be written.
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
+    /// Writes the rows of all entries so far once more.
+    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// Throws BadInput if the row cannot be written.
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     /// The run is complete: gives the file its name. Throws BadInput if it cannot.

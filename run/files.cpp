@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> plain_results = {"summary.json", "energy.csv", "energy.png", "energy.gp"};
-
 bool take(std::string_view& text, std::string_view start) {
     if (!text.starts_with(start)) return false;
     text.remove_prefix(start.size());
@@ -48,8 +46,13 @@ void remove_result(const fs::path& path) {
 
 }  // namespace
 
+const std::vector<std::string>& plain_results() {
+    static const std::vector<std::string> names{"summary.json", "energy.csv", "energy.png", "energy.gp"};
+    return names;
+}
+
 void remove_earlier_results(const fs::path& directory, const std::string& series) {
-    remove_files(directory, plain_results);
+    remove_files(directory, plain_results());
     std::vector<fs::path> frames;
     std::error_code error;
     for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))

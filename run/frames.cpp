@@ -76,6 +76,17 @@ void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& sol
 }
 
 template <int Dim>
+void Frames<Dim>::save(StateWriter& state) const {
+    state.put_all(std::span(series_->times()));
+}
+
+template <int Dim>
+void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
+    begin(scene, result);
+    series_->go_on_after(state.get_all<double>());
+}
+
+template <int Dim>
 void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     const auto contact = solid.contact_field(run.q);
     const auto gap = finite_or_nan(contact.gap);

@@ -1,6 +1,9 @@
 #include "abut/run/observer.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include "abut/base/error.hpp"
 
 namespace abut::run {
 
@@ -22,6 +25,31 @@ void Observers<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 template <int Dim>
 bool Observers<Dim>::asks_to_stop() const {
     return std::ranges::any_of(observers_, [](const Observer<Dim>& observer) { return observer.asks_to_stop(); });
+}
+
+template <int Dim>
+bool Observers<Dim>::wants_checkpoint(std::int64_t step, bool stops) const {
+    return std::ranges::any_of(observers_,
+                               [&](const Observer<Dim>& observer) { return observer.wants_checkpoint(step, stops); });
+}
+
+template <int Dim>
+void Observers<Dim>::keep(const Checkpoint& checkpoint) {
+    for (Observer<Dim>& observer : observers_) observer.keep(checkpoint);
+}
+
+template <int Dim>
+void Observers<Dim>::save(StateWriter& state) const {
+    state.put(static_cast<std::int32_t>(observers_.size()));
+    for (const Observer<Dim>& observer : observers_) observer.save(state);
+}
+
+template <int Dim>
+void Observers<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
+    if (const auto n = state.get<std::int32_t>(); n != static_cast<std::int32_t>(observers_.size()))
+        throw BadInput("a checkpoint of " + std::to_string(n) + " observers cannot be gone on from with " +
+                       std::to_string(observers_.size()) + ". Give those of the run that was stopped.");
+    for (Observer<Dim>& observer : observers_) observer.resume(scene, result, state);
 }
 
 template class Observers<2>;

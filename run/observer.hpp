@@ -3,6 +3,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "abut/base/state_bytes.hpp"
+#include "abut/run/checkpoint.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::run {
@@ -20,6 +22,20 @@ public:
     virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
     /// Asked at the start and after each step but the last, before that is recorded: true makes it the last one.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
+
+    // Runs that survive: docs/checkpoints.md
+
+    /// Asked after each step, last of all: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
+    [[nodiscard]] virtual bool wants_checkpoint(std::int64_t step, bool stops) const {
+        static_cast<void>(step), static_cast<void>(stops);
+        return false;
+    }
+    virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
+    /// What `resume` needs, for a checkpoint.
+    virtual void save(StateWriter&) const {}
+    /// In place of `begin`, where a run goes on after a checkpoint: `result` has the entries of the ledger until then, `state`
+    /// holds what `save` has put there.
+    virtual void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader&) { begin(scene, result); }
 };
 
 /// Several observers as one; they are called in the order given, and must outlive it. Any of them may ask to stop.
@@ -35,6 +51,11 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool asks_to_stop() const override;
+    [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
+    void keep(const Checkpoint& checkpoint) override;
+    void save(StateWriter& state) const override;
+    /// Throws BadInput if the state is one of another number of observers.
+    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
 
 private:
     std::vector<std::reference_wrapper<Observer<Dim>>> observers_;

@@ -46,6 +46,9 @@ struct RunOptions {
     std::filesystem::path out;  ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;           ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
     int frames = 21;            ///< of the VTU series of ResultFiles, the first and the last included; 0: none
+    double checkpoint = 10.0;   ///< minutes from one checkpoint of ResultFiles to the next; 0: none, not even at a signal
+    int checkpoint_steps = 0;   ///< the same in steps, beside it; 0: by minutes alone
+    bool resume = false;        ///< goes on from the last checkpoint in `out`
 };
 
 /// A choice and its word on command lines and in summaries.

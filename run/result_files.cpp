@@ -13,6 +13,8 @@
 namespace abut::run {
 namespace {
 
+const std::vector<std::string> texts_beside{"scene.toml", "restart.json"};
+
 template <int Dim>
 std::string draw(const std::filesystem::path& out, const std::string& program, const Scene<Dim>& scene,
                  const RunResult<Dim>& result) {
@@ -29,8 +31,15 @@ ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, st
       lock_(std::in_place, out_, program),
       program_(std::move(program)),
       name_(std::move(series)),
-      energies_(out_ / "energy.csv") {
-    remove_earlier_results(out_, name_);
+      energies_(out_ / "energy.csv"),
+      checkpoints_(out_ / "checkpoints"),
+      minutes_(options.checkpoint),
+      steps_(options.checkpoint_steps),
+      last_kept_(std::chrono::steady_clock::now()) {
+    if (!options.resume) {
+        remove_earlier_results(out_, name_);
+        checkpoints_.remove(texts_beside);
+    }
     if (options.frames > 0) frames_.emplace(out_, name_, options.frames);
 }
 
@@ -55,6 +64,43 @@ void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
 }
 
 template <int Dim>
+bool ResultFiles<Dim>::wants_checkpoint(std::int64_t step, bool stops) const {
+    if (minutes_ == 0.0 && steps_ == 0) return false;
+    if (stops || (steps_ > 0 && step % steps_ == 0)) return true;
+    return minutes_ > 0.0 && std::chrono::steady_clock::now() - last_kept_ >= std::chrono::duration<double>(60.0 * minutes_);
+}
+
+template <int Dim>
+void ResultFiles<Dim>::keep(const Checkpoint& checkpoint) {
+    const Stopwatch watch(seconds_);
+    if (!has_kept_)
+        for (const auto& [name, text] : beside_) checkpoints_.add_text(name, text);
+    has_kept_ = true;
+    checkpoints_.add(checkpoint);
+    last_kept_ = std::chrono::steady_clock::now();
+}
+
+template <int Dim>
+void ResultFiles<Dim>::keep_beside_checkpoints(std::string name, std::string text) {
+    beside_.emplace_back(std::move(name), std::move(text));
+}
+
+template <int Dim>
+void ResultFiles<Dim>::save(StateWriter& state) const {
+    if (frames_) frames_->save(state);
+}
+
+/// Results of the run that was stopped are written over; what it left at its stop goes.
+template <int Dim>
+void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
+    const Stopwatch watch(seconds_);
+    remove_files(out_, plain_results());
+    energies_.resume(scene, result, state);
+    has_begun_ = true;
+    if (frames_) frames_->resume(scene, result, state);
+}
+
+template <int Dim>
 void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     double seconds = 0.0;
     {
@@ -65,6 +111,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
+    if (result.complete) checkpoints_.remove(texts_beside);
     lock_.reset();
 }
 

@@ -1,8 +1,13 @@
 #pragma once
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "abut/run/checkpoint_folder.hpp"
 #include "abut/run/energy_file.hpp"
 #include "abut/run/folder_lock.hpp"
 #include "abut/run/frames.hpp"
@@ -11,7 +16,7 @@
 namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png
-/// and summary.json. The folder is its own (FolderLock) until `finish`, or until it goes.
+/// and summary.json; in `checkpoints`, what a run that is stopped goes on from. The folder is its own (FolderLock) until `finish`, or until it goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
 ///     run::ResultFiles<2> files(options, "mine", "bodies");
@@ -20,7 +25,8 @@ namespace abut::run {
 template <int Dim>
 class ResultFiles : public Observer<Dim> {
 public:
-    /// Makes the folder and takes it, and removes results of an earlier run there before anything else can be refused.
+    /// Makes the folder and takes it, and removes results of an earlier run there before anything else can be refused; with
+    /// RunOptions::resume they stay.
     /// `program` is what picture and summary call the run; `series` names the files for ParaView. Throws BadInput if the
     /// folder cannot be written to, or if another run has it.
     ResultFiles(const RunOptions& options, std::string program, std::string series);
@@ -28,9 +34,19 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
+    void keep(const Checkpoint& checkpoint) override;
+    void save(StateWriter& state) const override;
+    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// After the run. Adds the time of all output to `result.seconds`, that of the picture also to the total. Throws
     /// BadInput if a file cannot be written; a picture that cannot be drawn is no error.
     void finish(const Scene<Dim>& scene, RunResult<Dim>& result);
+
+    /// What a run that was stopped goes on from, of the folder `checkpoints` in that of the results. Throws as
+    /// CheckpointFolder::last.
+    [[nodiscard]] CheckpointFolder::Found last_checkpoint() const { return checkpoints_.last(); }
+    /// A file that whoever goes on needs is written beside the first checkpoint.
+    void keep_beside_checkpoints(std::string name, std::string text);
 
     /// Whether energy.csv.partial holds records of a run: what is left of one that fails.
     [[nodiscard]] bool has_begun() const { return has_begun_; }
@@ -46,6 +62,12 @@ private:
     std::string name_;  // of the series
     EnergyFile<Dim> energies_;
     std::optional<Frames<Dim>> frames_;
+    CheckpointFolder checkpoints_;
+    double minutes_;                                           // between two of them; 0: there are none
+    int steps_;                                                // the same; 0: by minutes alone
+    std::vector<std::pair<std::string, std::string>> beside_;  // names and texts
+    std::chrono::steady_clock::time_point last_kept_;
+    bool has_kept_ = false;
     bool has_begun_ = false;
     double seconds_ = 0.0;
     std::string without_picture_;

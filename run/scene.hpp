@@ -64,6 +64,7 @@ struct RunResult {
     std::vector<std::int64_t> level_cells;  ///< cells that step with dt, dt/2, ... (memm_async); empty: all with dt
     std::int64_t evaluations = 0;           ///< forces of cells, in the steps
     std::int64_t steps = 0;                 ///< to the end; taken, once the run has ended
+    std::int64_t resumed_after = 0;         ///< the step of the checkpoint that this run went on from; 0: none
     bool complete = true;                   ///< false: an observer asked to stop before the last step
     EnergyScale scale;                      ///< with its value, > 0
     double skin = 0.0;                      ///< of the last candidate list [m]

@@ -21,6 +21,7 @@
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/pilot.hpp"
+#include "abut/run/run_identity.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -30,6 +31,8 @@ using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
+
+const std::string observers_kind = "observers of a run";
 
 std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
     if (std::isnan(options.time) && options.steps > 0) return options.steps;
@@ -131,24 +134,23 @@ public:
             if (options.filter)
                 integrator_.set_after_step(
                     [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
-        if constexpr (Integrator::takes_node_restart)
-            if (options.restart > 0) {
-                restart_.emplace(solid_, dynamics::RestartOptions{.period = options.restart});
-                integrator_.set_node_restart(
-                    [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
-            }
+        make_restart({.period = options.restart, .report_before = {}});
     }
 
-    void run() {
+    void run(const Checkpoint* from) {
         result_.start = solid::body_motions<Dim>(integrator_, solid_);
-        stop_if_asked();
-        record();
-        observer_.look(integrator_, solid_);
+        if (from)
+            resume(*from);
+        else
+            begin();
         while (integrator_.steps() < result_.steps) {
             step();
-            stop_if_asked();
-            if (integrator_.steps() % options_.interval == 0 || integrator_.steps() == result_.steps) record();
+            const bool stops = integrator_.steps() < result_.steps && observer_.asks_to_stop();
+            const bool records = integrator_.steps() % options_.interval == 0 || integrator_.steps() == result_.steps;
+            if (records) record();
             observer_.look(integrator_, solid_);
+            if (observer_.wants_checkpoint(integrator_.steps(), stops)) observer_.keep(checkpoint());
+            if (stops) stop(records);
         }
         result_.end = solid::body_motions<Dim>(integrator_, solid_);
         result_.local_rotations = solid_.local_rotations(integrator_.q());
@@ -172,10 +174,63 @@ private:
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
     }
 
-    void stop_if_asked() {
-        if (integrator_.steps() == result_.steps || !observer_.asks_to_stop()) return;
+    void begin() {
+        observer_.begin(scene_, result_);
+        const bool stops = observer_.asks_to_stop();
+        record();
+        observer_.look(integrator_, solid_);
+        if (stops) stop(true);
+    }
+
+    /// Here; what was not recorded is, so that the last entry is the last step.
+    void stop(bool recorded) {
         result_.steps = integrator_.steps();
         result_.complete = false;
+        if (!recorded) record();
+    }
+
+    [[nodiscard]] Checkpoint checkpoint() const {
+        Checkpoint checkpoint{.run = identity(scene_, result_),
+                              .motion = integrator_.state(),
+                              .solid = solid_.state(),
+                              .ledger = {},
+                              .restarts = restart_ ? restart_->report() : dynamics::RestartReport{},
+                              .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
+                              .observers = {}};
+        for (const auto& entry : result_.ledger.entries()) {
+            const std::vector<double> values = dynamics::ledger_values(entry);
+            checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
+        }
+        StateWriter state(observers_kind, 1);
+        observer_.save(state);
+        checkpoint.observers = std::move(state).finish();
+        return checkpoint;
+    }
+
+    void resume(const Checkpoint& from) {
+        require_same_run(from.run, identity(scene_, result_));
+        integrator_.restore(from.motion);
+        solid_.restore(from.solid, integrator_.q());
+        make_restart({.period = options_.restart, .steps_before = integrator_.steps(), .report_before = from.restarts});
+        const std::size_t n = dynamics::ledger_columns<Dim>().size();
+        for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
+            result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
+        if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
+        result_.scale = known_scale(scene_.energy_scale, result_.ledger.entries().front().kinetic);
+        result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
+        result_.resumed_after = integrator_.steps();
+        StateReader state(from.observers, observers_kind, 1);
+        observer_.resume(scene_, result_, state);
+        state.finish();
+    }
+
+    void make_restart(const dynamics::RestartOptions& options) {
+        if constexpr (Integrator::takes_node_restart) {
+            if (options.period == 0) return;
+            restart_.emplace(solid_, options);
+            integrator_.set_node_restart(
+                [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
+        }
     }
 
     [[nodiscard]] std::string at_this_step(const char* what) const {
@@ -220,10 +275,11 @@ private:
 
 /// The one place that knows all schemes.
 template <int Dim>
-void simulate(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& start, Observer<Dim>& observer) {
+void simulate(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& start, Observer<Dim>& observer,
+              const Checkpoint* from) {
     using Solid = solid::Solid<Dim>;
     const auto run_with = [&](auto integrator) {
-        Simulation<Dim, decltype(integrator)>(scene, options, start, observer, std::move(integrator)).run();
+        Simulation<Dim, decltype(integrator)>(scene, options, start, observer, std::move(integrator)).run(from);
     };
     const double dt = start.result.dt;
     switch (options.integrator) {
@@ -241,7 +297,7 @@ void simulate(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& st
 }  // namespace
 
 template <int Dim>
-RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer) {
+RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from) {
     check(given);
     const RunOptions options = with_defaults<Dim>(given);
     std::optional<global_control> threads;
@@ -263,14 +319,13 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
         result.options = options;
         result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
         result.seconds.setup = seconds.setup;
-        observer.begin(scene, result);
-        simulate(scene, options, *start, observer);
+        simulate(scene, options, *start, observer, from);
     }
     start->result.seconds.total = seconds.total;
     return std::move(start->result);
 }
 
-template RunResult<2> simulate<2>(const Scene<2>&, const RunOptions&, Observer<2>&);
-template RunResult<3> simulate<3>(const Scene<3>&, const RunOptions&, Observer<3>&);
+template RunResult<2> simulate<2>(const Scene<2>&, const RunOptions&, Observer<2>&, const Checkpoint*);
+template RunResult<3> simulate<3>(const Scene<3>&, const RunOptions&, Observer<3>&, const Checkpoint*);
 
 }  // namespace abut::run

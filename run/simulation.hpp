@@ -15,8 +15,13 @@ namespace abut::run {
 /// scene has contact, for a time step above the stable one, and where nothing moves and no `energy_scale` is given. An error
 /// within a step says in front of its text which step and time it was, and keeps its kind and facts, as the type of that kind:
 /// Diverged, TooDeep and whatever else solid::Solid throws.
+///
+/// `from`: the run goes on after this checkpoint, which an observer of the same scene under the same options has kept, with
+/// the same observers; the rest has the bits that it would have had, and so do the ledger and what observers write. Throws
+/// BadInput for one of other options, sizes, masses or steps; functions of a scene (paths, loads) are taken to be the same.
 template <int Dim>
-[[nodiscard]] RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options, Observer<Dim>& observer);
+[[nodiscard]] RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options, Observer<Dim>& observer,
+                                      const Checkpoint* from = nullptr);
 template <int Dim>
 [[nodiscard]] RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options = {}) {
     Observer<Dim> nobody;

@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -38,6 +39,11 @@ public:
     virtual void jumped(std::span<const Vector<Dim>> q, double time) = 0;  ///< the loads at both ends are those after it
     /// The next step begins where this one ends.
     virtual void end_step() = 0;
+
+    /// What pairs remember, between two steps.
+    [[nodiscard]] virtual std::vector<std::byte> state() const = 0;
+    /// Goes on from there, in q, where the last step ended at `time`; frames and loads are those of q.
+    virtual void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) = 0;
 
     // Contact on that path. Each replaces the results below.
 

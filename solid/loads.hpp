@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/base/state_bytes.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/options.hpp"
@@ -55,6 +56,9 @@ public:
     /// Adds dt times body force less gradient, given for some cells, to the impulses of all [N s].
     void add_impulse(std::span<const std::int32_t> cells, std::span<const Vector<Dim>> gradient, double dt,
                      std::span<Vector<Dim>> impulse) const;
+
+    void save(StateWriter& state) const;  ///< between two steps
+    void restore(StateReader& state);
 
 private:
     const Ccg<Dim>& ccg_;

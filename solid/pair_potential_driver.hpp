@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -28,6 +29,8 @@ public:
     void follow_jump(std::span<const Vector<Dim>>, double) override {}
     void jumped(std::span<const Vector<Dim>>, double) override { has_stepped_ = false; }
     void end_step() override;
+    [[nodiscard]] std::vector<std::byte> state() const override;
+    void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;
 
     void integrate() override;
     void take_start() override;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/state_bytes.hpp"
 #include "abut/contact/step.hpp"
 #include "abut/solid/bodies.hpp"
 
@@ -56,6 +57,9 @@ public:
     void add_at(std::span<const Vector<Dim>> q, double time, const TurnOf& turn_of, std::span<Vector<Dim>> force) const;
     /// Adds what springs resist a displacement with, all in one direction or the other: for the stable step [N].
     void add_stiffness(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> product) const;
+
+    void save(StateWriter& state) const;  ///< between two steps
+    void restore(StateReader& state);
 
 private:
     struct HeldSpring {

@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -44,6 +45,8 @@ public:
     /// The cells that `set_start` and `set_end` read, increasing.
     [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.input_cells; }
     void end_step() override;
+    [[nodiscard]] std::vector<std::byte> state() const override;
+    void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;
 
     // Contact on that path
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -115,6 +116,14 @@ public:
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
     /// Admitted pairs of state q that share area and are open by at most `gap` [m].
     [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(std::span<const double> q, double gap);
+
+    /// All that the next steps depend on beside q and p: loads, work, dashpots, rigid bodies, what pairs remember. Bytes,
+    /// versioned, with a checksum.
+    [[nodiscard]] std::vector<std::byte> state() const;
+    /// Goes on in q, where the last step before `state` ended, with a solid made of the same mesh with the same options: the
+    /// next steps have the same bits. Contact has no force on obstacles and no patches before the next step. Throws BadInput
+    /// for bytes that are damaged, of another version, mesh or options; the solid is of no use then.
+    void restore(std::span<const std::byte> state, std::span<const double> q);
 
     /// Largest |g|/D of a pair in contact, in the last step or in the state that was evaluated since; 0 without contact [-].
     [[nodiscard]] double compression() const;

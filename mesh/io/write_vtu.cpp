@@ -214,6 +214,23 @@ int VtuSeries<Dim>::n_frames() const {
 }
 
 template <int Dim>
+const std::vector<double>& VtuSeries<Dim>::times() const {
+    return files_->times;
+}
+
+template <int Dim>
+void VtuSeries<Dim>::go_on_after(std::vector<double> times) {
+    for (std::size_t i = 0; i < times.size(); ++i)
+        for (const std::string& name :
+             {frame_name(files_->basename, i, ".vtu"), frame_name(files_->surface_name(), i, ".vtp")})
+            if (const Path path = files_->directory / name; !std::filesystem::exists(path))
+                throw MeshError(path.string() +
+                                ": the frame is not there, and the series cannot go on after it. Put it back, or run "
+                                "from the start.");
+    files_->publish_lists(times);
+}
+
+template <int Dim>
 void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
     vtkNew<vtkUnstructuredGrid> cells;
     vtkNew<vtkPolyData> surface;

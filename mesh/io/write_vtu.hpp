@@ -53,6 +53,10 @@ public:
     /// lists are then as before the call, and the next call writes the same frame again.
     void write(const Frame<Dim>& frame);
     [[nodiscard]] int n_frames() const;
+    [[nodiscard]] const std::vector<double>& times() const;  ///< of the frames [s]
+    /// Goes on with a series that another object has begun, after its frames of these times: later ones are written over.
+    /// Throws MeshError, and stays as it is, if the file of one is not there.
+    void go_on_after(std::vector<double> times);
 
 private:
     struct Files;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/base/state_bytes.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
 #include "abut/solid/material.hpp"
@@ -69,6 +70,9 @@ public:
     void constrain_at(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p);
     /// Adds to the forces on the points what holds the distances in q, at the mean of the velocities before and after.
     void add_constraint_forces(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> force) const;
+
+    void save(StateWriter& state) const;  ///< between two steps
+    void restore(StateReader& state);
 
 private:
     struct Body {

@@ -110,3 +110,45 @@ TEMPLATE_TEST_CASE("every integrator refuses steps that are not positive and fin
     CHECK_THROWS_WITH(make(not_finite, held_p, 0.1), Catch::Matchers::Contains("position 2 is nan"));
     CHECK_THROWS_WITH(make(held_q, not_finite, 0.1), Catch::Matchers::Contains("momentum 2 is nan"));
 }
+
+TEMPLATE_TEST_CASE("every integrator goes on with the same bits from a saved state", "[dynamics][integrators][state]",
+                   ABUT_ALL_INTEGRATORS) {
+    Chain chain = held_chain(), other = held_chain();
+    auto integrator = TestType::make(chain, held_q, held_p, 0.1);
+    for (int i = 0; i < 7; ++i) integrator.step();
+    integrator.step(0.07, StepChange::restart);
+    const dynamics::IntegratorState state = integrator.state();
+    auto restored = TestType::make(other, Values(held_q.size(), 0.01), Values(held_p.size(), 0.02), 0.1);
+    restored.restore(state);
+    for (int i = 0; i < 5; ++i) {
+        integrator.step();
+        restored.step();
+    }
+    CHECK(restored.steps() == 13);
+    CHECK(restored.time() == integrator.time());
+    CHECK(restored.restart_jumps() == integrator.restart_jumps());
+    CHECK(std::ranges::equal(restored.q(), integrator.q()));
+    CHECK(std::ranges::equal(restored.p_before(), integrator.p_before()));
+    CHECK(std::ranges::equal(restored.p_after(), integrator.p_after()));
+    CHECK(restored.pseudo_energy() == integrator.pseudo_energy());
+    CHECK_FALSE(std::ranges::equal(integrator.q(), state.q));
+}
+
+TEMPLATE_TEST_CASE("a saved state that does not fit is refused, and the integrator stays as it is",
+                   "[dynamics][integrators][state][errors]", ABUT_ALL_INTEGRATORS) {
+    Chain chain = held_chain();
+    auto integrator = TestType::make(chain, held_q, held_p, 0.1);
+    integrator.step();
+    const dynamics::IntegratorState good = integrator.state();
+    std::vector<dynamics::IntegratorState> wrong(6, good);
+    wrong[0].q.pop_back();
+    wrong[1].p_after.push_back(0.0);
+    wrong[2].p_before[1] = std::nan("");
+    wrong[3].dt = 0.0;
+    wrong[4].of_scheme.push_back(1.0);
+    wrong[5].steps = -1;
+    for (const dynamics::IntegratorState& state : wrong) CHECK_THROWS_AS(integrator.restore(state), BadInput);
+    CHECK(std::ranges::equal(integrator.q(), good.q));
+    CHECK(std::ranges::equal(integrator.p_after(), good.p_after));
+    CHECK(integrator.steps() == 1);
+}

@@ -53,3 +53,11 @@ TEST_CASE("the stable step of a free chain is 2 over its highest frequency", "[d
     CHECK(stable.omega_max >= omega);
     CHECK(stable.dt == Approx(2.0 / stable.omega_max).epsilon(1e-15));
 }
+
+TEMPLATE_TEST_CASE_SIG("an entry of the ledger comes back from its values", "[dynamics][ledger]", ((int Dim), Dim), 2, 3) {
+    std::vector<double> values(dynamics::ledger_columns<Dim>().size());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(10 + i);
+    CHECK(dynamics::ledger_values(dynamics::ledger_entry<Dim>(values)) == values);
+    values.pop_back();
+    CHECK_THROWS_AS(dynamics::ledger_entry<Dim>(values), BadInput);
+}

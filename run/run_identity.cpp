@@ -1,0 +1,53 @@
+#include "abut/run/run_identity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "abut/base/error.hpp"
+#include "abut/run/json.hpp"
+
+namespace abut::run {
+namespace {
+
+// What the bits of a run do not depend on.
+constexpr std::array<std::string_view, 2> free_choices{"out", "threads"};
+
+}  // namespace
+
+template <int Dim>
+std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    Json of_run = {{"dimension", Dim},
+                   {"bodies", scene.mesh.body_names},
+                   {"cells", scene.mesh.n_cells()},
+                   {"step [s]", result.dt},
+                   {"steps", result.steps}};
+    of_run.update(to_json(scene.options));
+    of_run.update(to_json(named_values(result.options)));
+    for (const std::string_view name : free_choices) of_run.erase(std::string(name));
+    return of_run.dump();
+}
+
+void require_same_run(const std::string& saved, const std::string& now) {
+    const Json there = Json::parse(saved, nullptr, false), here = Json::parse(now);
+    if (!there.is_object()) throw BadInput("a checkpoint does not say what run it is of: it is damaged.");
+    const auto shown = [](const Json& run, const std::string& name) {
+        return run.contains(name) ? run[name].dump() : std::string("nothing");
+    };
+    for (const Json* run : {&there, &here})
+        for (const auto& [name, value] : run->items())
+            if (const std::string was = shown(there, name), is = shown(here, name); was != is)
+                throw BadInput(
+                    fmt::format("the checkpoint is of a run with {} = {}, and this one has {}. Go on with the scene and "
+                                "the options of the run that was stopped, or run from the start.",
+                                name, was, is));
+}
+
+#define ABUT_INSTANTIATE(Dim) template std::string identity<Dim>(const Scene<Dim>&, const RunResult<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

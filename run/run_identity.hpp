@@ -1,0 +1,16 @@
+#pragma once
+// Private to the sources of run.
+#include <string>
+
+#include "abut/run/scene.hpp"
+
+namespace abut::run {
+
+/// What the rest of a run depends on beside its state, as JSON: sizes, step and end, the options of scene and run.
+template <int Dim>
+[[nodiscard]] std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result);
+
+/// Throws BadInput naming what a saved run had and this one has not.
+void require_same_run(const std::string& saved, const std::string& now);
+
+}  // namespace abut::run

@@ -1,0 +1,171 @@
+// What a solid and its parts remember from one step to the next, as bytes.
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/state_bytes.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/loads.hpp"
+#include "abut/solid/pair_potential_driver.hpp"
+#include "abut/solid/point_loads.hpp"
+#include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/solid.hpp"
+#include "abut/solid/state_of_eigen.hpp"
+
+namespace abut::solid {
+namespace {
+
+constexpr std::uint32_t version = 1;
+
+template <int Dim>
+std::string kind() {
+    return "solid " + std::to_string(Dim) + "D";
+}
+
+/// Whatever could be told apart at little cost: the arrays inside are checked where they are read.
+template <int Dim>
+std::uint64_t fingerprint(const mesh::Mesh<Dim>& mesh, std::span<const double> masses) {
+    Checksum checksum;
+    for (const Vector<Dim>& vertex : mesh.vertices) checksum.add_values(std::span<const double>(vertex.data(), Dim));
+    checksum.add_values(masses);
+    return checksum.value();
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::byte> Solid<Dim>::state() const {
+    StateWriter state(kind<Dim>(), version);
+    state.put(fingerprint(mesh_, masses()));
+    state.put(time_);
+    state.put(work_);
+    state.put(evaluations_);
+    for (const double extreme : {finite_extremes_.strain, finite_extremes_.determinant}) state.put(extreme);
+    state.put(finite_extremes_.cell);
+    loads_->save(state);
+    point_loads_->save(state);
+    bodies_->rigid().save(state);
+    state.put(static_cast<std::uint8_t>(contact_ != nullptr));
+    if (contact_) state.put_all(std::span<const std::byte>(contact_->state()));
+    return std::move(state).finish();
+}
+
+template <int Dim>
+void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const double> q) {
+    StateReader state(bytes, kind<Dim>(), version);
+    if (state.get<std::uint64_t>() != fingerprint(mesh_, masses()))
+        throw BadInput(mesh_.name +
+                       ": the saved state is of bodies of another mesh or of other masses. Restore it where mesh, "
+                       "materials and kinematics are the same.");
+    time_ = state.get<double>();
+    work_ = state.get<double>();
+    evaluations_ = state.get<std::int64_t>();
+    for (double* extreme : {&finite_extremes_.strain, &finite_extremes_.determinant}) *extreme = state.get<double>();
+    finite_extremes_.cell = state.get<std::int32_t>();
+    loads_->restore(state);
+    point_loads_->restore(state);
+    bodies_->rigid().restore(state);
+    if ((state.get<std::uint8_t>() != 0) != (contact_ != nullptr))
+        throw BadInput(mesh_.name + ": the saved state is of a solid " + (contact_ ? "without" : "with") +
+                       " contact, and this one is not.");
+    if (contact_) {
+        const auto u = as_vectors<Dim>(q);
+        frames_->stand_at(of_cells(u));
+        contact_->restore(state.get_all<std::byte>(), u, time_);
+    }
+    state.finish();
+}
+
+// Parts --------------------------------------------------------------------------------------------------------------
+
+template <int Dim>
+void Loads<Dim>::save(StateWriter& state) const {
+    put_all<Dim>(state, end_.displacement);
+    put_all<Dim>(state, end_.traction);
+}
+
+template <int Dim>
+void Loads<Dim>::restore(StateReader& state) {
+    take_all<Dim>(state, end_.displacement);
+    take_all<Dim>(state, end_.traction);
+    start_ = end_;
+}
+
+template <int Dim>
+void PointLoads<Dim>::save(StateWriter& state) const {
+    const auto save_last = [&](const auto& last) {
+        state.put(static_cast<std::uint8_t>(last.has_value()));
+        if (last) put(state, *last);
+    };
+    for (const HeldSpring& spring : springs_) save_last(spring.rate);
+    for (const HeldMoment& moment : moments_) save_last(moment.spin);
+}
+
+template <int Dim>
+void PointLoads<Dim>::restore(StateReader& state) {
+    const auto take_last = [&](auto& last) {
+        last.reset();
+        if (state.get<std::uint8_t>() != 0) take(state, last.emplace());
+    };
+    for (HeldSpring& spring : springs_) take_last(spring.rate);
+    for (HeldMoment& moment : moments_) take_last(moment.spin);
+}
+
+template <int Dim>
+void RigidBodies<Dim>::save(StateWriter& state) const {
+    for (const Body& body : bodies_)
+        for (const Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after})
+            put(state, *matrix);
+}
+
+template <int Dim>
+void RigidBodies<Dim>::restore(StateReader& state) {
+    for (Body& body : bodies_)
+        for (Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after}) take(state, *matrix);
+}
+
+template <int Dim>
+std::vector<std::byte> ReconstructionDriver<Dim>::state() const {
+    return contact_->state();
+}
+
+template <int Dim>
+void ReconstructionDriver<Dim>::restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) {
+    contact_->restore(state);
+    search(q, q, time, 0.0);
+    touching_.clear();
+    has_stepped_ = true;
+}
+
+template <int Dim>
+std::vector<std::byte> PairPotentialDriver<Dim>::state() const {
+    return contact_.state();
+}
+
+template <int Dim>
+void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) {
+    contact_.restore(state);
+    search(q, q, time, 0.0);
+    touching_.clear();
+    end_time_ = time;
+    has_stepped_ = true;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                           \
+    template std::vector<std::byte> Solid<Dim>::state() const;                                                          \
+    template void Solid<Dim>::restore(std::span<const std::byte>, std::span<const double>);                             \
+    template void Loads<Dim>::save(StateWriter&) const;                                                                 \
+    template void Loads<Dim>::restore(StateReader&);                                                                    \
+    template void PointLoads<Dim>::save(StateWriter&) const;                                                            \
+    template void PointLoads<Dim>::restore(StateReader&);                                                               \
+    template void RigidBodies<Dim>::save(StateWriter&) const;                                                           \
+    template void RigidBodies<Dim>::restore(StateReader&);                                                              \
+    template std::vector<std::byte> ReconstructionDriver<Dim>::state() const;                                           \
+    template void ReconstructionDriver<Dim>::restore(std::span<const std::byte>, std::span<const Vector<Dim>>, double); \
+    template std::vector<std::byte> PairPotentialDriver<Dim>::state() const;                                            \
+    template void PairPotentialDriver<Dim>::restore(std::span<const std::byte>, std::span<const Vector<Dim>>, double);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::solid
