@@ -49,7 +49,7 @@ if(solid IN_LIST abut_wanted_layers)
 endif()
 
 if(run IN_LIST abut_wanted_layers)
-  abut_find(HDF5 1.10 ARGS MODULE COMPONENTS CXX TARGETS hdf5::hdf5_cpp)
+  abut_find(HDF5 1.10 ARGS MODULE COMPONENTS C CXX TARGETS hdf5::hdf5 hdf5::hdf5_cpp)
   abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)
   abut_find(nlohmann_json 3.11 ARGS CONFIG TARGETS nlohmann_json::nlohmann_json)
   if(ABUT_PROGRAMS OR ABUT_BENCHMARKS)

@@ -80,6 +80,7 @@ Json run_json(const RunResult<Dim>& result) {
     const auto& last = result.ledger.entries().back();
     return {{"steps", result.steps},
             {"complete", result.complete},
+            {"resumed_after", result.resumed_after},
             {"dt", result.dt},
             {"stable_dt", result.stable.dt},
             {"dt_over_stable_dt", result.dt / result.stable.dt},
@@ -256,6 +257,8 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
         text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
     if (!result.complete)
         text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
+    if (result.resumed_after > 0)
+        text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
     text += energy_lines(result) + restart_line(result) + contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + body_lines(scene, result) + time_line(result);
