@@ -170,12 +170,12 @@ void check_options(const Settings& settings, std::vector<Fault>& faults) {
 }  // namespace
 
 ReadSettings read_settings(const std::filesystem::path& path, const Overrides& overrides) {
-    ReadSettings read{.settings = {.file = path, .set = overrides.set}};
+    ReadSettings read{.settings = {.file = overrides.origin.empty() ? path : overrides.origin, .set = overrides.set}};
     Node document = read_document(path);
     Reader reader;
     merge_overrides(document, overrides.set, reader.faults());
     reader.dimension = dimension_of(document);
-    read.settings.options.out = std::filesystem::path("out") / path.stem();
+    read.settings.options.out = std::filesystem::path("out") / read.settings.file.stem();
     read_table(read.settings, document, "", all_keys(), reader);
     if (read.settings.dim != 0 && document.find("bodies") && read.settings.bodies.empty())
         reader.fault(*document.find("bodies"), "bodies has no table. Give a body, [bodies.NAME].");

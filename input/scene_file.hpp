@@ -16,6 +16,8 @@ struct Settings;
 struct Overrides {
     std::vector<std::string> set{};                   ///< "bodies.left.density=2": key and value
     std::function<void(run::RunOptions&)> options{};  ///< changes those of the file; may be empty
+    /// Where the file is taken to be, if it is a copy: paths in it begin there, and the scene has its name.
+    std::filesystem::path origin{};
 };
 
 /// A scene in a TOML file, docs/scenes.md.

@@ -95,6 +95,11 @@ void check(const RunOptions& options) {
     if (options.restart > 0 && options.integrator != SolidIntegrator::memm)
         throw BadInput(fmt::format("--restart {}: restarts are made for memm, and {} was chosen. Leave --restart out.",
                                    options.restart, name_of(options.integrator)));
+    if (!(options.checkpoint >= 0.0) || options.checkpoint_steps < 0)
+        throw BadInput(
+            fmt::format("--checkpoint, --checkpoint-steps: {:g} minutes, {} steps; 0 or more are allowed, and 0 for none.",
+                        options.checkpoint, options.checkpoint_steps),
+            {.value = options.checkpoint, .allowed = 0.0});
     const RunOptions by_default;
     if (options.integrator != SolidIntegrator::memm_async &&
         (options.levels != by_default.levels || options.contact_margin != by_default.contact_margin ||

@@ -14,6 +14,7 @@
 #include "abut/input/check.hpp"
 #include "abut/input/grammar.hpp"
 #include "abut/input/scene_file.hpp"
+#include "apps/abut/restart.hpp"
 #include "apps/support/preset.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
@@ -28,10 +29,13 @@ namespace fs = std::filesystem;
 struct CommandLine {
     fs::path scene;
     fs::path new_file;
+    fs::path results;
+    int threads = 0;
     std::vector<std::string> set;
     run::RunOptions options;
     CLI::App* run = nullptr;
     CLI::App* check = nullptr;
+    CLI::App* restart = nullptr;
     CLI::App* make = nullptr;
 };
 
@@ -63,6 +67,11 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_scene_options(*line.run, line);
     line.check = app.add_subcommand("check", "says all that is wrong with a scene, or what a run of it would take");
     add_scene_options(*line.check, line);
+    line.restart = app.add_subcommand("restart", "goes on with a run that was stopped or killed, from its last checkpoint");
+    line.restart->add_option("results", line.results, "the folder of its results, that of --out")
+        ->required()
+        ->type_name("DIR");
+    add_count(*line.restart, "--threads", line.threads, "threads; 0: as the run had. The results do not depend on it", 0);
     line.make = app.add_subcommand("new", "writes a commented scene to start from");
     line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
     app.add_subcommand("keys", "prints all keys of a scene");
@@ -90,14 +99,36 @@ input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
             }};
 }
 
-void run_file(const fs::path& path, const input::Overrides& overrides) {
+void run_file(const fs::path& path, const input::Overrides& overrides, const Restart& restart) {
     const input::SceneFile file(path, overrides);
     Program named = program;
     named.name = file.name();
+    if (!file.options().resume) named.beside_checkpoints = files_for_restart(restart);
     if (file.dimension() == 2)
         run_scene<2>(named, file.options(), [&] { return file.scene<2>(); });
     else
         run_scene<3>(named, file.options(), [&] { return file.scene<3>(); });
+}
+
+/// The command line of the run is read once more.
+void restart_run(const fs::path& results, int threads) {
+    const Restart restart = read_restart(results);
+    std::vector<char*> words;
+    std::vector<std::string> arguments = restart.arguments;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    CLI::App app;
+    CommandLine line;
+    add_commands(app, line);
+    app.parse(static_cast<int>(words.size()), words.data());
+    input::Overrides over = overrides(static_cast<int>(words.size()), words.data(), line);
+    over.origin = restart.scene;
+    over.options = [&, options = over.options](run::RunOptions& of_run) {
+        options(of_run);
+        of_run.out = results;
+        of_run.resume = true;
+        if (threads > 0) of_run.threads = threads;
+    };
+    run_file(scene_for_restart(results), over, restart);
 }
 
 void check_file(const fs::path& path, const input::Overrides& overrides) {
@@ -123,7 +154,9 @@ int run_abut(int argc, char** argv) {
     const auto add_options = [&](CLI::App& app) { add_commands(app, line); };
     return run_program(program, argc, argv, add_options, [&] {
         if (line.run->parsed())
-            run_file(line.scene, overrides(argc, argv, line));
+            run_file(line.scene, overrides(argc, argv, line), {fs::absolute(line.scene), {argv, argv + argc}});
+        else if (line.restart->parsed())
+            restart_run(line.results, line.threads);
         else if (line.check->parsed())
             check_file(line.scene, overrides(argc, argv, line));
         else if (line.make->parsed())

@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace abut::apps {
 
@@ -12,6 +14,8 @@ struct Program {
     std::string purpose;  ///< one sentence for --help
     std::string series;   ///< of its files for ParaView: <series>.pvd, <series>_surface.pvd and their frames
     std::string footer;   ///< ends --help
+    /// Files that a restart needs, name and text: run::ResultFiles::keep_beside_checkpoints.
+    std::vector<std::pair<std::string, std::string>> beside_checkpoints{};
 };
 
 /// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either

@@ -130,6 +130,12 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
     grouped(add_count(app, "--interval", options.interval, "steps between two records of the energies; 0: 1 in 2D, 10 in 3D",
                       0));
     grouped(add_count(app, "--frames", options.frames, "frames for ParaView, first and last included; 0: none", 0));
+    grouped(add_number(app, "--checkpoint", options.checkpoint,
+                       "minutes from one checkpoint to the next; at SIGINT and SIGTERM there is one, too; 0: none at all",
+                       {.unit = "min", .above = 0.0, .zero = true, .remedy = "Give minutes, or 0 for no checkpoints."}));
+    grouped(add_count(app, "--checkpoint-steps", options.checkpoint_steps,
+                      "steps from one checkpoint to the next, beside that; 0: by minutes alone", 0));
+    app.add_flag("--resume", options.resume, "goes on from the last checkpoint in the folder of --out")->group("Output");
     grouped(add_count(app, "--threads", options.threads, "threads; 0: all. The results do not depend on it", 0));
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
@@ -24,8 +25,8 @@ using oneapi::tbb::global_control;
 
 /// A run that fails says what is left of it.
 template <int Dim>
-run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene<Dim>& scene,
-                                  const run::RunOptions& options) {
+run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene<Dim>& scene, const run::RunOptions& options,
+                                  const run::Checkpoint* from) {
     RunLog<Dim> log;
     ShowProgress<Dim> progress;
     StopOnSignal<Dim> stop;
@@ -34,12 +35,27 @@ run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene
         return what + std::string(files.has_begun() ? " energy.csv.partial holds the records so far." : "");
     };
     try {
-        return run::simulate<Dim>(scene, options, observers);
+        return run::simulate<Dim>(scene, options, observers, from);
     } catch (const Error& error) {
         throw_again(error, with_rest(error.what()));
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(with_rest(error.what()));
     }
+}
+
+/// With a word about those that are of no use; nothing unless the run goes on.
+template <int Dim>
+std::optional<run::Checkpoint> last_checkpoint(const run::ResultFiles<Dim>& files, const run::RunOptions& options) {
+    if (!options.resume) return {};
+    auto found = files.last_checkpoint();
+    for (const std::string& why : found.refused) spdlog::warn("{}", why);
+    spdlog::info("{}: goes on after step {}", found.path.string(), found.checkpoint.motion.steps);
+    return std::move(found.checkpoint);
+}
+
+std::string how_to_go_on(const run::RunOptions& options) {
+    if (options.checkpoint == 0.0 && options.checkpoint_steps == 0) return "";
+    return ", and --resume goes on from there (abut restart " + options.out.string() + " with a scene in TOML)";
 }
 
 template <int Dim>
@@ -57,14 +73,16 @@ void run_scene(const Program& program, const run::RunOptions& options, const std
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
 
     run::ResultFiles<Dim> files(options, program.name, program.series);
+    for (const auto& [name, text] : program.beside_checkpoints) files.keep_beside_checkpoints(name, text);
     run::check(options);
+    const std::optional<run::Checkpoint> from = last_checkpoint(files, options);
     double seconds = 0.0;
     const run::Scene<Dim> scene = timed_scene(make_scene, seconds);
     const StopSignals signals;  // from here on there is something to save
-    run::RunResult<Dim> result = simulate_into(files, scene, options);
+    run::RunResult<Dim> result = simulate_into(files, scene, options, from ? &*from : nullptr);
     if (!result.complete)
-        spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then",
-                     name_of_signal(noted_signal()), result.steps);
+        spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then{}",
+                     name_of_signal(noted_signal()), result.steps, how_to_go_on(options));
     result.seconds.mesh = seconds;
     result.seconds.total += seconds;
     files.finish(scene, result);
