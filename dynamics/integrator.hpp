@@ -79,13 +79,18 @@ public:
     /// One step of a given dt (an outer solver dictates it). Throws BadInput, and stays as it is, if dt is not
     /// > 0 and finite.
     void step(double dt, StepChange change) {
+        set_step(dt, change);
+        step();
+    }
+
+    /// The same without the step: those that follow have this dt.
+    void set_step(double dt, StepChange change) {
         detail::check_step(dt);
         const bool changed = dt != dt_;
         dt_ = dt;
         if (changed && change == StepChange::restart) restart();
         if constexpr (ConstrainedSystem<S>)
             if (changed && change == StepChange::keep) system_.constrain_along(q_, dt_, p_after_);
-        step();
     }
 
     /// Turns the motion round: a system whose force depends on q alone follows the same path back, up to rounding. Time

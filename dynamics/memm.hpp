@@ -31,13 +31,18 @@ public:
         this->begin(p);
     }
 
+    /// q^{n+1}, where the next step of the present dt ends [m]: its force does not change that. Valid until then.
+    [[nodiscard]] std::span<const double> next_q() {
+        add_scaled_velocity(this->q_, this->dt_, this->system_.inverse_mass(), this->p_after_, this->q_next_);
+        return this->q_next_;
+    }
+
 private:
     friend Integrator<Memm, S>;
 
     void start(std::span<const double> p) { this->split_momentum(p); }
     void advance() {
-        add_scaled_velocity(this->q_, this->dt_, this->system_.inverse_mass(), this->p_after_, this->q_next_);
-        mean_force_(this->q_, this->q_next_, this->time_, this->dt_, this->force_);
+        mean_force_(this->q_, next_q(), this->time_, this->dt_, this->force_);
         add_scaled(this->p_before_, 2.0 * this->dt_, this->force_, this->p_before_);
         if constexpr (ConstrainedSystem<S>) this->system_.constrain_along(this->q_next_, this->dt_, this->p_before_);
         std::swap(this->p_before_, this->p_after_);

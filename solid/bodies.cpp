@@ -93,7 +93,10 @@ void Bodies<Dim>::check() const {
                        " obstacles are given without contact, so nothing would feel them. Give "
                        "SolidOptions::contact, or no obstacles.");
     for (const auto& condition : options_.boundary.dirichlet) refuse_on_turning_bodies(condition);
-    for (const auto& condition : options_.boundary.traction) refuse_following(condition);
+    for (const auto& condition : options_.boundary.traction) {
+        refuse_following(condition);
+        if (condition.from_outside) check_outside(condition);
+    }
 }
 
 /// A frame that turns has no place for a displacement that is given in space; a body of Kinematics::finite has no frame.
@@ -124,6 +127,17 @@ void Bodies<Dim>::refuse_following(const TractionCondition<Dim>& condition) cons
             throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
                            "' is of Kinematics::finite, and the traction on '" + condition.group +
                            "' follows. Give one that keeps its direction in space.");
+}
+
+template <int Dim>
+void Bodies<Dim>::check_outside(const TractionCondition<Dim>& condition) const {
+    const auto refuse = [&](const std::string& why) {
+        throw BadInput(mesh_.name + ": the traction on '" + condition.group + "' is from outside, and " + why);
+    };
+    if (condition.history) refuse("has a history. Give one or the other.");
+    if (!condition.value.allFinite()) refuse("its value at the start is not finite. Correct TractionCondition::value.");
+    const auto is_same = [&](const auto& other) { return other.from_outside && other.group == condition.group; };
+    if (std::ranges::count_if(options_.boundary.traction, is_same) > 1) refuse("is given twice. Leave one out.");
 }
 
 /// Throws BadInput for a group on bodies of both kinds.

@@ -83,6 +83,7 @@ private:
     void check() const;
     void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
     void refuse_following(const TractionCondition<Dim>& condition) const;
+    void check_outside(const TractionCondition<Dim>& condition) const;
     [[nodiscard]] bool is_on_turning_body(const std::string& group) const;
     [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;

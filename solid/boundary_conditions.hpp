@@ -55,6 +55,8 @@ struct TractionCondition {
     Vector<Dim> value = Vector<Dim>::Zero();  ///< t [Pa]
     Field<Dim> history;                       ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
     bool follows = false;  ///< it turns with the body, as a pressure does: of bodies of Kinematics::small no difference
+    /// It is set by face between steps (Solid::set_traction): a fluid. Until then it is `value`; it has no `history`.
+    bool from_outside = false;
 };
 
 template <int Dim>

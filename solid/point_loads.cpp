@@ -131,13 +131,25 @@ void PointLoads<Dim>::hold_springs() {
 template <int Dim>
 void PointLoads<Dim>::hold_tractions() {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
-    for (std::size_t i = 0; i < options_.boundary.traction.size(); ++i)
-        for (const std::int32_t face : mesh.group(options_.boundary.traction[i].group).faces) {
-            const std::int32_t cell = mesh.face_cells[face][0], body = mesh.cell_body[cell];
+    for (std::size_t i = 0; i < options_.boundary.traction.size(); ++i) {
+        const TractionCondition<Dim>& condition = options_.boundary.traction[i];
+        const std::vector<std::int32_t>& faces = mesh.group(condition.group).faces;
+        outside_.emplace_back(condition.from_outside ? faces.size() : 0, condition.value);
+        for (std::size_t k = 0; k < faces.size(); ++k) {
+            const std::int32_t body = mesh.cell_body[mesh.face_cells[faces[k]][0]];
             if (!bodies_.turns(body)) continue;
-            Anchor<Dim> anchor{.body = body, .position = mesh.face_centroid[face]};
-            tractions_.push_back({place_of(anchor), mesh.face_measure[face], body, i});
+            Anchor<Dim> anchor{.body = body, .position = mesh.face_centroid[faces[k]]};
+            tractions_.push_back({place_of(anchor), mesh.face_measure[faces[k]], body, i, k});
         }
+    }
+}
+
+template <int Dim>
+std::vector<HeldPlace<Dim>> PointLoads<Dim>::traction_places(std::size_t condition) const {
+    std::vector<HeldPlace<Dim>> places;
+    for (const HeldTraction& traction : tractions_)
+        if (traction.condition == condition) places.push_back(traction.place);
+    return places;
 }
 
 template <int Dim>
@@ -218,6 +230,17 @@ void PointLoads<Dim>::add_springs(std::span<const Vector<Dim>> q_0, std::span<co
     }
 }
 
+template <int Dim>
+Vector<Dim> PointLoads<Dim>::value_of(const HeldTraction& traction, double time) const {
+    const TractionCondition<Dim>& condition = options_.boundary.traction[traction.condition];
+    if (condition.from_outside) return outside_[traction.condition][traction.face];
+    const Vector<Dim> value = condition.history ? condition.history(time, traction.place.rest) : condition.value;
+    if (!value.allFinite())
+        throw BadInput("traction on '" + condition.group + "': its value at t = " + number(time) +
+                       " s is not finite. Correct its value or history.");
+    return value;
+}
+
 /// Of bodies that turn; those of the others are part of the loads of their cells. Constant within a step, as it begins. Their
 /// work [J].
 template <int Dim>
@@ -225,13 +248,8 @@ double PointLoads<Dim>::add_tractions(std::span<const Vector<Dim>> q_0, std::spa
                                       const TurnOf& turn_of, std::span<Vector<Dim>> force) const {
     double work = 0.0;
     for (const HeldTraction& traction : tractions_) {
-        const TractionCondition<Dim>& condition = options_.boundary.traction[traction.condition];
-        const Vector<Dim> value = condition.history ? condition.history(time, traction.place.rest) : condition.value;
-        if (!value.allFinite())
-            throw BadInput("traction on '" + condition.group + "': its value at t = " + number(time) +
-                           " s is not finite. Correct its value or history.");
-        Vector<Dim> push = traction.area * value;
-        if (condition.follows) push = turn_of(traction.body) * push;
+        Vector<Dim> push = traction.area * value_of(traction, time);
+        if (options_.boundary.traction[traction.condition].follows) push = turn_of(traction.body) * push;
         traction.place.push(push, force);
         work += push.dot(traction.place.at(q_1) - traction.place.at(q_0));
     }

@@ -60,6 +60,12 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
+    /// Where the tractions of a condition act, by face of its group; empty where the bodies do not turn.
+    [[nodiscard]] std::vector<HeldPlace<Dim>> traction_places(std::size_t condition) const;
+    /// Tractions of a condition that is from outside, by face of its group (n) [Pa]; not looked at.
+    void set_traction(std::size_t condition, std::span<const Vector<Dim>> traction) {
+        outside_[condition].assign(traction.begin(), traction.end());
+    }
 
 private:
     struct HeldSpring {
@@ -76,8 +82,10 @@ private:
         double area;
         std::int32_t body;
         std::size_t condition;
+        std::size_t face;  // in the group
     };
 
+    [[nodiscard]] Vector<Dim> value_of(const HeldTraction& traction, double time) const;
     [[nodiscard]] HeldPlace<Dim> place_of(const Anchor<Dim>& anchor) const;
     struct Cloud;
     [[nodiscard]] std::vector<std::int32_t> cells_around(const Anchor<Dim>& anchor) const;
@@ -107,6 +115,7 @@ private:
     std::vector<HeldSpring> springs_;
     std::vector<HeldMoment> moments_;
     std::vector<HeldTraction> tractions_;
+    std::vector<std::vector<Vector<Dim>>> outside_;  // by condition and face; empty: not from outside
 };
 
 }  // namespace abut::solid

@@ -15,6 +15,7 @@
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/midpoint.hpp"
+#include "abut/solid/outside_loads.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
@@ -41,6 +42,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
       rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
     loads_ = std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_);
+    outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
     if (!options_.contact) return;
     if (bodies_->law() == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_);
@@ -53,26 +55,6 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
 
 template <int Dim>
 Solid<Dim>::~Solid() = default;
-
-template <int Dim>
-std::span<const double> Solid<Dim>::inverse_mass() const {
-    return bodies_->inverse_masses();
-}
-
-template <int Dim>
-std::span<const double> Solid<Dim>::masses() const {
-    return bodies_->masses();
-}
-
-template <int Dim>
-std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const {
-    return bodies_->rest();
-}
-
-template <int Dim>
-std::span<const std::int32_t> Solid<Dim>::body_of_points() const {
-    return bodies_->body_of_points();
-}
 
 /// The part of what is by point that belongs to cells.
 template <int Dim>
@@ -247,6 +229,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     add_work(1.0);
     to_force(u_0, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
+    outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
     evaluations_ += bodies_->n_cells();
     end_step(time + dt);
 }
@@ -278,6 +261,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     add_work(0.5);
     to_force(u_1, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
+    outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
     evaluations_ += bodies_->n_cells();
     end_step(time + dt);
 }
@@ -303,12 +287,17 @@ template <int Dim>
 void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
     if (!loads_->vary()) return;
     const std::span<const double> q(q_0.data()->data(), q_0.size() * Dim);
-    const auto search_if_needed = [&] {
+    double change = 0.0, held_change = 0.0;  // of V, and of what it has less for loads from outside
+    const auto follow_jump = [&] {
         if (contact_) contact_->follow_jump(q_0, time);
+        held_change = outside_->held_change(q_0);
     };
     const bool tractions_jump = loads_->begin_step(
-        time, dt, [&] { return potential(q); }, search_if_needed, work_);
-    if (tractions_jump && contact_) contact_->jumped(q_0, time);
+        time, dt, [&] { return potential(q); }, follow_jump, change);
+    if (!tractions_jump) return;
+    work_ += change;
+    if (outside_->any()) outside_->add_change(change + held_change);
+    if (contact_) contact_->jumped(q_0, time);
 }
 
 /// Fills midpoint_ or packed_midpoint_. No cell moves farther in its frame than what is returned [m]; without contact nobody

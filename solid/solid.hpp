@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "abut/contact/contact.hpp"
@@ -15,6 +16,7 @@
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/contact_results.hpp"
 #include "abut/solid/options.hpp"
+#include "abut/solid/outside_work.hpp"
 
 namespace abut::solid {
 
@@ -30,6 +32,8 @@ template <int Dim>
 class Loads;
 template <int Dim>
 class LocalLevels;
+template <int Dim>
+class OutsideLoads;
 template <int Dim>
 class PointLoads;
 template <int Dim>
@@ -131,6 +135,26 @@ public:
     /// [N]. Throws Misuse where there is no such obstacle.
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
 
+    // Loads from outside: groups with a TractionCondition::from_outside, whose faces come in the order of the group. All throw
+    // BadInput for another group. docs/loads.md; `outside_faces` gives all of it in one value (outside_faces.hpp).
+
+    /// Tractions that act from the next step on until they are set again (n_faces) [Pa]; what that changes in V is booked as
+    /// work. Throws BadInput, and nothing has changed, for another number or one that is not finite.
+    void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
+    [[nodiscard]] std::span<const Vector<Dim>> traction(const std::string& group) const;  ///< as set last
+    /// Of the centroids in q, under the tractions of the last step (n_faces) [m].
+    [[nodiscard]] std::vector<Vector<Dim>> face_position(const std::string& group, std::span<const double> q) const;
+    /// Of the centroids at momenta p, while tractions and supports stay (n_faces) [m/s].
+    [[nodiscard]] std::vector<Vector<Dim>> face_velocity(const std::string& group, std::span<const double> p) const;
+    /// By how far the centroids move in a step from q_0 at `time` to q_1 at time + dt (n_faces) [m]: sum of |f| t . this is the
+    /// work of the tractions. It does not depend on them, and with Memm::next_q it is known before the step.
+    [[nodiscard]] std::vector<Vector<Dim>> face_motion(const std::string& group, std::span<const double> q_0,
+                                                       std::span<const double> q_1, double time, double dt) const;
+    /// Out of the body in q, which was stepped to or evaluated last; at rest where it is `small` or `finite` (n_faces).
+    [[nodiscard]] std::vector<Vector<Dim>> face_normal(const std::string& group, std::span<const double> q) const;
+    /// So far; q is where the last step ended.
+    [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
+
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     /// Of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
@@ -210,6 +234,7 @@ private:
     FiniteExtremes finite_extremes_;  // the cell in the mesh
     double time_ = 0.0;               // of the state that the last step ended in
     std::unique_ptr<Loads<Dim>> loads_;
+    std::unique_ptr<OutsideLoads<Dim>> outside_;
     std::unique_ptr<ContactDriver<Dim>> contact_;          // null without contact
     ReconstructionDriver<Dim>* reconstruction_ = nullptr;  // the same, under that law
     std::unique_ptr<LocalLevels<Dim>> levels_;             // null without local steps

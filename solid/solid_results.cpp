@@ -114,6 +114,26 @@ std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const {
 // Bodies and cells ----------------------------------------------------------------------------------------------------
 
 template <int Dim>
+std::span<const double> Solid<Dim>::inverse_mass() const {
+    return bodies_->inverse_masses();
+}
+
+template <int Dim>
+std::span<const double> Solid<Dim>::masses() const {
+    return bodies_->masses();
+}
+
+template <int Dim>
+std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const {
+    return bodies_->rest();
+}
+
+template <int Dim>
+std::span<const std::int32_t> Solid<Dim>::body_of_points() const {
+    return bodies_->body_of_points();
+}
+
+template <int Dim>
 std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
     const auto u = as_vectors<Dim>(q);
     return bodies_->of_bodies(rotation_->angles(of_cells(u)), [&](std::size_t rigid) {
@@ -212,6 +232,10 @@ double Solid<Dim>::step_margin() const {
     template std::int64_t Solid<Dim>::contact_faces_left_out() const;                                              \
     template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                           \
     template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                               \
+    template std::span<const double> Solid<Dim>::inverse_mass() const;                                             \
+    template std::span<const double> Solid<Dim>::masses() const;                                                   \
+    template std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const;                                      \
+    template std::span<const std::int32_t> Solid<Dim>::body_of_points() const;                                     \
     template std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const;                           \
     template std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q);                           \
     template std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const;              \

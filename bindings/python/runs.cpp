@@ -17,27 +17,14 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
-#include "abut/solid/body_motion.hpp"
 #include "in_use.hpp"
 #include "scenes.hpp"
+#include "tables.hpp"
 
 namespace abut::python {
 namespace {
 
 using namespace py::literals;
-
-/// The columns of energy.csv, one row for each record.
-template <int Dim>
-py::object table_of(const dynamics::Ledger<Dim>& ledger) {
-    const auto columns = dynamics::ledger_columns<Dim>();
-    const auto& entries = ledger.entries();
-    py::array_t<double> numbers({static_cast<py::ssize_t>(entries.size()), static_cast<py::ssize_t>(columns.size())});
-    double* row = numbers.mutable_data();
-    for (const auto& entry : entries) row = std::ranges::copy(dynamics::ledger_values<Dim>(entry), row).out;
-    py::list fields;
-    for (const std::string& column : columns) fields.append(py::make_tuple(column, "f8"));
-    return numbers.attr("view")(py::dtype::from_args(fields)).attr("reshape")(-1);
-}
 
 /// A run at one moment.
 template <int Dim>
@@ -148,24 +135,6 @@ private:
 };
 
 template <int Dim>
-py::list motions_of(const std::vector<solid::BodyMotion<Dim>>& motions) {
-    py::list bodies;
-    for (const auto& motion : motions)
-        bodies.append(py::dict("mass"_a = motion.mass,
-                               "velocity"_a = py::array_t<double>(py::ssize_t{Dim}, motion.velocity.data()),
-                               "rotation"_a = motion.rotation));
-    return bodies;
-}
-
-py::dict report_of(const contact::ContactReport& report) {
-    return py::dict("candidates_max"_a = report.candidates_max, "active_pairs_max"_a = report.active_pairs_max,
-                    "events"_a = report.events, "rebuilds"_a = report.rebuilds, "missed_contacts"_a = report.missed_contacts,
-                    "inadmissible_overlaps"_a = report.inadmissible_overlaps, "compressed_steps"_a = report.compressed_steps,
-                    "compression_max"_a = report.compression_max, "tilted_pairs_max"_a = report.tilted_pairs_max,
-                    "slipped_pairs"_a = report.slipped_pairs, "sliding_ratio_max"_a = report.sliding_ratio_max);
-}
-
-template <int Dim>
 py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials, const py::object& velocity,
                   const py::object& acceleration, const std::map<std::string, py::object>& held,
                   const std::vector<std::string>& rollers, const std::map<std::string, py::object>& traction,
@@ -238,6 +207,27 @@ public:
             }
         }
     }
+    void set_step(double dt, const std::string& change) {
+        const bindings::Use use(in_use_, run_in_use);
+        if (change != "keep" && change != "restart")
+            throw py::value_error("set_step: change is '" + change + "'; there are 'keep', 'restart'");
+        const py::gil_scoped_release release;
+        memm_.set_step(dt, change == "keep" ? dynamics::StepChange::keep : dynamics::StepChange::restart);
+    }
+    void set_traction(const std::string& group, const py::object& traction) {
+        const bindings::Use use(in_use_, run_in_use);
+        solid_.set_traction(group, vectors_of<Dim>(traction, "traction"));
+    }
+    [[nodiscard]] py::dict faces(const std::string& group) {
+        const bindings::Use use(in_use_, run_in_use);
+        return faces_of<Dim>(solid::outside_faces<Dim>(memm_, solid_, group),
+                             solid_.face_motion(group, memm_.q(), memm_.next_q(), memm_.time(), memm_.dt()));
+    }
+    [[nodiscard]] py::dict outside_work() const {
+        const bindings::Use use(in_use_, run_in_use);
+        const solid::OutsideWork work = solid_.outside_work(memm_.q());
+        return py::dict("steps"_a = work.steps, "changes"_a = work.changes, "held"_a = work.held);
+    }
     void record() {
         const bindings::Use use(in_use_, run_in_use);
         ledger_.record(dynamics::measure(memm_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
@@ -309,9 +299,11 @@ std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vec
                                      const py::object& velocity, const py::object& acceleration,
                                      const std::map<std::string, py::object>& held, const std::vector<std::string>& rollers,
                                      const std::map<std::string, py::object>& traction, const py::object& displacement,
-                                     const py::object& added_velocity, bool contact, const py::kwargs& given) {
+                                     const py::object& added_velocity, bool contact, const std::vector<std::string>& outside,
+                                     const py::kwargs& given) {
     run::Scene<Dim> scene = scene_of<Dim>(
         {mesh, materials, velocity, acceleration, held, rollers, traction, displacement, added_velocity, contact, {}});
+    for (const std::string& group : outside) scene.solid.boundary.traction.push_back({.group = group, .from_outside = true});
     for (const char* name : {"time", "steps", "interval", "frames", "out", "threads", "integrator", "levels",
                              "contact_margin", "contact_levels", "gauge"})
         if (given.contains(name)) throw py::type_error("memm takes no '" + std::string(name) + "', which is for simulate");
@@ -338,6 +330,17 @@ void add_dimension(py::module_& module, const std::string& suffix) {
     auto memm = py::class_<Memm<Dim>>(module, ("Memm" + suffix).c_str(), "A solid under MEMM, step by step; made by memm.");
     add_state(memm, [](Memm<Dim>& self) { return typename Memm<Dim>::Held(self); });
     memm.def("step", &Memm<Dim>::step, "n"_a = 1, "Takes n steps; Ctrl-C ends them.")
+        .def("set_step", &Memm<Dim>::set_step, "dt"_a, "change"_a,
+             "Another dt [s] from the next step on. change: 'keep', for slow and smooth changes, or 'restart', for abrupt "
+             "ones.")
+        .def("set_traction", &Memm<Dim>::set_traction, "group"_a, "traction"_a,
+             "Tractions (n_faces, dim) [Pa] on a group of `outside`, from the next step on until they are set again.")
+        .def("faces", &Memm<Dim>::faces, "group"_a,
+             "Of a group of `outside`, a dict: position [m] and velocity [m/s] of the centroids, normal, area at rest, "
+             "traction [Pa] as set last, motion [m]: how far the centroids go in the next step, whatever the traction.")
+        .def_property_readonly("outside_work", &Memm<Dim>::outside_work,
+                               "[J]: steps, sum of area traction . motion; changes, what the bodies take in where tractions "
+                               "change; held, what H~ has less for the tractions that act.")
         .def("record", &Memm<Dim>::record,
              "Adds a row to the ledger; costs about two forces. Raises Diverged where the energy is not finite.")
         .def_property_readonly("ledger", &Memm<Dim>::ledger,
@@ -365,8 +368,9 @@ void add_dimension(py::module_& module, const std::string& suffix) {
             .c_str());
     module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
                "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
-               "added_velocity"_a = py::none(), "contact"_a = true,
-               (std::string("The same under MEMM, to be taken step by step; options of steps and files are for simulate. ") +
+               "added_velocity"_a = py::none(), "contact"_a = true, "outside"_a = std::vector<std::string>(),
+               (std::string("The same under MEMM, to be taken step by step; options of steps and files are for simulate. "
+                            "outside: groups that set_traction loads. ") +
                 scene_text)
                    .c_str());
 }

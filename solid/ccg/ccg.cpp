@@ -39,6 +39,7 @@ struct Ccg<Dim>::Impl {
     MotionBound<Dim> motion_bound;
     IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
     IdVector<BoundaryFace, double> boundary_measure;
+    std::vector<std::vector<Vector<Dim>>> outside;  // tractions by face, of each traction condition; empty: not from outside
     bool varies = false;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
@@ -59,7 +60,11 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
         boundary_measure.push_back(mesh.face_measure[f]);
     }
     for (const auto& condition : conditions.dirichlet) varies = varies || condition.history;
-    for (const auto& condition : conditions.traction) varies = varies || condition.history;
+    for (std::size_t i = 0; i < conditions.traction.size(); ++i) {
+        const TractionCondition<Dim>& condition = conditions.traction[i];
+        varies = varies || condition.history || condition.from_outside;
+        outside.emplace_back(condition.from_outside ? face_conditions.traction[i].size() : 0, condition.value);
+    }
 }
 
 template <int Dim>
@@ -90,6 +95,25 @@ bool Ccg<Dim>::load_varies() const {
 }
 
 template <int Dim>
+void Ccg<Dim>::set_traction(const std::string& group, std::span<const Vector<Dim>> traction) {
+    for (std::size_t i = 0; i < impl_->outside.size(); ++i)
+        if (impl_->conditions.traction[i].group == group && impl_->conditions.traction[i].from_outside)
+            impl_->outside[i].assign(traction.begin(), traction.end());
+}
+
+template <int Dim>
+Vector<Dim> Ccg<Dim>::face_displacement(BoundaryFace face, std::span<const Vector<Dim>> u,
+                                        const BoundaryLoad<Dim>& load) const {
+    const BoundaryReconstruction<Dim>& boundary = impl_->arrays.boundary;
+    const Vector<Dim>& origin = u[impl_->arrays.cell_of(face)];  // as the sweeps do
+    const std::int32_t b = number_of(face);
+    Vector<Dim> sum = origin;
+    for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
+        sum += boundary.weights[i] * (u[boundary.cells[i]] - origin);
+    return load.displacement.empty() ? sum : Vector<Dim>(sum + load.displacement[b] - boundary.deficit[b] * origin);
+}
+
+template <int Dim>
 BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_time) const {
     const Impl& m = *impl_;
     BoundaryLoad<Dim> load;
@@ -109,9 +133,12 @@ BoundaryLoad<Dim> Ccg<Dim>::load_at(double displacement_time, double traction_ti
     for (std::size_t i = 0; i < m.conditions.dirichlet.size(); ++i)
         for (const auto& [b, projector] : m.face_conditions.dirichlet[i])
             prescribed[b] += projector * value_at(m.conditions.dirichlet[i], displacement_time, b);
-    for (std::size_t i = 0; i < m.conditions.traction.size(); ++i)
-        for (const BoundaryFace b : m.face_conditions.traction[i])
-            traction[b] += value_at(m.conditions.traction[i], traction_time, b);
+    for (std::size_t i = 0; i < m.conditions.traction.size(); ++i) {
+        const std::vector<BoundaryFace>& faces = m.face_conditions.traction[i];
+        for (std::size_t k = 0; k < faces.size(); ++k)
+            traction[faces[k]] +=
+                m.outside[i].empty() ? value_at(m.conditions.traction[i], traction_time, faces[k]) : m.outside[i][k];
+    }
 
     load.displacement.assign(n, Vector<Dim>::Zero());
     load.traction.assign(n, Vector<Dim>::Zero());

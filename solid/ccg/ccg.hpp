@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "abut/contact/step.hpp"
@@ -88,6 +89,12 @@ public:
     /// The same with u_D = 0 and t = 0.
     [[nodiscard]] BoundaryLoad<Dim> load_free() const;
     [[nodiscard]] bool load_varies() const;
+    /// From now on `load_at` gives these tractions on the faces of the conditions of this group that are from outside, in the
+    /// order of the group (n) [Pa]; the number and the values are not looked at.
+    void set_traction(const std::string& group, std::span<const Vector<Dim>> traction);
+    /// û of one boundary face [m], as `boundary_displacement` gives it for all.
+    [[nodiscard]] Vector<Dim> face_displacement(BoundaryFace face, std::span<const Vector<Dim>> u,
+                                                const BoundaryLoad<Dim>& load) const;
     /// Projectors onto the prescribed directions (n_boundary).
     [[nodiscard]] IdSpan<BoundaryFace, const Matrix<Dim>> prescribed() const;
     /// The boundary faces of the cell whose displacement is prescribed, in some direction at least.

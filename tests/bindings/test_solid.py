@@ -235,6 +235,44 @@ class Runs(unittest.TestCase):
         self.assertGreater(refused, 0)
         self.assertGreaterEqual(memm.steps, 200000)
 
+    def test_a_load_from_outside_gives_its_work(self):
+        run = solid.memm(two_boxes(), outside=["upper.xmax"], **falling(restart=20))
+        n = len(run.faces("upper.xmax")["area"])
+        start, work = run.ledger["pseudo_energy"][0], 0.0
+        for i in range(60):
+            if i == 30:
+                run.set_step(0.7 * run.dt, "restart")
+            faces = run.faces("upper.xmax")
+            traction = 1e-3 * np.array([np.sin(0.1 * i), 0.3 * np.cos(i)]) * np.arange(1, n + 1)[:, None]
+            run.set_traction("upper.xmax", traction)
+            run.step()
+            now = run.faces("upper.xmax")
+            np.testing.assert_array_equal(now["traction"], traction)
+            work += np.sum(faces["area"][:, None] * traction * faces["motion"])
+        run.record()
+        booked, last = run.outside_work, run.ledger[-1]
+        self.assertAlmostEqual(booked["steps"], work, delta=1e-12 * abs(work))
+        gained = last["pseudo_energy"] + booked["held"] - start - last["restart_jumps"]
+        self.assertAlmostEqual(gained, booked["steps"] + booked["changes"], delta=1e-12 * last["kinetic"])
+        self.assertNotEqual(last["restart_jumps"], 0.0)
+        np.testing.assert_array_equal(now["normal"], np.tile([1.0, 0.0], (n, 1)))
+
+    def test_loads_from_outside_that_cannot_be_are_refused(self):
+        run = solid.memm(two_boxes(), outside=["upper.xmax"], **falling())
+        n = len(run.faces("upper.xmax")["area"])
+        with self.assertRaisesRegex(abut.BadInput, "upper.xmax.*not finite"):
+            run.set_traction("upper.xmax", np.full((n, 2), np.nan))
+        with self.assertRaisesRegex(abut.BadInput, "given for"):
+            run.set_traction("upper.xmax", np.zeros((n + 1, 2)))
+        with self.assertRaisesRegex(ValueError, "shape"):
+            run.set_traction("upper.xmax", np.zeros((n, 3)))
+        with self.assertRaisesRegex(abut.BadInput, "lower.xmin"):
+            run.faces("lower.xmin")
+        with self.assertRaisesRegex(ValueError, "keep"):
+            run.set_step(run.dt, "jump")
+        with self.assertRaises(abut.BadInput):
+            run.set_step(-1.0, "keep")
+
     def test_a_clamped_bar_sinks_by_its_weight_in_space(self):
         # Uniaxial strain under a load of its own: sides on rollers, u = rho g / (2 M) (h^2 - (h - z)^2), M = lambda + 2 mu.
         h, g, steps = 1.0, 1e-3, 1500

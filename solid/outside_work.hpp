@@ -1,0 +1,13 @@
+#pragma once
+
+namespace abut::solid {
+
+/// What tractions from outside (TractionCondition::from_outside) have done so far [J]. H~ + `held` is the energy of the bodies
+/// without these loads; `steps` + `changes` is what they have given to it.
+struct OutsideWork {
+    double steps = 0.0;    ///< sum over steps and faces of |f| t . (how far the face has moved in the step)
+    double changes = 0.0;  ///< where a traction changes between two steps, the half-cell behind its face gives way at once
+    double held = 0.0;     ///< sum of |f| t . û now: V has so much less. Of bodies that turn 0: they book `steps` as work
+};
+
+}  // namespace abut::solid
