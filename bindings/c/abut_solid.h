@@ -1,0 +1,114 @@
+/* Elastic bodies in contact that another program drives, for C99: it sets tractions on boundary faces, dictates the step, and is
+   told where these faces go. docs/loads.md has the equations; the rules of abut.h hold here, too: statuses, errors, arrays of the
+   caller's own, one thread at a time.
+
+   First bodies, supports and loads are added; `abut_solid_begin` makes the solid, and after it nothing can be added. Then each step:
+
+       abut_solid_set_step(solid, dt, ABUT_KEEP, &error);
+       abut_solid_faces(solid, "bar.xmin", &faces, &error);         faces.motion: how far they will move in the step
+       ... the fluid takes its step on walls that move so far, and gives its mean tractions ...
+       abut_solid_set_traction(solid, "bar.xmin", traction, &error);
+       abut_solid_step(solid, &error);
+
+   SI units, or any consistent set; in 2D plane strain, and forces and energies per metre of thickness. Faces of a group come in
+   one order throughout. */
+#ifndef ABUT_SOLID_H
+#define ABUT_SOLID_H
+#include "abut.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct abut_solid abut_solid;
+
+/* Isotropic linear elasticity. */
+typedef struct abut_material {
+    double young;
+    double poisson;
+    double density;
+} abut_material;
+
+/* dim: 2 or 3. */
+ABUT_API int abut_solid_create(int32_t dim, abut_solid** solid, abut_error* error);
+/* NULL is no error. */
+ABUT_API void abut_solid_destroy(abut_solid* solid);
+
+/* A body of `counts` rectangular cells along each axis, with groups of faces "xmin", "xmax", ... `velocity` at the start may be
+   NULL: 0. All vectors have dim numbers. Groups, and then bodies, of several meshes that have one name in common get
+   "<body>." in front: "bar.xmin". */
+ABUT_API int abut_solid_add_box(abut_solid* solid, const char* name, const double* lower, const double* upper,
+                                const int32_t* counts, abut_material material, const double* velocity, abut_error* error);
+/* The bodies of a mesh file, .msh or .vtu, with its groups; all of one material and velocity. */
+ABUT_API int abut_solid_add_file(abut_solid* solid, const char* path, abut_material material, const double* velocity,
+                                 abut_error* error);
+/* A group does not move at all, or not along its normals; it takes no part in contact. */
+ABUT_API int abut_solid_clamp(abut_solid* solid, const char* group, abut_error* error);
+ABUT_API int abut_solid_roller(abut_solid* solid, const char* group, abut_error* error);
+/* A group is loaded from outside; `traction` acts until the first is set, NULL: 0. */
+ABUT_API int abut_solid_load(abut_solid* solid, const char* group, const double* traction, abut_error* error);
+
+typedef struct abut_solid_options {
+    size_t struct_size;
+    double dt;      /* 0: cfl times the stable step */
+    double cfl;     /* 0: 0.9 */
+    int32_t contact; /* 0: bodies pass through each other */
+    int32_t restart; /* steps from one neutral restart to the next; 0: none. Where tractions answer to the motion of a step: 20 */
+} abut_solid_options;
+#define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0}
+/* Makes the solid and its integrator, MEMM; after an error the same can be tried again. `options` may be NULL. */
+ABUT_API int abut_solid_begin(abut_solid* solid, const abut_solid_options* options, abut_error* error);
+
+ABUT_API int abut_solid_n_faces(const abut_solid* solid, const char* group, int64_t* n, abut_error* error);
+
+/* Where the faces of a group that is loaded are. Arrays with data NULL are not written; the others have n_faces entries. */
+typedef struct abut_solid_face_arrays {
+    size_t struct_size;
+    int64_t n_faces;
+    abut_array position; /* of the centroids */
+    abut_array velocity; /* of the same */
+    abut_array normal;   /* out of the body, unit length, at rest */
+    abut_array motion;   /* how far the centroids move in the next step of the present dt, whatever acts in it */
+    double* area;        /* at rest: times a traction it is a force; may be NULL */
+} abut_solid_face_arrays;
+#define ABUT_SOLID_FACE_ARRAYS_INIT \
+    {sizeof(abut_solid_face_arrays), 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0}
+ABUT_API int abut_solid_faces(abut_solid* solid, const char* group, const abut_solid_face_arrays* faces, abut_error* error);
+
+/* Forces per area, one per face, from the next step on until they are set again. */
+ABUT_API int abut_solid_set_traction(abut_solid* solid, const char* group, abut_array traction, abut_error* error);
+
+enum {
+    ABUT_KEEP = 0,   /* momenta stay: for slow and smooth changes of dt; H~ is exact */
+    ABUT_RESTART = 1 /* momenta are made anew: for abrupt ones; what that changes in H~ is in `restart_jumps` */
+};
+ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error* error);
+/* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
+ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);
+
+/* H~ + work_held = its start + work_steps + work_changes + restart_jumps, to round-off. */
+typedef struct abut_solid_state {
+    size_t struct_size;
+    int64_t steps;
+    double time;
+    double dt;
+    double stable_dt;
+    double pseudo_energy; /* H~, less the work of the loads that act */
+    double energy;        /* H, the same */
+    double kinetic;
+    double work_steps;   /* of the tractions: area traction . motion, over all faces and steps */
+    double work_changes; /* what half-cells behind the faces take in where tractions change */
+    double work_held;    /* what H~ has less for the tractions that act */
+    double restart_jumps;
+    double parasitic;        /* largest |e|/m: the alternating mode, as a velocity */
+    int64_t active_pairs;    /* of contact, in the last step */
+    int64_t missed_contacts; /* must stay 0 */
+} abut_solid_state;
+#define ABUT_SOLID_STATE_INIT {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0}
+/* Costs about two forces. */
+ABUT_API int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

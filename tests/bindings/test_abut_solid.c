@@ -1,0 +1,171 @@
+/* Every function of abut_solid.h, called from C99. A bar that cannot widen, pressed at one end: until a wave comes back the end
+   gives way with v = p/(rho c), c = sqrt((lambda + 2 mu)/rho). */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "abut_solid.h"
+
+static int failures = 0;
+#define CHECK(condition)                                                     \
+    do {                                                                     \
+        if (!(condition)) {                                                  \
+            printf("%s:%d: failed: %s\n", __FILE__, __LINE__, #condition);   \
+            ++failures;                                                      \
+        }                                                                    \
+    } while (0)
+
+enum { cells = 80, n_faces = 2 };
+/* lambda + 2 mu = 1, c = 1 */
+static const abut_material material = {0.742857142857142857, 0.3, 1.0};
+static const double pressure = 1e-3, length = 2.0;
+static const char* const pressed = "bar.xmin";
+
+static abut_solid* two_bars(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = NULL;
+    const double lower[2] = {0.0, 0.0}, upper[2] = {2.0, 0.05}, behind[2] = {2.1, 0.0}, end[2] = {3.1, 0.05};
+    const int32_t counts[2] = {cells, n_faces}, others[2] = {30, 3};
+    CHECK(abut_solid_create(2, &solid, &error) == ABUT_OK);
+    CHECK(abut_solid_add_box(solid, "bar", lower, upper, counts, material, NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_add_box(solid, "wall", behind, end, others, material, NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_roller(solid, "bar.ymin", &error) == ABUT_OK);
+    CHECK(abut_solid_roller(solid, "bar.ymax", &error) == ABUT_OK);
+    CHECK(abut_solid_clamp(solid, "wall.xmax", &error) == ABUT_OK);
+    CHECK(abut_solid_load(solid, pressed, NULL, &error) == ABUT_OK);
+    return solid;
+}
+
+static abut_array packed(double (*data)[2], int64_t n) {
+    abut_array array = {NULL, 0, 2, 1};
+    array.data = &data[0][0], array.count = n;
+    return array;
+}
+
+static void a_pressed_bar_gives_way_and_gets_the_work(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = two_bars();
+    abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
+    options.restart = 20;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_OK);
+    if (error.status != ABUT_OK) printf("%s\n", error.message);
+    int64_t n = 0;
+    CHECK(abut_solid_n_faces(solid, pressed, &n, &error) == ABUT_OK && n == n_faces);
+    abut_solid_state state = ABUT_SOLID_STATE_INIT, start = ABUT_SOLID_STATE_INIT;
+    CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
+    CHECK(fabs(start.dt - 0.9 * start.stable_dt) < 1e-15);
+
+    double position[n_faces][2], velocity[n_faces][2], normal[n_faces][2], motion[n_faces][2], area[n_faces];
+    double traction[n_faces][2], work = 0.0, at_early = 0.0, early = 0.0;
+    abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
+    faces.n_faces = n_faces;
+    faces.position = packed(position, n_faces), faces.velocity = packed(velocity, n_faces);
+    faces.normal = packed(normal, n_faces), faces.motion = packed(motion, n_faces), faces.area = area;
+    for (state = start; state.time < 0.9 * 2.0 * length;) {
+        const double dt = start.dt * (state.time < 2.0 ? 1.0 : 0.8);
+        CHECK(abut_solid_set_step(solid, dt, ABUT_RESTART, &error) == ABUT_OK);
+        CHECK(abut_solid_faces(solid, pressed, &faces, &error) == ABUT_OK);
+        if (early == 0.0 && state.time > 0.5) early = state.time, at_early = position[0][0];
+        for (int i = 0; i < n_faces; ++i) {
+            traction[i][0] = -pressure * normal[i][0], traction[i][1] = 0.0;
+            work += area[i] * (traction[i][0] * motion[i][0] + traction[i][1] * motion[i][1]);
+        }
+        CHECK(abut_solid_set_traction(solid, pressed, packed(traction, n_faces), &error) == ABUT_OK);
+        CHECK(abut_solid_step(solid, &error) == ABUT_OK);
+        CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+    }
+    CHECK(abut_solid_faces(solid, pressed, &faces, &error) == ABUT_OK);
+    CHECK(normal[0][0] == -1.0 && fabs(area[0] - 0.025) < 1e-15);
+    CHECK(fabs((position[0][0] - at_early) / (state.time - early) - pressure) < 0.005 * pressure); /* v = p/(rho c) */
+    CHECK(fabs(state.work_steps - work) < 1e-12 * work);
+    CHECK(fabs(state.pseudo_energy + state.work_held - start.pseudo_energy - state.work_steps - state.work_changes -
+               state.restart_jumps) < 1e-12 * work);
+    CHECK(state.restart_jumps != 0.0 && state.missed_contacts == 0 && state.active_pairs == 0);
+    CHECK(state.energy >= state.pseudo_energy && state.kinetic > 0.0 && state.steps > 100 && state.parasitic >= 0.0);
+    abut_solid_destroy(solid);
+}
+
+static void what_cannot_be_is_refused(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = NULL;
+    CHECK(abut_solid_create(4, &solid, &error) == ABUT_BAD_INPUT && solid == NULL);
+    solid = two_bars();
+    CHECK(abut_solid_step(solid, &error) == ABUT_MISUSE);
+    CHECK(strstr(error.message, "abut_solid_begin") != NULL);
+    CHECK(abut_solid_add_file(solid, "no_such_mesh.msh", material, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_OK);
+    CHECK(abut_solid_clamp(solid, "bar.xmax", &error) == ABUT_MISUSE);
+
+    double traction[n_faces][2] = {{0.0, 0.0}, {0.0, NAN}};
+    CHECK(abut_solid_set_traction(solid, pressed, packed(traction, n_faces), &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "not finite") != NULL);
+    CHECK(abut_solid_set_traction(solid, pressed, packed(traction, 1), &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_set_traction(solid, "bar.xmax", packed(traction, n_faces), &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "bar.xmax") != NULL);
+    CHECK(abut_solid_set_step(solid, -1.0, ABUT_KEEP, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_set_step(solid, 1e-3, 7, &error) == ABUT_BAD_INPUT);
+    abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
+    faces.n_faces = n_faces + 1;
+    CHECK(abut_solid_faces(solid, pressed, &faces, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_solid_faces(NULL, pressed, &faces, &error) == ABUT_MISUSE);
+    abut_solid_destroy(solid);
+    abut_solid_destroy(NULL);
+
+    solid = two_bars();
+    CHECK(abut_solid_load(solid, "nowhere", NULL, &error) == ABUT_OK); /* told where the solid is made */
+    CHECK(abut_solid_begin(solid, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "nowhere") != NULL);
+    abut_solid_destroy(solid);
+}
+
+/* A unit square of three by three cells, in a file of Gmsh. */
+static void write_square(FILE* file) {
+    fputs("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 \"foot\"\n2 2 \"body\"\n$EndPhysicalNames\n$Nodes\n16\n", file);
+    for (int i = 0; i < 16; ++i) fprintf(file, "%d %.17g %.17g 0\n", i + 1, (i % 4) / 3.0, (i / 4) / 3.0);
+    fputs("$EndNodes\n$Elements\n12\n", file);
+    for (int i = 0; i < 3; ++i) fprintf(file, "%d 1 2 1 1 %d %d\n", i + 1, i + 1, i + 2);
+    for (int i = 0; i < 9; ++i) {
+        const int corner = 4 * (i / 3) + i % 3 + 1;
+        fprintf(file, "%d 3 2 2 1 %d %d %d %d\n", i + 4, corner, corner + 1, corner + 5, corner + 4);
+    }
+    fputs("$EndElements\n", file);
+}
+
+static void a_file_brings_bodies_and_groups(const char* folder) {
+    char path[4096];
+    snprintf(path, sizeof(path), "%s/abut_solid_square.msh", folder);
+    FILE* file = fopen(path, "w");
+    CHECK(file != NULL);
+    if (file == NULL) return;
+    write_square(file);
+    fclose(file);
+    abut_error error = ABUT_ERROR_INIT;
+    abut_solid* solid = NULL;
+    const double velocity[2] = {0.0, 0.5};
+    double at[3][2] = {{0.0}}, speed[3][2] = {{0.0}};
+    CHECK(abut_solid_create(2, &solid, &error) == ABUT_OK);
+    CHECK(abut_solid_add_file(solid, path, material, velocity, &error) == ABUT_OK);
+    CHECK(abut_solid_load(solid, "foot", NULL, &error) == ABUT_OK);
+    abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
+    options.contact = 0, options.dt = 0.01;
+    CHECK(abut_solid_begin(solid, &options, &error) == ABUT_OK);
+    for (int i = 0; i < 10; ++i) CHECK(abut_solid_step(solid, &error) == ABUT_OK);
+    abut_solid_face_arrays faces = ABUT_SOLID_FACE_ARRAYS_INIT;
+    faces.n_faces = 3, faces.position = packed(at, 3), faces.velocity = packed(speed, 3);
+    CHECK(abut_solid_faces(solid, "foot", &faces, &error) == ABUT_OK);
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        sum += at[i][0];
+        CHECK(fabs(at[i][1] - 0.05) < 1e-14 && fabs(speed[i][1] - 0.5) < 1e-14); /* it flies */
+    }
+    CHECK(fabs(sum - 1.5) < 1e-14);
+    abut_solid_destroy(solid);
+}
+
+int main(int argc, char** argv) {
+    a_pressed_bar_gives_way_and_gets_the_work();
+    what_cannot_be_is_refused();
+    a_file_brings_bodies_and_groups(argc > 1 ? argv[1] : ".");
+    return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
