@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/state_bytes.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/loads.hpp"
@@ -52,6 +53,9 @@ public:
     void add_step(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                   const typename PointLoads<Dim>::TurnOf& turn_of);
     [[nodiscard]] OutsideWork work(std::span<const Vector<Dim>> q) const;
+
+    void save(StateWriter& state) const;  ///< between two steps
+    void restore(StateReader& state);
 
 private:
     [[nodiscard]] std::vector<Vector<Dim>> displacement_under(const Group& group, std::span<const Vector<Dim>> q,

@@ -6,6 +6,7 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/loads.hpp"
+#include "abut/solid/outside_loads.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
@@ -44,6 +45,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
     state.put(finite_extremes_.cell);
     loads_->save(state);
     point_loads_->save(state);
+    outside_->save(state);
     bodies_->rigid().save(state);
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
     if (contact_) state.put_all(std::span<const std::byte>(contact_->state()));
@@ -64,6 +66,7 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     finite_extremes_.cell = state.get<std::int32_t>();
     loads_->restore(state);
     point_loads_->restore(state);
+    outside_->restore(state);
     bodies_->rigid().restore(state);
     if ((state.get<std::uint8_t>() != 0) != (contact_ != nullptr))
         throw BadInput(mesh_.name + ": the saved state is of a solid " + (contact_ ? "without" : "with") +
@@ -109,6 +112,28 @@ void PointLoads<Dim>::restore(StateReader& state) {
     };
     for (HeldSpring& spring : springs_) take_last(spring.rate);
     for (HeldMoment& moment : moments_) take_last(moment.spin);
+}
+
+template <int Dim>
+void OutsideLoads<Dim>::save(StateWriter& state) const {
+    state.put(work_.steps);
+    state.put(work_.changes);
+    for (const Group& group : groups_) {
+        put_all<Dim>(state, group.traction);
+        put_all<Dim>(state, group.acting);
+    }
+}
+
+template <int Dim>
+void OutsideLoads<Dim>::restore(StateReader& state) {
+    work_.steps = state.get<double>();
+    work_.changes = state.get<double>();
+    for (Group& group : groups_) {
+        std::vector<Vector<Dim>> traction = group.traction;
+        take_all<Dim>(state, traction);
+        set_traction(group.name, traction);
+        take_all<Dim>(state, group.acting);
+    }
 }
 
 template <int Dim>
@@ -158,6 +183,8 @@ void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::sp
     template void Loads<Dim>::restore(StateReader&);                                                                    \
     template void PointLoads<Dim>::save(StateWriter&) const;                                                            \
     template void PointLoads<Dim>::restore(StateReader&);                                                               \
+    template void OutsideLoads<Dim>::save(StateWriter&) const;                                                          \
+    template void OutsideLoads<Dim>::restore(StateReader&);                                                             \
     template void RigidBodies<Dim>::save(StateWriter&) const;                                                           \
     template void RigidBodies<Dim>::restore(StateReader&);                                                              \
     template std::vector<std::byte> ReconstructionDriver<Dim>::state() const;                                           \
