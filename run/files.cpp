@@ -47,7 +47,7 @@ void remove_result(const fs::path& path) {
 }  // namespace
 
 const std::vector<std::string>& plain_results() {
-    static const std::vector<std::string> names{"summary.json", "energy.csv", "energy.png", "energy.gp"};
+    static const std::vector<std::string> names{"summary.json", "report.html", "energy.csv", "energy.png", "energy.gp"};
     return names;
 }
 

@@ -110,15 +110,29 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     }
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
+    write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report()));
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
     if (result.complete) checkpoints_.remove(texts_beside);
     lock_.reset();
 }
 
 template <int Dim>
+std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
+    std::vector<ReportFile> files = {{"summary.json", "all figures of this page and more, for programs"},
+                                     {"energy.csv", "energies and momenta, a row per record"}};
+    if (without_picture_.empty()) files.push_back({"energy.png", "the picture of the energies"});
+    if (frames_) {
+        files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
+        files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
+    }
+    return files;
+}
+
+template <int Dim>
 std::string ResultFiles<Dim>::table() const {
     const auto path = [&](const std::string& name) { return (out_ / name).string(); };
-    std::string text = "Files\n" + table_line("energies", path("energy.csv")) + table_line("summary", path("summary.json"));
+    std::string text = "Files\n" + table_line("report", path("report.html")) + table_line("energies", path("energy.csv")) +
+                       table_line("summary", path("summary.json"));
     if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
     return text + table_line("picture", without_picture_.empty() ? path("energy.png") : "none: " + without_picture_);
 }

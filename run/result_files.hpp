@@ -12,11 +12,13 @@
 #include "abut/run/folder_lock.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/observer.hpp"
+#include "abut/run/report/report.hpp"
 
 namespace abut::run {
 
-/// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png
-/// and summary.json; in `checkpoints`, what a run that is stopped goes on from. The folder is its own (FolderLock) until `finish`, or until it goes.
+/// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png,
+/// report.html and summary.json; in `checkpoints`, what a run that is stopped goes on from. The folder is its own (FolderLock)
+/// until `finish`, or until it goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
 ///     run::ResultFiles<2> files(options, "mine", "bodies");
@@ -56,6 +58,8 @@ public:
     [[nodiscard]] std::string table() const;
 
 private:
+    [[nodiscard]] std::vector<ReportFile> files_of_report() const;
+
     std::filesystem::path out_;
     std::optional<FolderLock> lock_;
     std::string program_;

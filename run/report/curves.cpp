@@ -1,0 +1,89 @@
+#include "abut/run/report/curves.hpp"
+
+#include <cmath>
+#include <functional>
+
+#include "abut/run/report/plot.hpp"
+
+namespace abut::run {
+namespace {
+
+template <int Dim>
+using Quantity = std::function<double(const dynamics::LedgerEntry<Dim>&)>;
+
+template <int Dim>
+std::vector<double> values(const RunResult<Dim>& result, const Quantity<Dim>& quantity) {
+    std::vector<double> all;
+    for (const auto& entry : result.ledger.entries()) all.push_back(quantity(entry));
+    return all;
+}
+
+template <int Dim>
+std::vector<double> times(const RunResult<Dim>& result) {
+    return values<Dim>(result, [](const auto& entry) { return entry.time; });
+}
+
+Markup figure(const Plot& plot, const std::string& caption) {
+    return element("figure", drawing(plot) + element("figcaption", caption)) + "\n";
+}
+
+template <int Dim>
+Plot energies(const RunResult<Dim>& result) {
+    return {.title = "Energies over time",
+            .x_label = "time [s]",
+            .y_label = "energy [J]",
+            .x = times(result),
+            .curves = {{"H", "grey", values<Dim>(result, [](const auto& entry) { return entry.energy; })},
+                       {"kinetic", "blue", values<Dim>(result, [](const auto& entry) { return entry.kinetic; })},
+                       {"potential", "orange", values<Dim>(result, [](const auto& entry) { return entry.potential; })},
+                       {"H~", "ink", values<Dim>(result, [](const auto& entry) { return entry.pseudo_energy; })}}};
+}
+
+/// |H~ - H~0 - W|, less what restarts with another step have added, and H - H~.
+template <int Dim>
+Plot errors(const RunResult<Dim>& result) {
+    const double start = result.ledger.entries().front().pseudo_energy, scale = result.scale.value;
+    const auto drift = [=](const auto& entry) {
+        return std::abs(entry.pseudo_energy - start - entry.work - entry.restart_jumps) / scale;
+    };
+    const auto excess = [=](const auto& entry) { return (entry.energy - entry.pseudo_energy) / scale; };
+    return {
+        .title = "Errors of the energies over time",
+        .x_label = "time [s]",
+        .y_label = "over " + result.scale.name,
+        .x = times(result),
+        .curves = {{"H - H~", "orange", values<Dim>(result, excess)}, {"|H~ - H~0 - W|", "ink", values<Dim>(result, drift)}},
+        .logarithmic = true};
+}
+
+}  // namespace
+
+template <int Dim>
+Markup energy_pictures(const RunResult<Dim>& result) {
+    return figure(energies(result),
+                  "Kinetic and potential energy, their sum H, and the pseudo-energy H~ that the scheme conserves.") +
+           figure(errors(result),
+                  "What H~ has gained beyond the work W from outside, and H - H~, the part of H that it does not hold. An "
+                  "exact zero, or less, is drawn at the lower end.");
+}
+
+template <int Dim>
+Markup contact_picture(const RunResult<Dim>& result) {
+    const auto pairs = values<Dim>(result, [](const auto& entry) { return static_cast<double>(entry.active_pairs); });
+    if (result.contact.active_pairs_max == 0) return {};
+    return figure({.title = "Pairs in contact over time",
+                   .x_label = "time [s]",
+                   .y_label = "pairs in contact",
+                   .x = times(result),
+                   .curves = {{"pairs of faces in contact", "blue", pairs}}},
+                  "Pairs of faces that touch, at each record.");
+}
+
+#define ABUT_INSTANTIATE(Dim)                                    \
+    template Markup energy_pictures<Dim>(const RunResult<Dim>&); \
+    template Markup contact_picture<Dim>(const RunResult<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

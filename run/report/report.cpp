@@ -1,0 +1,235 @@
+#include "abut/run/report/report.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "abut/run/report/curves.hpp"
+#include "abut/run/report/figures.hpp"
+#include "abut/run/report/style.hpp"
+#include "abut/run/summary.hpp"
+#include "abut/run/warnings.hpp"
+
+namespace abut::run {
+namespace {
+
+/// |H~ - H~0 - W| over the scale above which more than rounding is at work [-].
+constexpr double round_off = 1e-10;
+
+Markup section(const std::string& heading, const Markup& content) {
+    return content.empty() ? Markup() : element("section", element("h2", heading) + "\n" + content) + "\n";
+}
+
+std::string counted(std::size_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
+
+template <int Dim>
+Markup heading(const std::string& program, const Figures& figures, const RunResult<Dim>& result) {
+    const Markup line = "Abut " + figures.at("version") + ", " + figures.at("dim") + "D: " + figures.at("cells") +
+                        " cells, " + figures.at("boundary_faces") + " boundary faces; " + figures.at("steps") +
+                        " steps of " + figures.at("dt") + " s, " + figures.at("dt_over_stable_dt") +
+                        " of the stable one, to t = " + figures.at("time") + " s; " + name_of(result.options.integrator) +
+                        ".";
+    const auto now = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+    return element("h1", program) + "\n" + element("p", {{"class", "faint"}}, line) + "\n" +
+           element("p", {{"class", "faint"}}, fmt::format("Ended {:%Y-%m-%d %H:%M} UTC.", fmt::gmtime(now))) + "\n";
+}
+
+template <int Dim>
+std::vector<Warning> all_warnings(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::vector<Warning> warnings = warnings_before(scene, result);
+    std::ranges::copy(warnings_after(result), std::back_inserter(warnings));
+    return warnings;
+}
+
+template <int Dim>
+Markup verdict(const Figures& figures, const RunResult<Dim>& result, const std::vector<Warning>& warnings) {
+    const double drift = figures.number("pseudo_energy_drift") / result.scale.value;
+    const std::size_t n_warnings = without_notes(warnings).size();
+    const std::string end = result.complete ? "The run came to its end."
+                                            : fmt::format(
+                                                  "The run was asked to stop at t = {:.6g} s, before its end; all "
+                                                  "figures are those until then.",
+                                                  result.ledger.entries().back().time);
+    const std::string energy =
+        drift <= round_off
+            ? fmt::format(" The pseudo-energy is kept to round-off, {:.1e} of {}.", drift, result.scale.name)
+            : fmt::format(" The pseudo-energy drifts by {:.1e} of {}: more than round-off.", drift, result.scale.name);
+    const std::string contacts =
+        result.contact.missed_contacts == 0
+            ? fmt::format(" {}, none missed.", counted(static_cast<std::size_t>(result.contact.events), "contact event"))
+            : fmt::format(" {} were missed: the energy is not exact.",
+                          counted(static_cast<std::size_t>(result.contact.missed_contacts), "contact"));
+    const std::string warned = n_warnings == 0 ? " Nothing warns." : fmt::format(" {}.", counted(n_warnings, "warning"));
+    const bool good = result.complete && n_warnings == 0 && drift <= round_off;
+    return element("p", {{"class", good ? "good" : "attention"}}, end + energy + contacts + warned) + "\n";
+}
+
+Markup warnings_part(const std::vector<Warning>& warnings) {
+    Markup serious, notes;
+    for (const Warning& warning : warnings) {
+        const Markup item = element("li", warning.text) + "\n";
+        (warning.severity == Severity::warning ? serious : notes) += item;
+    }
+    Markup content;
+    if (!serious.empty()) content += element("ul", {{"class", "warnings"}}, serious) + "\n";
+    if (!notes.empty()) content += element("p", "Good to know:") + element("ul", notes) + "\n";
+    return section("Warnings", content);
+}
+
+/// A row of a table of figures with units.
+Markup figure_row(const Figures& figures, const char* what, const char* path, const char* unit) {
+    return row({what, figures.at(path) + " " + unit});
+}
+
+template <int Dim>
+Markup energies_part(const Figures& figures, const RunResult<Dim>& result) {
+    const double scale = result.scale.value;
+    const auto energy = [&](const char* what, const char* path) {
+        return row({what, figures.at(path) + " J", figures.over(path, scale)});
+    };
+    const Markup numbers =
+        table({"greatest of the run", "", "over " + result.scale.name},
+              {row({"kinetic energy at the start", figures.at("kinetic_initial") + " J", ""}),
+               row({"scale of energies, " + result.scale.name, figures.at("energy_scale.value") + " J", ""}),
+               energy("drift of the pseudo-energy, |H~ - H~0 - W|", "pseudo_energy_drift"),
+               energy("error of the energy, |H - H0 - W|", "energy_drift"), energy("excess H - H~", "energy_excess_max"),
+               row({"parasitic mode, |e|/m", figures.at("parasitic_max") + " m/s", ""}),
+               row({"drift of momentum, forces from outside included", figures.at("momentum_drift_max") + " kg m/s", ""}),
+               row({"drift of angular momentum, the same", figures.at("angular_momentum_drift_max") + " kg m²/s", ""}),
+               row({"the same of J~, as MEMM has it", figures.at("pseudo_angular_momentum_drift_max") + " kg m²/s", ""})});
+    return section("Energies", energy_pictures(result) + numbers);
+}
+
+template <int Dim>
+solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body) {
+    if (result.pilot) return result.pilot->bodies[body].picked;
+    const auto own = scene.solid.kinematics.empty() ? solid::Kinematics::small : scene.solid.kinematics[body];
+    return kinematics_of_all(result.options.kinematics).value_or(own);
+}
+
+template <int Dim>
+Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    std::vector<Markup> rows;
+    for (std::size_t body = 0; body < result.start.size(); ++body) {
+        const auto at = [&](const char* key) { return figures.at(fmt::format("bodies.{}.{}", body, key)); };
+        const auto cells = std::ranges::count(scene.mesh.cell_body, static_cast<std::int32_t>(body));
+        rows.push_back(
+            row({at("name"), name_of(kinematics_of(scene, result, body)), fmt::format("{}", cells), at("mass"),
+                 at("velocity_initial"), at("velocity_final"), at("spin_initial"), at("spin_final"), at("rotation_final")}));
+    }
+    return section("Bodies",
+                   table({"body", "moves as", "cells", "mass [kg]", "velocity at the start [m/s]", "at the end [m/s]",
+                          "spin at the start [rad/s]", "at the end [rad/s]", "turned by [rad]"},
+                         rows));
+}
+
+template <int Dim>
+Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    if (!scene.contact) return section("Contact", element("p", "Bodies pass through each other: contact is off."));
+    return section("Contact",
+                   contact_picture(result) +
+                       table({"", ""}, {figure_row(figures, "openings, closings and slips within steps", "events", ""),
+                                        figure_row(figures, "pairs in contact, at most", "active_pairs_max", ""),
+                                        figure_row(figures, "pairs in contact, at the end", "active_pairs_final", ""),
+                                        figure_row(figures, "contacts missed: 0 is right", "lost_contacts", ""),
+                                        figure_row(figures, "deepest contact, |g|/D of its cells", "compression_max", ""),
+                                        figure_row(figures, "steps that were strongly compressed", "compressed_steps", ""),
+                                        figure_row(figures, "sliding over pressing, at most", "sliding_ratio_max", ""),
+                                        figure_row(figures, "pairs that slid off each other", "slipped_pairs", ""),
+                                        figure_row(figures, "candidates, at most", "candidates", ""),
+                                        figure_row(figures, "lists of candidates", "rebuilds", "")}));
+}
+
+Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
+    std::vector<Markup> rows;
+    for (const Finding& finding : findings) rows.push_back(row({finding.text, figures.at(finding.key)}));
+    return section("Found by the scene", table({"", ""}, rows));
+}
+
+/// Settings in three parts: those of the scene and this run alone, those that are not as by default, and the rest.
+template <int Dim>
+Markup settings_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const Json by_default = to_json(named_values(with_defaults<Dim>({})));
+    const Json own = to_json(scene.options);
+    std::vector<Markup> of_scene, changed, plain;
+    for (const auto& [name, value] : figures.summary().at("options").items()) {
+        const Markup shown_value = figures.at("options." + name);
+        const bool chosen_by_run = (name == "skin" && result.options.contact.search.skin == 0.0) ||
+                                   (name == "threads" && result.options.threads == 0);
+        if (own.contains(name) || name == "time" || name == "steps" || name == "out")
+            of_scene.push_back(row({name, shown_value}));
+        else if (chosen_by_run || (by_default.contains(name) && by_default.at(name) == value))
+            plain.push_back(row({name, shown_value}));
+        else
+            changed.push_back(row({name, shown_value, by_default.contains(name) ? shown(by_default.at(name)) : ""}));
+    }
+    return section("Settings", table({"of the scene", "value"}, of_scene) +
+                                   table({"not as by default", "value", "by default"}, changed) +
+                                   element("details", element("summary", "As by default, or chosen by the run") +
+                                                          table({"setting", "value"}, plain)));
+}
+
+Markup seconds_part(const Figures& figures) {
+    const double total = figures.number("seconds.total");
+    std::vector<Markup> rows;
+    for (const auto& [name, value] : figures.summary().at("seconds").items()) {
+        if (name == "total") continue;
+        const double share = 100.0 * value.get<double>() / total;
+        const Markup bar = element(
+            "span", {{"class", "bar"}, {"style", fmt::format("width:{:.1f}em", 0.15 * std::clamp(share, 0.0, 100.0))}});
+        rows.push_back(row({name, figures.at("seconds." + name, true), fmt::format("{:.1f} %", share), bar}));
+    }
+    rows.push_back(row({"total", figures.at("seconds.total", true), "", ""}));
+    return section("Time of the run", table({"part", "seconds", "share", ""}, rows));
+}
+
+/// A name as an address within the folder: everything that means something there by its number.
+std::string address(const std::string& name) {
+    std::string result = "./";
+    for (const char c : name) {
+        const bool plain =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '_' || c == '-';
+        result += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return result;
+}
+
+Markup files_part(const std::vector<ReportFile>& files) {
+    std::vector<Markup> rows;
+    for (const auto& [name, meaning] : files) rows.push_back(row({element("a", {{"href", address(name)}}, name), meaning}));
+    return section("Files", table({"file", ""}, rows));
+}
+
+Markup page(const std::string& title, const Markup& body) {
+    const Markup head = element("meta", Attributes{{"charset", "utf-8"}}) +
+                        element("meta", Attributes{{"name", "viewport"}, {"content", "width=device-width"}}) +
+                        element("title", title) + element("style", report_style);
+    return element("html", {{"xmlns", "http://www.w3.org/1999/xhtml"}, {"lang", "en"}},
+                   element("head", head) + "\n" + element("body", "\n" + body));
+}
+
+}  // namespace
+
+template <int Dim>
+std::string report_html(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result,
+                        const std::vector<ReportFile>& files) {
+    const Figures figures(Json::parse(summary_json(program, scene, result)));
+    const std::vector<Warning> warnings = all_warnings(scene, result);
+    const Markup body = heading(program, figures, result) + verdict(figures, result, warnings) + warnings_part(warnings) +
+                        energies_part(figures, result) + bodies_part(figures, scene, result) +
+                        contact_part(figures, scene, result) + findings_part(figures, result.findings) +
+                        settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
+    return "<!DOCTYPE html>\n" + page(program + ": report of a run", body).html() + "\n";
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                           \
+    template std::string report_html<Dim>(const std::string&, const Scene<Dim>&, const RunResult<Dim>&, \
+                                          const std::vector<ReportFile>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

@@ -1,0 +1,43 @@
+#pragma once
+// Private to the sources of run.
+#include <string_view>
+
+namespace abut::run {
+
+/// Style sheet of a report: light or dark as its reader has it, black on white in print. It holds no character that XML
+/// would have escaped.
+inline constexpr std::string_view report_style = R"css(
+:root { color-scheme: light dark; --ink: #1b1b1a; --faint: #6b6a66; --line: #dcdbd6; --paper: #ffffff; --good: #1c7c3c;
+  --bad: #b3361b; --blue: #2a78d6; --orange: #d9591f; --grey: #a5a49f; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e9e8e4; --faint: #a3a29d; --line: #3c3b38; --paper: #181817; --good: #6cc98a; --bad: #ff8f73;
+    --blue: #6aa9f5; --orange: #ff9a66; --grey: #77766f; } }
+@media print { :root { color-scheme: light; --ink: #000000; --faint: #444444; --line: #bbbbbb; --paper: #ffffff;
+  --good: #00551c; --bad: #8a1d06; --blue: #1d5cab; --orange: #b3400b; --grey: #999999; }
+  section { break-inside: avoid; } }
+body { font: 15px/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); max-width: 60em;
+  margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; margin-bottom: 0; }
+h2 { font-size: 1.15em; margin: 2em 0 0.5em; border-bottom: 1px solid var(--line); }
+p.faint, figcaption, td.faint { color: var(--faint); }
+p.good, p.attention { font-size: 1.1em; border-left: 4px solid var(--good); padding-left: 0.7em; }
+p.attention { border-color: var(--bad); }
+table { border-collapse: collapse; margin: 0.5em 0; }
+th, td { text-align: left; vertical-align: top; padding: 0.15em 1.4em 0.15em 0; border-bottom: 1px solid var(--line); }
+th { font-weight: 600; }
+data { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
+figure { margin: 1em 0; }
+svg { width: 100%; height: auto; font: 12px system-ui, sans-serif; }
+svg text { fill: var(--ink); }
+.grid { stroke: var(--line); stroke-width: 1; }
+.axis { stroke: var(--ink); stroke-width: 1; }
+.curve { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
+.blue { stroke: var(--blue); }
+.orange { stroke: var(--orange); }
+.grey { stroke: var(--grey); stroke-width: 4; }
+.ink { stroke: var(--ink); }
+.bar { display: inline-block; height: 0.7em; background: var(--blue); print-color-adjust: exact; }
+summary { cursor: pointer; color: var(--faint); }
+)css";
+
+}  // namespace abut::run

@@ -1,0 +1,249 @@
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "abut/run/report/markup.hpp"
+#include "abut/run/report/plot.hpp"
+#include "abut/run/report/report.hpp"
+#include "abut/run/report/ticks.hpp"
+#include "abut/run/result_files.hpp"
+#include "abut/run/simulation.hpp"
+#include "abut/run/summary.hpp"
+#include "abut/run/warnings.hpp"
+#include "run/folder.hpp"
+#include "run/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using Catch::Contains;
+using nlohmann::json;
+
+/// A document as XML: a strict parser takes it or not.
+vtkSmartPointer<vtkXMLDataElement> parsed(const std::string& text) {
+    const std::string doctype = "<!DOCTYPE html>";
+    REQUIRE(text.starts_with(doctype));
+    auto root =
+        vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str() + doctype.size()));
+    REQUIRE(root);
+    return root;
+}
+
+/// Texts of all elements of a tag, in order, and what its attribute says where one is named.
+void collect(vtkXMLDataElement* element, const std::string& tag, const char* attribute, std::vector<std::string>& texts) {
+    if (tag == element->GetName()) {
+        const char* text = attribute ? element->GetAttribute(attribute) : element->GetCharacterData();
+        texts.emplace_back(text ? text : "");
+    }
+    for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
+        collect(element->GetNestedElement(i), tag, attribute, texts);
+}
+
+std::vector<std::string> all(vtkXMLDataElement* root, const std::string& tag, const char* attribute = nullptr) {
+    std::vector<std::string> texts;
+    collect(root, tag, attribute, texts);
+    return texts;
+}
+
+/// The figures of a report by their place in the summary.
+std::map<std::string, json> figures(vtkXMLDataElement* root) {
+    std::map<std::string, json> result;
+    const auto ids = all(root, "data", "id"), values = all(root, "data", "value");
+    for (std::size_t i = 0; i < ids.size(); ++i) result[ids[i]] = json::parse(values[i]);
+    CHECK(result.size() == ids.size());  // each place once
+    return result;
+}
+
+json at_path(const json& summary, std::string path) {
+    std::ranges::replace(path, '.', '/');
+    return summary.at(json::json_pointer("/" + path));
+}
+
+struct Finished {
+    run::Scene<2> scene;
+    run::RunResult<2> result;
+};
+
+Finished finished(run::RunOptions options = {}, run::Scene<2> scene = test::block_on_plane(0.01)) {
+    auto result = run::simulate<2>(scene, options);
+    return {std::move(scene), std::move(result)};
+}
+
+std::string report_of(const Finished& run, const std::string& program = "mine") {
+    return run::report_html(program, run.scene, run.result, {{"summary.json", "all figures"}});
+}
+
+}  // namespace
+
+TEST_CASE("a report holds the figures of its summary, each at its place", "[run][report]") {
+    Finished run = finished();
+    run.result.findings = {{"bounce", "how it bounces [-]", 0.75}, {"unknown", "not known [m]", {}}};
+    const json summary = json::parse(run::summary_json("mine", run.scene, run.result));
+    const auto root = parsed(report_of(run));
+    const auto held = figures(root);
+    for (const auto& [path, value] : held) {
+        CAPTURE(path);
+        CHECK(value == at_path(summary, path));
+    }
+    for (const char* path : {"pseudo_energy_drift",
+                             "energy_drift",
+                             "energy_excess_max",
+                             "parasitic_max",
+                             "events",
+                             "lost_contacts",
+                             "steps",
+                             "dt",
+                             "cells",
+                             "bodies.0.name",
+                             "bodies.0.mass",
+                             "bodies.0.velocity_final",
+                             "bodies.0.rotation_final",
+                             "compression_max",
+                             "seconds.total",
+                             "seconds.contact",
+                             "options.cfl",
+                             "options.skin",
+                             "bounce",
+                             "unknown"})
+        CHECK(held.contains(path));
+    CHECK(held.at("pseudo_energy_drift") == run.result.ledger.pseudo_energy_drift());
+    const auto texts = all(root, "data");
+    CHECK(std::ranges::count(texts, "0.75") == 1);
+}
+
+TEST_CASE("a report is a page by itself: no script, nothing from elsewhere", "[run][report]") {
+    const std::string text = report_of(finished());
+    for (const char* never : {"<script", "src=", "@import", "url(", "javascript:"}) CHECK_THAT(text, !Contains(never));
+    const auto root = parsed(text);
+    CHECK(all(root, "a", "href") == std::vector<std::string>{"./summary.json"});
+    for (const std::string tag : {"svg", "path", "line", "html"})
+        for (const auto& space : all(root, tag, "xmlns"))
+            CHECK((space.empty() || space.starts_with("http://www.w3.org/")));  // names, which nobody fetches
+}
+
+TEST_CASE("whatever a run is called, its report is well-formed and says it", "[run][report]") {
+    const std::string name = "<b>&\"'</title> \xC3\xA9";
+    Finished run = finished();
+    run.scene.mesh.body_names[0] = name;
+    const auto root = parsed(run::report_html(name, run.scene, run.result, {{"a b#%.csv", name}}));
+    CHECK(all(root, "h1") == std::vector<std::string>{name});
+    CHECK(figures(root).at("bodies.0.name") == name);
+    const auto texts = all(root, "data");
+    CHECK(std::ranges::count(texts, name) == 1);
+    CHECK(all(root, "a", "href") == std::vector<std::string>{"./a%20b%23%25.csv"});
+    CHECK(run::Markup("\x01\x1F\t").html() == "\xEF\xBF\xBD\xEF\xBF\xBD\t");  // what XML has no place for
+}
+
+TEST_CASE("a report says whether the run came to its end, and all that warns", "[run][report]") {
+    Finished run = finished();
+    CHECK_THAT(report_of(run), Contains("came to its end") && Contains("class=\"good\"") && !Contains("<ul class"));
+    run.result.complete = false;
+    CHECK_THAT(report_of(run), Contains("asked to stop at t = ") && Contains("class=\"attention\""));
+    run.result.complete = true;
+    run.result.contact.missed_contacts = 3;
+    run.result.contact.sliding_ratio_max = 7.0;
+    const auto root = parsed(report_of(run));
+    const auto items = all(root, "li");
+    const auto warnings = run::warnings_after(run.result);
+    REQUIRE(warnings.size() >= 2);
+    for (const auto& warning : warnings) CHECK(std::ranges::count(items, warning.text) == 1);
+    CHECK_THAT(report_of(run), Contains("3 contacts were missed") && Contains("2 warnings."));
+}
+
+TEST_CASE("settings that are not as by default come with their default", "[run][report]") {
+    const auto row_of = [](const std::string& text, const std::string& setting) {
+        const auto begin = text.find("<tr><td>" + setting + "</td>");
+        REQUIRE(begin != std::string::npos);
+        return text.substr(begin, text.find("</tr>", begin) - begin);
+    };
+    const std::string plain = report_of(finished()), changed = report_of(finished({.cfl = 0.5}));
+    const auto details = [](const std::string& text) { return text.find("<details>"); };
+    CHECK(plain.find("<td>cfl</td>") > details(plain));
+    CHECK(changed.find("<td>cfl</td>") < details(changed));
+    CHECK_THAT(row_of(changed, "cfl"), Contains(">0.5</data>") && Contains("<td>0.9</td>"));
+}
+
+TEST_CASE("a run leaves its report beside the summary, and the next one removes it first", "[run][report]") {
+    const test::Folder folder;
+    const run::RunOptions options{.out = folder.path() / "out", .frames = 2};
+    const run::Scene<2> scene = test::block_on_plane(0.01);
+    run::ResultFiles<2> files(options, "mine", "block");
+    run::RunResult<2> result = run::simulate<2>(scene, options, files);
+    files.finish(scene, result);
+    const auto root = parsed(test::read_text(options.out / "report.html"));
+    for (const std::string& file : all(root, "a")) CHECK(std::filesystem::exists(options.out / file));
+    CHECK(all(root, "a").size() >= 4);
+    const auto summary = json::parse(test::read_text(options.out / "summary.json"));
+    for (const auto& [path, value] : figures(root)) CHECK(value == at_path(summary, path));
+    const run::ResultFiles<2> next(options, "mine", "block");
+    CHECK_FALSE(std::filesystem::exists(options.out / "report.html"));
+}
+
+TEST_CASE("ticks are 1, 2 or 5 times a power of ten apart and within the axis", "[run][report]") {
+    const auto [least, greatest] =
+        GENERATE(table<double, double>({{0.0, 1.0}, {-3e-7, 1e-7}, {1e6, 1.5e6}, {0.0, 7.3}, {2.0, 2.0}, {0.0, 0.0}}));
+    CAPTURE(least, greatest);
+    const run::Axis axis = run::linear_axis(least, greatest, 8);
+    CHECK(axis.lower <= least);
+    CHECK(axis.upper >= greatest);
+    REQUIRE(axis.ticks.size() >= 2);
+    CHECK(axis.ticks.size() <= 8);
+    const double step = axis.ticks[1].at - axis.ticks[0].at;
+    const double factor = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    CHECK(std::min({std::abs(factor - 1.0), std::abs(factor - 2.0), std::abs(factor - 5.0)}) < 1e-6);
+    for (const run::Tick& tick : axis.ticks) {
+        CHECK(axis.share(tick.at) >= 0.0);
+        CHECK(axis.share(tick.at) <= 1.0);
+        CHECK(std::stod(tick.label) == Approx(tick.at).epsilon(1e-5).margin(1e-5 * step));
+    }
+}
+
+TEST_CASE("a logarithmic axis ends at whole decades, and zero is at its lower end", "[run][report]") {
+    const run::Axis axis = run::logarithmic_axis(3e-16, 2e-4, 1e-18, 7);
+    CHECK(axis.lower == Approx(1e-16));
+    CHECK(axis.upper == Approx(1e-3));
+    CHECK(axis.ticks.size() <= 8);
+    CHECK(axis.share(std::sqrt(1e-16 * 1e-3)) == Approx(0.5));
+    CHECK(axis.share(0.0) == 0.0);
+    CHECK(axis.share(-1.0) == 0.0);
+    CHECK(run::logarithmic_axis(0.0, 0.0, 1e-18, 7).lower == Approx(1e-18));
+}
+
+TEST_CASE("a curve of a million points is drawn by few, its greatest and least values among them", "[run][report]") {
+    std::vector<double> x(1000000), y(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = static_cast<double>(i), y[i] = std::sin(1e-3 * x[i]);
+    y[123456] = 7.0;
+    y[654321] = -7.0;
+    const auto kept = run::thinned(x, y, 500);
+    CHECK(kept.size() <= 2000);
+    CHECK(std::ranges::is_sorted(kept));
+    for (const std::size_t i : {0, 123456, 654321, 999999}) CHECK(std::ranges::count(kept, i) == 1);
+}
+
+TEST_CASE("places on a drawing are proportional to values, and a gap interrupts a curve", "[run][report]") {
+    const run::Plot plot{.title = "t",
+                         .x_label = "x",
+                         .y_label = "y",
+                         .x = {0.0, 1.0, 2.0, 3.0},
+                         .curves = {{"c", "ink", {0.0, 1.0, std::nan(""), 3.0}}}};
+    const auto root = parsed("<!DOCTYPE html>" + run::drawing(plot).html());
+    std::string path = all(root, "path", "d").at(0);
+    CHECK(std::ranges::count(path, 'M') == 2);
+    for (char& c : path) c = c == 'M' || c == 'L' || c == ',' ? ' ' : c;
+    std::istringstream numbers(path);
+    std::vector<double> places;
+    for (double value = 0.0; numbers >> value;) places.push_back(value);
+    REQUIRE(places.size() == 6);
+    CHECK(places[4] - places[0] == Approx(3.0 * (places[2] - places[0])).margin(0.2));
+    CHECK(places[5] - places[1] == Approx(3.0 * (places[3] - places[1])).margin(0.2));
+    CHECK(places[5] < places[1]);  // upwards
+}
