@@ -225,7 +225,7 @@ run::Scene<Dim> two_cylinders(const CylinderOptions& options) {
 }
 
 int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
-    const Program program{
+    Program program{
         .name = cylinders.program,
         .purpose = cylinders.purpose,
         .series = "cylinders",
@@ -243,6 +243,7 @@ int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
         add_time_options(app, options, fmt::format("the approach and {:g} R/sqrt(E/rho)", default_crossings));
         add_contact_options(app, options);
         add_output_options(app, options);
+        add_message_options(app, program.messages);
     };
     return run_program(program, argc, argv, add_options, [&] {
         fill_defaults(scene, cylinders.offset_over_radius);

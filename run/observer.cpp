@@ -1,9 +1,6 @@
 #include "abut/run/observer.hpp"
 
 #include <algorithm>
-#include <string>
-
-#include "abut/base/error.hpp"
 
 namespace abut::run {
 
@@ -40,15 +37,11 @@ void Observers<Dim>::keep(const Checkpoint& checkpoint) {
 
 template <int Dim>
 void Observers<Dim>::save(StateWriter& state) const {
-    state.put(static_cast<std::int32_t>(observers_.size()));
     for (const Observer<Dim>& observer : observers_) observer.save(state);
 }
 
 template <int Dim>
 void Observers<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
-    if (const auto n = state.get<std::int32_t>(); n != static_cast<std::int32_t>(observers_.size()))
-        throw BadInput("a checkpoint of " + std::to_string(n) + " observers cannot be gone on from with " +
-                       std::to_string(observers_.size()) + ". Give those of the run that was stopped.");
     for (Observer<Dim>& observer : observers_) observer.resume(scene, result, state);
 }
 

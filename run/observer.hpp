@@ -54,7 +54,6 @@ public:
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
     void save(StateWriter& state) const override;
-    /// Throws BadInput if the state is one of another number of observers.
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
 
 private:

@@ -32,6 +32,7 @@ struct StripOptions {
     int cells = 100;
     double eta = 0.0;  // [Pa], 0: E
     run::RunOptions run{.steps = 10'000, .filter = true, .out = "out/" + program.name, .interval = 100};
+    apps::Messages messages = apps::Messages::normal;
 };
 
 void add_options(CLI::App& app, StripOptions& options) {
@@ -42,6 +43,7 @@ void add_options(CLI::App& app, StripOptions& options) {
     apps::add_time_options(app, options.run, "--steps decides");
     apps::add_compression_limit(app, options.run);
     apps::add_output_options(app, options.run);
+    apps::add_message_options(app, options.messages);
 }
 
 /// Impulses of the wall, one per impact: contacts belong together that are apart by less than a wave takes through the bar.
@@ -108,7 +110,11 @@ int main(int argc, char** argv) {
     // Only the foot of the bar faces the wall: a thick skin costs nothing and lasts long.
     options.run.contact.search.skin = 0.1 * the_bar.length;
     Impacts impacts;
+    apps::Program named = program;
     return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); },
-        [&] { apps::run_scene<2>(program, options.run, [&] { return bar(options, impacts); }); });
+        named, argc, argv, [&](CLI::App& app) { add_options(app, options); },
+        [&] {
+            named.messages = options.messages;
+            apps::run_scene<2>(named, options.run, [&] { return bar(options, impacts); });
+        });
 }

@@ -33,13 +33,14 @@ struct CommandLine {
     int threads = 0;
     std::vector<std::string> set;
     run::RunOptions options;
+    Messages messages = Messages::normal;
     CLI::App* run = nullptr;
     CLI::App* check = nullptr;
     CLI::App* restart = nullptr;
     CLI::App* make = nullptr;
 };
 
-const Program program{
+const Program abut_program{
     .name = "abut",
     .purpose = "Runs scenes of deformable bodies in contact that are written in TOML.",
     .series = "bodies",
@@ -65,6 +66,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     app.require_subcommand(1);
     line.run = app.add_subcommand("run", "runs a scene; options stand above its values");
     add_scene_options(*line.run, line);
+    add_message_options(*line.run, line.messages);
     line.check = app.add_subcommand("check", "says all that is wrong with a scene, or what a run of it would take");
     add_scene_options(*line.check, line);
     line.restart = app.add_subcommand("restart", "goes on with a run that was stopped or killed, from its last checkpoint");
@@ -72,6 +74,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
         ->required()
         ->type_name("DIR");
     add_count(*line.restart, "--threads", line.threads, "threads; 0: as the run had. The results do not depend on it", 0);
+    add_message_options(*line.restart, line.messages);
     line.make = app.add_subcommand("new", "writes a commented scene to start from");
     line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
     app.add_subcommand("keys", "prints all keys of a scene");
@@ -99,7 +102,7 @@ input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
             }};
 }
 
-void run_file(const fs::path& path, const input::Overrides& overrides, const Restart& restart) {
+void run_file(const Program& program, const fs::path& path, const input::Overrides& overrides, const Restart& restart) {
     const input::SceneFile file(path, overrides);
     Program named = program;
     named.name = file.name();
@@ -111,7 +114,7 @@ void run_file(const fs::path& path, const input::Overrides& overrides, const Res
 }
 
 /// The command line of the run is read once more.
-void restart_run(const fs::path& results, int threads) {
+void restart_run(const Program& program, const fs::path& results, int threads) {
     const Restart restart = read_restart(results);
     std::vector<char*> words;
     std::vector<std::string> arguments = restart.arguments;
@@ -128,7 +131,7 @@ void restart_run(const fs::path& results, int threads) {
         of_run.resume = true;
         if (threads > 0) of_run.threads = threads;
     };
-    run_file(scene_for_restart(results), over, restart);
+    run_file(program, scene_for_restart(results), over, restart);
 }
 
 void check_file(const fs::path& path, const input::Overrides& overrides) {
@@ -151,12 +154,14 @@ void write_new_scene(fs::path path) {
 
 int run_abut(int argc, char** argv) {
     CommandLine line;
+    Program program = abut_program;
     const auto add_options = [&](CLI::App& app) { add_commands(app, line); };
     return run_program(program, argc, argv, add_options, [&] {
+        program.messages = line.messages;
         if (line.run->parsed())
-            run_file(line.scene, overrides(argc, argv, line), {fs::absolute(line.scene), {argv, argv + argc}});
+            run_file(program, line.scene, overrides(argc, argv, line), {fs::absolute(line.scene), {argv, argv + argc}});
         else if (line.restart->parsed())
-            restart_run(line.results, line.threads);
+            restart_run(program, line.results, line.threads);
         else if (line.check->parsed())
             check_file(line.scene, overrides(argc, argv, line));
         else if (line.make->parsed())

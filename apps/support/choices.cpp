@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
+
+#include "apps/support/terminal.hpp"
 
 namespace abut::apps {
 namespace {
@@ -99,8 +102,10 @@ std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
     const std::string& by_default = option->get_default_str();
-    return by_default.empty() ? option->get_description()
-                              : fmt::format("{} (default {})", option->get_description(), by_default);
+    const std::string text = by_default.empty() ? option->get_description()
+                                                : fmt::format("{} (default {})", option->get_description(), by_default);
+    const auto width = terminal_width(STDOUT_FILENO);
+    return width && *width > 2 * get_column_width() ? wrapped(text, *width - get_column_width()) : text;
 }
 
 std::string shown(double value) { return fmt::format("{:g}", value); }

@@ -1,16 +1,34 @@
 #include "apps/support/log.hpp"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <algorithm>
 
+#include "apps/support/terminal.hpp"
+
 namespace abut::apps {
+namespace {
+
+constexpr std::size_t time_width = 11;  // "[12:34:56] " before each line of the log
+
+/// As long lines as the terminal has, those that follow beneath the text of the first.
+std::string beside_time(const std::string& text) {
+    const auto width = terminal_width(STDOUT_FILENO);
+    if (!width || *width < 3 * time_width) return text;
+    std::string lines = wrapped(text, *width - time_width);
+    for (std::size_t end = lines.find('\n'); end != std::string::npos; end = lines.find('\n', end + 1))
+        lines.insert(end + 1, time_width, ' ');
+    return lines;
+}
+
+}  // namespace
 
 void log_warnings(const std::vector<run::Warning>& warnings, const std::string& run) {
     const std::string prefix = run.empty() ? "" : run + ": ";
     for (const run::Warning& warning : warnings)
-        spdlog::log(warning.severity == run::Severity::note ? spdlog::level::info : spdlog::level::warn, "{}{}", prefix,
-                    warning.text);
+        spdlog::log(warning.severity == run::Severity::note ? spdlog::level::info : spdlog::level::warn, "{}",
+                    beside_time(prefix + warning.text));
 }
 
 std::vector<run::Warning> only(std::vector<run::Warning> warnings, std::initializer_list<run::WarningKind> kinds) {

@@ -3,29 +3,35 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <exception>
 #include <memory>
 
 #include "apps/support/choices.hpp"
+#include "apps/support/json_lines.hpp"
 #include "apps/support/signals.hpp"
+#include "apps/support/terminal.hpp"
 
 namespace abut::apps {
 namespace {
 
 std::string message_of(const CLI::App* app, const CLI::Error& error) {
-    return fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what());
+    return for_terminal(fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what()),
+                        STDERR_FILENO);
 }
 
-int report_errors(const std::string& name, const std::function<void()>& body) {
+int report_errors(const Program& program, const std::function<void()>& body) {
     try {
-        spdlog::set_default_logger(spdlog::stdout_color_mt(name));
+        spdlog::set_default_logger(spdlog::stdout_color_mt(program.name));
         spdlog::set_pattern("[%T] %v");
+        if (program.messages != Messages::normal) spdlog::set_level(spdlog::level::off);
         body();
         return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}: error: {}\n", name, error.what());
+        fmt::print(stderr, "{}", for_terminal(fmt::format("{}: error: {}\n", program.name, error.what()), STDERR_FILENO));
+        if (program.messages == Messages::json) json_error(error, 1);
         return 1;
     }
 }
@@ -37,14 +43,14 @@ int run_program(const Program& program, int argc, char** argv, const std::functi
     CLI::App app(program.purpose, program.name);
     app.formatter(std::make_shared<HelpFormatter>());
     app.failure_message(message_of);
-    app.footer(program.footer);
+    app.footer(for_terminal(program.footer, STDOUT_FILENO));
     add_options(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 1;
     }
-    return report_errors(program.name, body);
+    return report_errors(program, body);
 }
 
 }  // namespace abut::apps

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/support/messages.hpp"
+
 namespace abut::apps {
 
 /// What a program is called and what it leaves behind.
@@ -16,11 +18,13 @@ struct Program {
     std::string footer;   ///< ends --help
     /// Files that a restart needs, name and text: run::ResultFiles::keep_beside_checkpoints.
     std::vector<std::pair<std::string, std::string>> beside_checkpoints{};
+    Messages messages = Messages::normal;  ///< while it runs a scene
 };
 
 /// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either
 /// fails; 0 after --help or a good end; 130 or 143 if SIGINT or SIGTERM were noted (StopSignals) and `body` ended well. A
-/// command line that cannot be read touches no file.
+/// command line that cannot be read touches no file. `program` is read again once the command line is: `messages` may be an
+/// option.
 int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
                 const std::function<void()>& body);
 

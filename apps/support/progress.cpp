@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::chrono::milliseconds between_lines{100};
 
-std::string duration(double seconds) {
-    if (seconds < 100.0) return fmt::format("{:.1f} s", seconds);
-    return fmt::format("{} min {:02} s", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
-}
-
 /// The first step after `step` that ends a tenth of all.
 std::int64_t next_tenth(std::int64_t step, std::int64_t n_steps) {
     const std::int64_t tenths = step * 10 / n_steps + 1;
@@ -27,6 +22,7 @@ std::int64_t next_tenth(std::int64_t step, std::int64_t n_steps) {
 
 Progress::Progress(std::int64_t n_steps)
     : n_steps_(n_steps),
+      time_left_(n_steps),
       terminal_(isatty(STDOUT_FILENO) == 1),
       next_step_(next_tenth(0, n_steps)),
       start_(Clock::now()),
@@ -40,12 +36,12 @@ Progress::~Progress() {
 
 void Progress::show(std::int64_t step, double time, double drift) {
     const auto now = Clock::now();
+    time_left_.add(step, std::chrono::duration<double>(now - start_).count());
     const bool due = terminal_ ? step == n_steps_ || now - last_ >= between_lines : step >= next_step_;
     if (!due) return;
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const double left = elapsed * static_cast<double>(n_steps_ - step) / static_cast<double>(step);
-    const std::string line = fmt::format("step {:>{}}/{}  t = {:.4g} s  energy drift {:.1e}  {} left", step,
-                                         std::to_string(n_steps_).size(), n_steps_, time, drift, duration(left));
+    const std::string line =
+        fmt::format("step {:>{}}/{}  t = {:.4g} s  energy drift {:.1e}  {} left", step, std::to_string(n_steps_).size(),
+                    n_steps_, time, drift, duration(time_left_.seconds()));
     last_ = now;
     next_step_ = next_tenth(step, n_steps_);
     line_open_ = terminal_;

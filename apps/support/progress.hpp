@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "abut/run/observer.hpp"
+#include "apps/support/time_left.hpp"
 
 namespace abut::apps {
 
@@ -22,6 +23,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::int64_t n_steps_;
+    TimeLeft time_left_;
     bool terminal_;
     bool line_open_ = false;
     std::int64_t next_step_;

@@ -14,6 +14,7 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
+#include "apps/support/json_lines.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
 #include "apps/support/signals.hpp"
@@ -26,11 +27,13 @@ using oneapi::tbb::global_control;
 /// A run that fails says what is left of it.
 template <int Dim>
 run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene<Dim>& scene, const run::RunOptions& options,
-                                  const run::Checkpoint* from) {
+                                  const run::Checkpoint* from, Messages messages, JsonLines<Dim>& lines) {
     RunLog<Dim> log;
     ShowProgress<Dim> progress;
     StopOnSignal<Dim> stop;
-    run::Observers<Dim> observers{log, files, progress, stop};
+    run::Observers<Dim> observers{files, stop};
+    if (messages == Messages::normal) observers = {log, files, progress, stop};
+    if (messages == Messages::json) observers = {lines, files, stop};
     const auto with_rest = [&](const char* what) {
         return what + std::string(files.has_begun() ? " energy.csv.partial holds the records so far." : "");
     };
@@ -79,13 +82,16 @@ void run_scene(const Program& program, const run::RunOptions& options, const std
     double seconds = 0.0;
     const run::Scene<Dim> scene = timed_scene(make_scene, seconds);
     const StopSignals signals;  // from here on there is something to save
-    run::RunResult<Dim> result = simulate_into(files, scene, options, from ? &*from : nullptr);
+    JsonLines<Dim> lines(program.name);
+    run::RunResult<Dim> result = simulate_into(files, scene, options, from ? &*from : nullptr, program.messages, lines);
     if (!result.complete)
         spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then{}",
                      name_of_signal(noted_signal()), result.steps, how_to_go_on(options));
     result.seconds.mesh = seconds;
     result.seconds.total += seconds;
     files.finish(scene, result);
+    if (program.messages == Messages::json) lines.end(result, noted_signal() == 0 ? 0 : exit_code_of(noted_signal()));
+    if (program.messages != Messages::normal) return;
     log_warnings(run::warnings_after(result));
     fmt::print("{}{}", run::closing_table(program.name, scene, result), files.table());
 }

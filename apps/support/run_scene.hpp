@@ -7,8 +7,8 @@
 
 namespace abut::apps {
 
-/// The body of a program that runs a scene: makes it, runs it with log and progress, leaves the files of run::ResultFiles
-/// in `options.out` and prints the closing table. Results of an earlier run there are removed before options are checked
+/// The body of a program that runs a scene: makes it, runs it with log and progress or as `program.messages` has it, leaves the
+/// files of run::ResultFiles in `options.out` and prints the closing table. Results of an earlier run there are removed before options are checked
 /// together and the scene is made. Throws std::exception with place, value, limit and remedy: folder not writable or taken
 /// by another run, unusable mesh, bodies that overlap, time step above the stable one, divergence. No energy.csv and no
 /// summary.json is left then. From when the scene is made on, SIGINT and SIGTERM end the run after its present step, and

@@ -18,9 +18,10 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --corners --eta --filter --restart "
      "--integrator "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
-     "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine"},
+     "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --quiet --json"},
     {"rebounding_cylinders", "--dim --offset --out"},
-    {"bouncing_strip", "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames"},
+    {"bouncing_strip",
+     "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames --quiet --json"},
     {"bouncing_bar",
      "--cells --gravity --cfl --steps --integrator --gauge --parts --fast --filter --patch --restart --out --interval"},
     {"bar_impact", "--body --cells --cfl --filter --out --overlap --weights --neumann --skin"},

@@ -1,0 +1,16 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace abut::apps {
+
+/// What a program says while it runs a scene. Errors are on standard error in any case.
+enum class Messages {
+    normal,  ///< log, progress and a table at the end
+    quiet,   ///< nothing
+    json,    ///< lines of JSON: JsonLines
+};
+
+/// --quiet and --json, of which one at most is taken.
+void add_message_options(CLI::App& app, Messages& messages);
+
+}  // namespace abut::apps
