@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "abut/base/error.hpp"
+#include "abut/run/paraview_script.hpp"
 
 namespace abut::run {
 namespace {
@@ -47,7 +48,8 @@ void remove_result(const fs::path& path) {
 }  // namespace
 
 const std::vector<std::string>& plain_results() {
-    static const std::vector<std::string> names{"summary.json", "report.html", "energy.csv", "energy.png", "energy.gp"};
+    static const std::vector<std::string> names{"summary.json", "report.html", "energy.csv",
+                                                "energy.png",   "energy.gp",   paraview_script_name};
     return names;
 }
 

@@ -7,6 +7,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/run/energy_picture.hpp"
 #include "abut/run/files.hpp"
+#include "abut/run/paraview_script.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/table_line.hpp"
 
@@ -110,6 +111,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     }
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
+    if (frames_) write_whole(out_ / paraview_script_name, paraview_script(name_));
     write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report()));
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
     if (result.complete) checkpoints_.remove(texts_beside);
@@ -124,6 +126,7 @@ std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
     if (frames_) {
         files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
         files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
+        files.push_back({paraview_script_name, "opens both: paraview --script=" + std::string(paraview_script_name)});
     }
     return files;
 }

@@ -17,8 +17,8 @@
 namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png,
-/// report.html and summary.json; in `checkpoints`, what a run that is stopped goes on from. The folder is its own (FolderLock)
-/// until `finish`, or until it goes.
+/// the script for ParaView, report.html and summary.json; in `checkpoints`, what a run that is stopped goes on from. The folder
+/// is its own (FolderLock) until `finish`, or until it goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
 ///     run::ResultFiles<2> files(options, "mine", "bodies");

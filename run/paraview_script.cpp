@@ -1,0 +1,55 @@
+#include "abut/run/paraview_script.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace abut::run {
+namespace {
+
+constexpr const char* script = R"py("""Opens the results beside this file in ParaView: paraview --script=view_in_paraview.py
+
+Left the von Mises stress of the cells, right the contact pressure on the boundary, both on bodies as they have moved.
+"""
+import os
+
+from paraview import simple
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+SERIES = {}
+
+
+def show(view, file_name, field):
+    """Shows a series, warped by its displacement and coloured by a field of its cells."""
+    reader = simple.PVDReader(FileName=os.path.join(FOLDER, file_name))
+    moved = simple.WarpByVector(Input=reader, Vectors=["POINTS", "displacement"], ScaleFactor=1.0)
+    display = simple.Show(moved, view)
+    simple.ColorBy(display, ("CELLS", field))
+    display.RescaleTransferFunctionToDataRangeOverTime()
+    display.SetScalarBarVisibility(view, True)
+
+
+layout = simple.CreateLayout("Abut")
+stress = simple.CreateView("RenderView")
+pressure = simple.CreateView("RenderView")
+simple.AssignViewToLayout(view=stress, layout=layout)
+layout.SplitViewHorizontal(stress, 0.5)
+simple.AssignViewToLayout(view=pressure, layout=layout)
+show(stress, SERIES + ".pvd", "von Mises [Pa]")
+show(pressure, SERIES + "_surface.pvd", "contact pressure [Pa]")
+for view in (stress, pressure):
+    simple.ResetCamera(view)
+simple.AddCameraLink(stress, pressure, "both")
+simple.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
+simple.RenderAllViews()
+)py";
+
+}  // namespace
+
+std::string paraview_script(const std::string& series) {
+    std::string text = script;
+    const std::string empty = "SERIES = {}";
+    return text.replace(text.find(empty), empty.size(), "SERIES = " + nlohmann::json(series).dump(-1, ' ', true));
+}
+
+}  // namespace abut::run
