@@ -14,7 +14,10 @@
 #include "abut/input/check.hpp"
 #include "abut/input/grammar.hpp"
 #include "abut/input/scene_file.hpp"
+#include "apps/abut/asked.hpp"
+#include "apps/abut/build_info.hpp"
 #include "apps/abut/restart.hpp"
+#include "apps/detect/detect.hpp"
 #include "apps/support/preset.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
@@ -38,15 +41,19 @@ struct CommandLine {
     CLI::App* check = nullptr;
     CLI::App* restart = nullptr;
     CLI::App* make = nullptr;
+    CLI::App* keys = nullptr;
+    CLI::App* detect = nullptr;
+    Asked asked;
+    DetectOptions detection;
 };
 
-const Program abut_program{
-    .name = "abut",
-    .purpose = "Runs scenes of deformable bodies in contact that are written in TOML.",
-    .series = "bodies",
-    .footer =
-        "abut run --help lists the options of a run. Units are SI. Exit codes: 0 good, 1 an error, with its message, 130 "
-        "or 143 ended by SIGINT or SIGTERM."};
+const Program abut_program{.name = "abut",
+                           .purpose = "Runs scenes of deformable bodies in contact that are written in TOML.",
+                           .series = "bodies",
+                           .footer =
+                               "abut run --help lists the options of a run, abut help the topics. Units are SI. Exit codes: "
+                               "0 good, 1 an error, with "
+                               "its message, 130 or 143 ended by SIGINT or SIGTERM."};
 
 void add_scene_options(CLI::App& command, CommandLine& line) {
     command.add_option("scene", line.scene, "the scene, a TOML file")->required()->type_name("FILE");
@@ -62,7 +69,7 @@ void add_scene_options(CLI::App& command, CommandLine& line) {
 }
 
 void add_commands(CLI::App& app, CommandLine& line) {
-    app.set_version_flag("--version", std::string("abut " ABUT_VERSION));
+    app.set_version_flag("--version", version_text());
     app.require_subcommand(1);
     line.run = app.add_subcommand("run", "runs a scene; options stand above its values");
     add_scene_options(*line.run, line);
@@ -77,7 +84,11 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_message_options(*line.restart, line.messages);
     line.make = app.add_subcommand("new", "writes a commented scene to start from");
     line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
-    app.add_subcommand("keys", "prints all keys of a scene");
+    line.keys = app.add_subcommand("keys", "prints all keys of a scene");
+    line.detect = app.add_subcommand("detect", "finds which faces of bodies lie opposite each other, and how near");
+    line.detect->footer(detect_program.footer);
+    add_options(*line.detect, line.detection);
+    add_asked(app, line.asked);
 }
 
 /// Of two options that exclude each other on the command line the one of the scene goes.
@@ -166,8 +177,12 @@ int run_abut(int argc, char** argv) {
             check_file(line.scene, overrides(argc, argv, line));
         else if (line.make->parsed())
             write_new_scene(line.new_file);
-        else
+        else if (line.keys->parsed())
             fmt::print("{}", input::grammar());
+        else if (line.detect->parsed())
+            detect(line.detection);
+        else
+            fmt::print("{}", answer(line.asked));
     });
 }
 

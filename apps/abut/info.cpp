@@ -1,0 +1,157 @@
+#include "apps/abut/info.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "abut/base/error.hpp"
+#include "abut/input/scene_file.hpp"
+#include "abut/mesh/cell_shape.hpp"
+#include "abut/mesh/io/read_mesh.hpp"
+#include "abut/mesh/io/read_surface.hpp"
+#include "abut/mesh/quality.hpp"
+#include "apps/abut/info_lines.hpp"
+#include "apps/abut/results_info.hpp"
+
+namespace abut::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class Points>
+std::string box_of(const Points& points) {
+    auto lower = points.front(), upper = points.front();
+    for (const auto& point : points) lower = lower.cwiseMin(point), upper = upper.cwiseMax(point);
+    return fmt::format("({:g}) to ({:g}) m", fmt::join(lower, ", "), fmt::join(upper, ", "));
+}
+
+std::string shapes_of(const mesh::MeshQuality& quality) {
+    std::vector<std::string> parts;
+    for (std::size_t shape = 0; shape < quality.n_cells_of.size(); ++shape)
+        if (quality.n_cells_of[shape] > 0)
+            parts.push_back(
+                fmt::format("{} {}", quality.n_cells_of[shape], mesh::name(static_cast<mesh::CellShape>(shape))));
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+template <int Dim>
+double measure_of_body(const mesh::Mesh<Dim>& mesh, std::int32_t body) {
+    double measure = 0.0;
+    for (std::size_t c = 0; c < mesh.cell_body.size(); ++c)
+        if (mesh.cell_body[c] == body) measure += mesh.cell_measure[c];
+    return measure;
+}
+
+/// Cells, sizes, shapes; not the bodies one by one.
+template <int Dim>
+std::string mesh_lines(const mesh::Mesh<Dim>& mesh) {
+    const mesh::MeshQuality quality = mesh::quality(mesh);
+    const auto cell = [&](std::int32_t index) { return mesh.cell_label[static_cast<std::size_t>(index)]; };
+    return info_line("cells", fmt::format("{}: {}", mesh.n_cells(), shapes_of(quality))) +
+           info_line("faces", fmt::format("{}, {} of them on the boundary", mesh.n_faces(), mesh.boundary_faces.size())) +
+           info_line("vertices", fmt::format("{}", mesh.vertices.size())) + info_line("box", box_of(mesh.vertices)) +
+           info_line("smallest cell",
+                     fmt::format("{:.4g} m^{}, cell {}", quality.smallest_measure, Dim, cell(quality.smallest_cell))) +
+           info_line("worst cell", fmt::format("aspect {:.3g} (1 is ideal), cell {}", quality.worst_aspect_ratio,
+                                               cell(quality.worst_cell)));
+}
+
+template <int Dim>
+std::string group_lines(const mesh::Mesh<Dim>& mesh) {
+    std::string text;
+    for (const auto& group : mesh.groups)
+        text += info_line(fmt::format("group '{}'", group.name), fmt::format("{} boundary faces", group.faces.size()));
+    return text;
+}
+
+template <int Dim>
+std::string mesh_info(const fs::path& path) {
+    const auto mesh = mesh::read_mesh<Dim>(path, {.non_planar = mesh::NonPlanarFaces::split});
+    std::string text = fmt::format("{}: a mesh in {}D\n", path.string(), Dim) + mesh_lines(mesh);
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
+        text += info_line(fmt::format("body '{}'", mesh.body_names[static_cast<std::size_t>(body)]),
+                          fmt::format("{} cells, {:.6g} m^{}", std::ranges::count(mesh.cell_body, body),
+                                      measure_of_body(mesh, body), Dim));
+    text += group_lines(mesh);
+    if (mesh.report.n_non_planar_faces > 0)
+        text +=
+            info_line("not planar", fmt::format("{} faces, by up to {:.2g} of their size: a run refuses them unless they "
+                                                "are split (non_planar = \"split\")",
+                                                mesh.report.n_non_planar_faces, mesh.report.worst_planarity));
+    for (const std::string& warning : mesh.report.warnings) text += info_line("warning", warning);
+    return text;
+}
+
+std::string surface_info(const fs::path& path) {
+    const mesh::SurfaceMesh surface = mesh::read_surface(path);
+    const auto health = geometry::check_surface(surface.soup());
+    std::string text = fmt::format("{}: a surface\n", path.string());
+    text += info_line("bodies", fmt::format("{}", fmt::join(surface.body_names, ", ")));
+    text += info_line("sound", health.sound() ? "yes" : "no: what is wrong is below");
+    for (const std::string& line : geometry::describe(surface.soup(), health)) text += info_line("", line);
+    for (const std::string& warning : surface.warnings) text += info_line("warning", warning);
+    return text;
+}
+
+/// Of a file that may hold any of them: what it does hold. If that is nothing, all reasons.
+std::string mesh_or_surface_info(const fs::path& path) {
+    struct Kind {
+        const char* name;
+        std::string (*info)(const fs::path&);
+    };
+    std::string reasons;
+    for (const Kind kind :
+         {Kind{"a mesh in 3D", mesh_info<3>}, {"a mesh in 2D", mesh_info<2>}, {"a surface", surface_info}}) {
+        try {
+            return kind.info(path);
+        } catch (const Error& error) {
+            reasons += fmt::format("\n  as {}: {}", kind.name, error.what());
+        }
+    }
+    throw BadInput(fmt::format("{}: it cannot be read{}", path.string(), reasons));
+}
+
+template <int Dim>
+std::string scene_info(const fs::path& path, const input::SceneFile& file) {
+    const run::Scene<Dim> scene = file.scene<Dim>();
+    std::string text = fmt::format("{}: a scene in {}D\n", path.string(), Dim) + mesh_lines(scene.mesh);
+    for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body) {
+        const auto b = static_cast<std::size_t>(body);
+        const double mass = scene.solid.materials[b].density * measure_of_body(scene.mesh, body);
+        const auto kinematics = scene.solid.kinematics.empty() ? solid::Kinematics::small : scene.solid.kinematics[b];
+        text +=
+            info_line(fmt::format("body '{}'", scene.mesh.body_names[b]),
+                      fmt::format("{} cells, {:.6g} kg, {}, at ({:g}) m/s", std::ranges::count(scene.mesh.cell_body, body),
+                                  mass, run::name_of(kinematics), fmt::join(scene.velocity[b], ", ")));
+    }
+    text += group_lines(scene.mesh);
+    text += info_line("obstacles", fmt::format("{}", scene.solid.obstacles.size()));
+    text += info_line("contact", scene.contact ? "on" : "off");
+    return text + fmt::format("`abut check {}` says what a run would take.\n", path.string());
+}
+
+std::string scene_info(const fs::path& path) {
+    const input::SceneFile file(path);
+    return file.dimension() == 2 ? scene_info<2>(path, file) : scene_info<3>(path, file);
+}
+
+}  // namespace
+
+std::string info(const fs::path& path) {
+    if (fs::is_directory(path)) return results_info(path);
+    if (!fs::exists(path)) throw BadInput(fmt::format("{}: there is no such file.", path.string()));
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".toml") return scene_info(path);
+    if (extension == ".msh" || extension == ".vtu") return mesh_or_surface_info(path);
+    for (const char* surface : {".stl", ".obj", ".off", ".ply", ".vtp"})
+        if (extension == surface) return surface_info(path);
+    throw BadInput(
+        fmt::format("{}: not a file that Abut knows. Give a scene (.toml), a mesh (.msh, .vtu), a surface (.stl, "
+                    ".obj, .off, .ply, .vtp) or a folder of results.",
+                    path.string()));
+}
+
+}  // namespace abut::apps

@@ -1,0 +1,12 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <string>
+
+namespace abut::apps {
+
+[[nodiscard]] inline std::string info_line(const std::string& name, const std::string& value) {
+    return fmt::format("  {:<18}{}\n", name, value);
+}
+
+}  // namespace abut::apps

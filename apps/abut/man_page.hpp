@@ -1,0 +1,21 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/abut/command_tree.hpp"
+#include "apps/abut/topics.hpp"
+
+namespace abut::apps {
+
+/// What a manual page begins with.
+struct ManPage {
+    std::string program;
+    std::string version;
+    std::string purpose;  ///< one sentence, with its full stop
+};
+
+/// The page as troff with the macros of man(7): commands with their options, then the topics.
+[[nodiscard]] std::string man_page(const ManPage& page, const std::vector<Command>& commands, std::span<const Topic> topics);
+
+}  // namespace abut::apps
