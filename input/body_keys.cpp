@@ -56,7 +56,27 @@ Key<Body> counts() {
     return required(key_of<Body>("counts", "whole numbers", "bricks along each direction", &Body::counts, read));
 }
 
+/// Of a material by itself, and of a body that has one of its own.
+template <class Section>
+Keys<Section> material_values() {
+    using From = Make<Section>;
+    const auto value = [](double solid::Material::*member) {
+        return [member](Section& section) -> double& { return section.material.*member; };
+    };
+    return {
+        required(From::number("young", value(&solid::Material::young), {.unit = "Pa", .above = 0.0}, "Young's modulus E")),
+        From::number("poisson", value(&solid::Material::poisson), {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"),
+        required(From::number("density", value(&solid::Material::density), {.unit = "kg/m^3", .above = 0.0}, "density rho")),
+        From::number("eta", value(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
+                     "stabilisation of jumps between cells; 0: Young's modulus")};
+}
+
 }  // namespace
+
+const Keys<MaterialSettings>& material_keys() {
+    static const Keys<MaterialSettings> keys = material_values<MaterialSettings>();
+    return keys;
+}
 
 const Keys<RefinementSettings>& refinement_keys() {
     using Part = RefinementSettings;
@@ -72,23 +92,21 @@ const Keys<RefinementSettings>& refinement_keys() {
 }
 
 const Keys<Body>& body_keys() {
-    const auto material = [](double solid::Material::*member) {
-        return [member](Body& body) -> double& { return body.material.*member; };
-    };
-    static const Keys<Body> keys = {
-        required(Of::number("young", material(&solid::Material::young), {.unit = "Pa", .above = 0.0}, "Young's modulus E")),
-        Of::number("poisson", material(&solid::Material::poisson), {.above = -1.0, .below = 0.5}, "Poisson's ratio nu"),
-        required(
-            Of::number("density", material(&solid::Material::density), {.unit = "kg/m^3", .above = 0.0}, "density rho")),
-        Of::number("eta", material(&solid::Material::eta), {.unit = "Pa", .above = 0.0, .zero = true},
-                   "stabilisation of jumps between cells; 0: Young's modulus"),
-        Of::word("kinematics", &Body::kinematics, body_kinematics(),
-                 "how it may move: without turns, in a frame that turns, bending, or rigid"),
-        Of::vector("place", &Body::place, "m", "0",
-                   "where its own origin goes: of disc, fan_disc, cylinder and sphere their centre"),
-        Of::axial("turn", &Body::turn, "rad", "turn about its own origin before it is placed; in 3D axis times angle"),
-        Of::vector("velocity", &Body::velocity, "m/s", "0", "velocity at the start"),
-        Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start")};
+    static const Keys<Body> keys = [] {
+        Keys<Body> all = {
+            Of::text("material", &Body::material_name, "text",
+                     "[materials.NAME] that it is made of: of the next four it gives what the body does not"),
+            Of::word("kinematics", &Body::kinematics, body_kinematics(),
+                     "how it may move: without turns, in a frame that turns, bending, or rigid"),
+            Of::vector("place", &Body::place, "m", "0",
+                       "where its own origin goes: of disc, fan_disc, cylinder and sphere their centre"),
+            Of::axial("turn", &Body::turn, "rad", "turn about its own origin before it is placed; in 3D axis times angle"),
+            Of::vector("velocity", &Body::velocity, "m/s", "0", "velocity at the start"),
+            Of::axial("spin", &Body::spin, "rad/s", "angular velocity about its centroid at the start")};
+        const Keys<Body> own = material_values<Body>();
+        all.insert(all.begin() + 1, own.begin(), own.end());
+        return all;
+    }();
     return keys;
 }
 

@@ -39,8 +39,8 @@ std::string varied(const std::string& title, const std::vector<Variety<Section, 
 }  // namespace
 
 std::string grammar() {
-    return table("In no table", top_keys()) + varied("[bodies.NAME]", body_varieties(), body_keys()) +
-           table("[bodies.NAME.refinement]", refinement_keys()) +
+    return table("In no table", top_keys()) + table("[materials.NAME]", material_keys()) +
+           varied("[bodies.NAME]", body_varieties(), body_keys()) + table("[bodies.NAME.refinement]", refinement_keys()) +
            varied("[obstacles.NAME]", obstacle_varieties(), obstacle_keys()) + table("[supports.NAME]", support_keys()) +
            table("[tractions.NAME]", traction_keys()) + table("[run]", run_keys()) + table("[contact]", contact_keys()) +
            table("[output]", output_keys());

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "abut/input/keys.hpp"
+#include "abut/input/nearest_word.hpp"
 
 namespace abut::input {
 namespace {
@@ -61,9 +62,38 @@ void read_varied(Section& section, const Node& table, const std::string& path, c
     read_table(section, table, path, keys, reader);
 }
 
-void read(BodySettings& body, const Node& table, const std::string& path, Reader& reader) {
+void read(MaterialSettings& material, const Node& table, const std::string& path, Reader& reader) {
+    read_table(material, table, path, material_keys(), reader);
+}
+
+/// The body begins with the values of the material that it names.
+void take_material(BodySettings& body, const Node& name, const std::string& path,
+                   const std::vector<MaterialSettings>& materials, Reader& reader) {
+    if (name.type != Node::Type::text) return;  // the key says so
+    const auto found = std::ranges::find(materials, name.text, &MaterialSettings::name);
+    if (found != materials.end()) {
+        body.material = found->material;
+        return;
+    }
+    std::vector<std::string> known;
+    for (const MaterialSettings& material : materials) known.push_back(material.name);
+    reader.fault(name, fmt::format("{}.material is '{}', which is no material.{}", path, name.text,
+                                   known.empty() ? " Give [materials." + name.text + "]." : hint(name.text, known)));
+}
+
+/// A material is complete, so that nothing of it is required of a body that has one.
+Keys<BodySettings> keys_of(const Node& body) {
+    Keys<BodySettings> keys = body_keys();
+    if (body.find("material"))
+        for (auto& key : keys) key.required = false;
+    return keys;
+}
+
+void read(BodySettings& body, const Node& table, const std::string& path, const std::vector<MaterialSettings>& materials,
+          Reader& reader) {
     const std::size_t before = reader.faults().size();
-    read_varied(body, table, path, variety_of_body(table, path, reader), body_keys(), reader);
+    if (const Node* name = table.find("material")) take_material(body, *name, path, materials, reader);
+    read_varied(body, table, path, variety_of_body(table, path, reader), keys_of(table), reader);
     if (reader.faults().size() != before) body.shape = Shape::none;  // not to be made
 }
 
@@ -94,9 +124,10 @@ void read(TractionSettings& traction, const Node& table, const std::string& path
     read_table(traction, table, path, traction_keys(), reader);
 }
 
-/// A table of tables that have names.
-template <class Section>
-void read_named(std::vector<Section>& sections, const Node& node, const std::string& name, Reader& reader) {
+/// A table of tables that have names, each of which `read_one(section, table, path)` reads.
+template <class Section, class ReadOne>
+void read_named(std::vector<Section>& sections, const Node& node, const std::string& name, Reader& reader,
+                const ReadOne& read_one) {
     if (!reader.is_table(node, name)) return;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         const std::string path = name + "." + node.names[i];
@@ -104,7 +135,7 @@ void read_named(std::vector<Section>& sections, const Node& node, const std::str
         Section section;
         section.name = node.names[i];
         section.where = node.items[i].where;
-        read(section, node.items[i], path, reader);
+        read_one(section, node.items[i], path);
         sections.push_back(std::move(section));
     }
 }
@@ -120,15 +151,31 @@ Key<Settings> table_key(const char* name, const Keys<Settings>& keys) {
 template <class Section>
 Key<Settings> named_key(const char* name, std::vector<Section> Settings::*member) {
     const auto take = [member](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
-        read_named(settings.*member, node, key, reader);
+        read_named(
+            settings.*member, node, key, reader,
+            [&reader](Section& section, const Node& table, const std::string& path) { read(section, table, path, reader); });
     };
     return {.name = name, .take = take};
 }
 
+/// Materials are read already: bodies may stand before them.
+Key<Settings> materials_key() {
+    return {.name = "materials", .take = [](Settings&, const Node&, const std::string&, Reader&) {}};
+}
+
+Key<Settings> bodies_key() {
+    const auto take = [](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
+        read_named(settings.bodies, node, key, reader, [&](BodySettings& body, const Node& table, const std::string& path) {
+            read(body, table, path, settings.materials, reader);
+        });
+    };
+    return {.name = "bodies", .help = "what is run, [bodies.NAME]", .take = take, .required = true};
+}
+
 Keys<Settings> all_keys() {
     Keys<Settings> keys = top_keys();
-    keys.push_back(required(named_key("bodies", &Settings::bodies)));
-    keys.back().help = "what is run, [bodies.NAME]";
+    keys.push_back(materials_key());
+    keys.push_back(bodies_key());
     keys.push_back(named_key("obstacles", &Settings::obstacles));
     keys.push_back(named_key("supports", &Settings::supports));
     keys.push_back(named_key("tractions", &Settings::tractions));
@@ -176,6 +223,8 @@ ReadSettings read_settings(const std::filesystem::path& path, const Overrides& o
     merge_overrides(document, overrides.set, reader.faults());
     reader.dimension = dimension_of(document);
     read.settings.options.out = std::filesystem::path("out") / read.settings.file.stem();
+    if (const Node* materials = document.find("materials"))
+        named_key("materials", &Settings::materials).take(read.settings, *materials, "materials", reader);
     read_table(read.settings, document, "", all_keys(), reader);
     if (read.settings.dim != 0 && document.find("bodies") && read.settings.bodies.empty())
         reader.fault(*document.find("bodies"), "bodies has no table. Give a body, [bodies.NAME].");

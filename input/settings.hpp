@@ -41,6 +41,11 @@ struct RefinementSettings {
     double uniform = 0.0;                 ///< [m]
 };
 
+/// A material that bodies may share.
+struct MaterialSettings : Named {
+    solid::Material material;
+};
+
 struct BodySettings : Named {
     Shape shape = Shape::none;
     std::filesystem::path mesh;
@@ -59,6 +64,7 @@ struct BodySettings : Named {
     std::optional<RefinementSettings> refinement;
     Vector<3> place = Vector<3>::Zero();  ///< [m]
     Vector<3> turn = Vector<3>::Zero();   ///< axis times angle [rad]
+    std::string material_name;            ///< empty: all values are its own
     solid::Material material;
     solid::Kinematics kinematics = solid::Kinematics::small;
     Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
@@ -100,6 +106,7 @@ struct Settings {
     Vector<3> gravity = Vector<3>::Zero();  ///< [m/s^2]
     double energy_scale = 0.0;              ///< [J]
     bool contact = true;
+    std::vector<MaterialSettings> materials;
     std::vector<BodySettings> bodies;
     std::vector<ObstacleSettings> obstacles;
     std::vector<SupportSettings> supports;

@@ -199,6 +199,43 @@ spin = 6
             CHECK((scene.mesh.vertices[static_cast<std::size_t>(vertex)] - Vector<2>(0.0, 5.0)).norm() == Approx(0.25));
 }
 
+TEST_CASE("a material is shared by the bodies that name it, wherever it stands; values of a body go before",
+          "[input][scenes]") {
+    const WrittenScene written(R"toml(dim = 2
+[bodies.a]
+shape = "structured_box"
+lower = [0, 0]
+upper = [1, 1]
+counts = [1, 1]
+material = "rubber"
+[bodies.b]
+shape = "structured_box"
+lower = [2, 0]
+upper = [3, 1]
+counts = [1, 1]
+density = 7
+material = "rubber"
+[materials.rubber]
+young = 2
+poisson = 0.4
+density = 3
+eta = 5
+[run]
+steps = 1
+)toml");
+    const auto materials = input::SceneFile(written.path()).scene<2>().solid.materials;
+    REQUIRE(materials.size() == 2);
+    for (const solid::Material& material : materials) {
+        CHECK(material.young == 2.0);
+        CHECK(material.poisson == 0.4);
+        CHECK(material.eta == 5.0);
+    }
+    CHECK(materials[0].density == 3.0);
+    CHECK(materials[1].density == 7.0);
+    const input::SceneFile set(written.path(), {.set = {"materials.rubber.density=4"}});
+    CHECK(set.scene<2>().solid.materials[0].density == 4.0);
+}
+
 TEST_CASE("a body of a file is read from the folder of the scene, turned and placed", "[input][scenes]") {
     const WrittenScene written(two_blocks(R"toml([bodies.brick]
 mesh = "brick.vtu"
