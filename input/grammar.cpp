@@ -42,8 +42,9 @@ std::string grammar() {
     return table("In no table", top_keys()) + table("[materials.NAME]", material_keys()) +
            varied("[bodies.NAME]", body_varieties(), body_keys()) + table("[bodies.NAME.refinement]", refinement_keys()) +
            varied("[obstacles.NAME]", obstacle_varieties(), obstacle_keys()) + table("[supports.NAME]", support_keys()) +
-           table("[tractions.NAME]", traction_keys()) + table("[run]", run_keys()) + table("[contact]", contact_keys()) +
-           table("[output]", output_keys());
+           table("[tractions.NAME]", traction_keys()) + table("[springs.NAME]", spring_keys()) +
+           table("[springs.NAME.from], [springs.NAME.to]", anchor_keys()) + table("[moments.NAME]", moment_keys()) +
+           table("[run]", run_keys()) + table("[contact]", contact_keys()) + table("[output]", output_keys());
 }
 
 }  // namespace abut::input

@@ -170,6 +170,16 @@ struct Make {
         key.unit = unit;
         return key;
     }
+    template <class Access>
+    static K formula(std::string name, Access access, const char* unit, Variables variables, std::string help) {
+        const char* value = variables == Variables::time ? "formula in t" : "formula in t, x, y, z";
+        K key = key_of<Section>(std::move(name), value, std::move(help), access,
+                                [unit, variables](Reader& reader, const Node& node, const std::string& path) {
+                                    return reader.formula(node, path, {.unit = unit}, variables);
+                                });
+        key.unit = unit;
+        return key;
+    }
 };
 
 }  // namespace abut::input

@@ -28,6 +28,9 @@ struct Variety {
 [[nodiscard]] const Keys<ObstacleSettings>& obstacle_keys();
 [[nodiscard]] const Keys<SupportSettings>& support_keys();
 [[nodiscard]] const Keys<TractionSettings>& traction_keys();
+[[nodiscard]] const Keys<SpringSettings>& spring_keys();
+[[nodiscard]] const Keys<AnchorSettings>& anchor_keys();  ///< of the ends of a spring
+[[nodiscard]] const Keys<MomentSettings>& moment_keys();
 [[nodiscard]] const Keys<RefinementSettings>& refinement_keys();
 
 /// Puts in front of them `none`, the first choice, with all their keys.

@@ -122,6 +122,23 @@ void read(SupportSettings& support, const Node& table, const std::string& path, 
 
 void read(TractionSettings& traction, const Node& table, const std::string& path, Reader& reader) {
     read_table(traction, table, path, traction_keys(), reader);
+    const bool has_value = table.find("value"), has_pressure = table.find("pressure");
+    if (!has_value && !has_pressure)
+        reader.fault(table, fmt::format("{}.value is missing: force per area [Pa], or give {}.pressure.", path, path));
+    if (has_value && has_pressure)
+        reader.fault(table, fmt::format("{} has both value and pressure. Leave one of them out.", path));
+}
+
+void read(SpringSettings& spring, const Node& table, const std::string& path, Reader& reader) {
+    read_table(spring, table, path, spring_keys(), reader);
+    if (!table.find("stiffness") && !table.find("damping"))
+        reader.fault(table, fmt::format("{} does nothing. Give its stiffness [N/m], its damping [N s/m], or both.", path));
+}
+
+void read(MomentSettings& moment, const Node& table, const std::string& path, Reader& reader) {
+    read_table(moment, table, path, moment_keys(), reader);
+    if (!table.find("value") && !table.find("damping"))
+        reader.fault(table, fmt::format("{} does nothing. Give its value [N m], its damping [N m s], or both.", path));
 }
 
 /// A table of tables that have names, each of which `read_one(section, table, path)` reads.
@@ -179,6 +196,8 @@ Keys<Settings> all_keys() {
     keys.push_back(named_key("obstacles", &Settings::obstacles));
     keys.push_back(named_key("supports", &Settings::supports));
     keys.push_back(named_key("tractions", &Settings::tractions));
+    keys.push_back(named_key("springs", &Settings::springs));
+    keys.push_back(named_key("moments", &Settings::moments));
     keys.push_back(table_key("run", run_keys()));
     keys.push_back(table_key("contact", contact_keys()));
     keys.push_back(table_key("output", output_keys()));

@@ -31,6 +31,7 @@ std::optional<Formula> Reader::formula(const Node& node, const std::string& key,
         wrong_type(node, key, fmt::format("a number{}", in_brackets(limits)));
         return std::nullopt;
     }
+    if (variables == Variables::time_and_space && dimension == 2) variables = Variables::time_and_plane;
     try {
         return Formula(node.text, variables);
     } catch (const BadInput& error) {
@@ -94,7 +95,6 @@ bool Reader::has_components(const Node& node, const std::string& key, const std:
 std::optional<FieldSettings> Reader::field(const Node& node, const std::string& key, const Limits& limits,
                                            Variables variables) {
     if (!has_components(node, key, "numbers" + in_brackets(limits))) return std::nullopt;
-    if (variables == Variables::time_and_space && dimension == 2) variables = Variables::time_and_plane;
     FieldSettings field;
     bool good = true;
     for (std::size_t i = 0; i < node.items.size(); ++i) {
@@ -117,7 +117,7 @@ std::optional<Vector<3>> Reader::vector(const Node& node, const std::string& key
 }
 
 std::optional<Vector<3>> Reader::axial(const Node& node, const std::string& key, const Limits& limits) {
-    if (dimension == 3 || node.type == Node::Type::array) return vector(node, key, limits);
+    if (dimension == 3 || (dimension == 0 && node.type == Node::Type::array)) return vector(node, key, limits);
     const auto about_z = number(node, key, limits);
     return about_z ? std::optional(Vector<3>(0.0, 0.0, *about_z)) : std::nullopt;
 }

@@ -32,6 +32,8 @@ public:
     [[nodiscard]] std::optional<Vector<3>> vector(const Node& node, const std::string& key, const Limits& limits);
     /// About z in the plane.
     [[nodiscard]] std::optional<Vector<3>> axial(const Node& node, const std::string& key, const Limits& limits);
+    [[nodiscard]] std::optional<Formula> formula(const Node& node, const std::string& key, const Limits& limits,
+                                                 Variables variables);
     [[nodiscard]] std::optional<FieldSettings> field(const Node& node, const std::string& key, const Limits& limits,
                                                      Variables variables);
     [[nodiscard]] std::optional<std::array<int, 3>> counts(const Node& node, const std::string& key);
@@ -43,8 +45,6 @@ public:
 
 private:
     [[nodiscard]] bool has_components(const Node& node, const std::string& key, const std::string& of_what);
-    [[nodiscard]] std::optional<Formula> formula(const Node& node, const std::string& key, const Limits& limits,
-                                                 Variables variables);
     void wrong_type(const Node& node, const std::string& key, const std::string& wanted);
 
     std::vector<Fault> faults_;

@@ -178,8 +178,9 @@ const Keys<TractionSettings>& traction_keys() {
     using Traction = TractionSettings;
     using From = Make<Traction>;
     static const Keys<Traction> keys = {
-        group<Traction>(),
-        required(From::field("value", &Traction::value, "Pa", Variables::time_and_space, "force per area")),
+        group<Traction>(), From::field("value", &Traction::value, "Pa", Variables::time_and_space, "force per area"),
+        From::formula("pressure", &Traction::pressure, "Pa", Variables::time_and_space,
+                      "against the outward normals at rest, instead of value"),
         From::truth("follows", &Traction::follows, "it turns with the body, as a pressure does")};
     return keys;
 }

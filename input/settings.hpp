@@ -95,8 +95,30 @@ struct SupportSettings : Named {
 
 struct TractionSettings : Named {
     std::string group;
-    FieldSettings value;  ///< [Pa]
+    std::optional<FieldSettings> value;  ///< [Pa]
+    std::optional<Formula> pressure;     ///< [Pa], instead of `value`
     bool follows = false;
+};
+
+struct AnchorSettings {
+    std::string where;                    ///< Fault::where
+    std::string body;                     ///< empty: the ground
+    Vector<3> point = Vector<3>::Zero();  ///< [m]
+    double radius = 0.0;                  ///< [m]
+};
+
+struct SpringSettings : Named {
+    AnchorSettings from;
+    AnchorSettings to;
+    double stiffness = 0.0;          ///< [N/m]
+    double length = run::not_given;  ///< [m]; not given: the distance of its ends
+    double damping = 0.0;            ///< [N s/m]
+};
+
+struct MomentSettings : Named {
+    std::string body;
+    Vector<3> value = Vector<3>::Zero();  ///< [N m]
+    double damping = 0.0;                 ///< [N m s]
 };
 
 struct Settings {
@@ -111,6 +133,8 @@ struct Settings {
     std::vector<ObstacleSettings> obstacles;
     std::vector<SupportSettings> supports;
     std::vector<TractionSettings> tractions;
+    std::vector<SpringSettings> springs;
+    std::vector<MomentSettings> moments;
     run::RunOptions options;
 };
 

@@ -381,6 +381,75 @@ follows = true
     CHECK(boundary.traction[0].follows);
 }
 
+TEST_CASE("a pressure acts against the normals of all faces of its group", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([bodies.round]
+shape = "disc"
+radius = 0.25
+size = 0.1
+place = [0, 5]
+young = 3
+density = 4
+[tractions.blown]
+group = "round.boundary"
+pressure = "3*t + x*y"
+follows = true
+[tractions.pressed]
+group = "left.ymax"
+pressure = 2
+)toml"));
+    const run::Scene<2> scene = input::SceneFile(written.path()).scene<2>();
+    std::size_t n_faces = 0;
+    for (const auto& traction : scene.solid.boundary.traction)
+        for (const std::int32_t face : scene.mesh.group(traction.group).faces) {
+            const Vector<2>& x = scene.mesh.face_centroid[face];
+            const bool of_round = x.y() > 4.0;
+            CHECK(traction.follows == of_round);
+            const double pressure = of_round ? 3.0 * 0.5 + x.x() * x.y() : 2.0;
+            const Vector<2> value = traction.history ? traction.history(0.5, x) : traction.value;
+            CHECK((value + pressure * scene.mesh.face_normal[face]).norm() < 1e-14);
+            ++n_faces;
+        }
+    CHECK(n_faces == scene.mesh.group("round.boundary").faces.size() + 2);
+}
+
+TEST_CASE("springs are between bodies or a body and the ground, and moments on bodies", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([springs.between]
+from = {body = "left", point = [1, 0.5], radius = 0.25}
+to = {body = "right", point = [1.5, "1/2"]}
+stiffness = 3
+damping = 4
+[springs.axle]
+from = {point = [2, 0.5]}
+to = {body = "right", point = [2, 0.5]}
+stiffness = 5
+[springs.tense]
+from = {point = [0, 0]}
+to = {body = "left", point = [0, 0]}
+stiffness = 5
+length = 7
+[moments.drive]
+body = "right"
+value = 8
+damping = 9
+)toml"));
+    const auto solid = input::SceneFile(written.path()).scene<2>().solid;
+    REQUIRE(solid.springs.size() == 3);
+    CHECK(solid.springs[0].first.body == 0);
+    CHECK(solid.springs[0].first.position == Vector<2>(1.0, 0.5));
+    CHECK(solid.springs[0].first.radius == 0.25);
+    CHECK(solid.springs[0].second.body == 1);
+    CHECK(solid.springs[0].stiffness == 3.0);
+    CHECK(solid.springs[0].damping == 4.0);
+    CHECK(solid.springs[0].length == 0.5);  // at rest it is not tense
+    CHECK(solid.springs[1].first.body == solid::ground);
+    CHECK(solid.springs[1].length == 0.0);  // a hinge
+    CHECK(solid.springs[2].length == 7.0);
+    REQUIRE(solid.moments.size() == 1);
+    CHECK(solid.moments[0].body == 1);
+    CHECK(solid.moments[0].moment[0] == 8.0);
+    CHECK(solid.moments[0].damping == 9.0);
+}
+
 TEST_CASE("a plate that a growing traction pulls moves as plane strain has it", "[input][scenes]") {
     const input::SceneFile file(ABUT_SOURCE "/scenes/pulled_plate.toml");
     const run::Scene<2> scene = file.scene<2>();

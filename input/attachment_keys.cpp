@@ -1,0 +1,52 @@
+#include "abut/input/keys.hpp"
+
+namespace abut::input {
+namespace {
+
+Key<SpringSettings> anchor(std::string name, AnchorSettings SpringSettings::*member, std::string help) {
+    const auto read = [](Reader& reader, const Node& node, const std::string& key) -> std::optional<AnchorSettings> {
+        if (!reader.is_table(node, key)) return std::nullopt;
+        AnchorSettings anchor{.where = node.where};
+        read_table(anchor, node, key, anchor_keys(), reader);
+        return anchor;
+    };
+    return required(key_of<SpringSettings>(std::move(name), "table", std::move(help), member, read));
+}
+
+}  // namespace
+
+const Keys<AnchorSettings>& anchor_keys() {
+    using Of = Make<AnchorSettings>;
+    static const Keys<AnchorSettings> keys = {
+        required(Of::vector("point", &AnchorSettings::point, "m", "", "where it is at rest, in the scene")),
+        Of::text("body", &AnchorSettings::body, "text", "the body that it is on; by default the ground"),
+        Of::number("radius", &AnchorSettings::radius, {.unit = "m", .above = 0.0, .zero = true},
+                   "cells with their centre that near hold it; at least as many as span space do")};
+    return keys;
+}
+
+const Keys<SpringSettings>& spring_keys() {
+    using Spring = SpringSettings;
+    using Of = Make<Spring>;
+    static const Keys<Spring> keys = {
+        anchor("from", &Spring::from, "one end: keys below"), anchor("to", &Spring::to, "the other end: keys below"),
+        Of::number("stiffness", &Spring::stiffness, {.unit = "N/m", .above = 0.0, .zero = true}, "of the spring"),
+        Of::number("length", &Spring::length, {.unit = "m", .above = 0.0, .zero = true},
+                   "where it is not tense, 0: a hinge; by default the distance of its ends at rest"),
+        Of::number("damping", &Spring::damping, {.unit = "N s/m", .above = 0.0, .zero = true},
+                   "of the dashpot beside it, along it; of a hinge in all directions")};
+    return keys;
+}
+
+const Keys<MomentSettings>& moment_keys() {
+    using Moment = MomentSettings;
+    using Of = Make<Moment>;
+    static const Keys<Moment> keys = {
+        required(Of::text("body", &Moment::body, "text", "the body that it acts on as a whole")),
+        Of::axial("value", &Moment::value, "N m", "moment, constant in time"),
+        Of::number("damping", &Moment::damping, {.unit = "N m s", .above = 0.0, .zero = true},
+                   "moment against the spin of the body, over that spin")};
+    return keys;
+}
+
+}  // namespace abut::input

@@ -1,0 +1,182 @@
+#include "abut/input/make_loads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "abut/input/nearest_word.hpp"
+#include "abut/input/values.hpp"
+
+namespace abut::input {
+namespace {
+
+/// Names of groups and bodies of the mesh that the scene has, as the file calls them.
+template <int Dim>
+class Names {
+public:
+    Names(const mesh::Mesh<Dim>& mesh, const std::vector<BodySettings>& bodies, std::vector<Fault>& faults)
+        : mesh_(mesh), bodies_(bodies), faults_(faults) {
+        for (const auto& group : mesh.groups) groups_.push_back(group.name);
+    }
+
+    /// Whether there is such a group; a fault if there is none.
+    [[nodiscard]] bool has_group(const std::string& group, const std::string& where, const std::string& key) const {
+        if (std::ranges::find(groups_, group) != groups_.end()) return true;
+        if (!group.empty() && !is_of_missing_body(group))
+            faults_.push_back({where, fmt::format("{} is '{}', which is no group of boundary faces.{}", key, group,
+                                                  hint(group, groups_))});
+        return false;
+    }
+    /// Its number in the mesh; nothing, and a fault, if there is none.
+    [[nodiscard]] std::optional<std::int32_t> body(const std::string& name, const std::string& where,
+                                                   const std::string& key) const {
+        const auto found = std::ranges::find(mesh_.body_names, name);
+        if (found != mesh_.body_names.end()) return static_cast<std::int32_t>(found - mesh_.body_names.begin());
+        if (!name.empty() && !is_of_missing_body(name))
+            faults_.push_back(
+                {where, fmt::format("{} is '{}', which is no body.{}", key, name, hint(name, mesh_.body_names))});
+        return std::nullopt;
+    }
+
+private:
+    /// Of a table that has no mesh, so that nothing is known of its names.
+    [[nodiscard]] bool is_of_missing_body(const std::string& name) const {
+        const auto is_of = [](const std::string& part, const std::string& table) {
+            return part == table || part.starts_with(table + ".");
+        };
+        return std::ranges::any_of(bodies_, [&](const BodySettings& table) {
+            return is_of(name, table.name) &&
+                   std::ranges::none_of(mesh_.body_names, [&](const auto& body) { return is_of(body, table.name); });
+        });
+    }
+
+    const mesh::Mesh<Dim>& mesh_;
+    const std::vector<BodySettings>& bodies_;
+    std::vector<std::string> groups_;  // of the file, whatever is added to the mesh
+    std::vector<Fault>& faults_;
+};
+
+/// As a history, or as a value where nothing varies.
+template <int Dim, class Condition>
+void set_value(Condition& condition, const FieldSettings& field) {
+    if (varies(field))
+        condition.history = [field](double time, const Vector<Dim>& x) {
+            return value_at<Dim>(field, time, in_space<Dim>(x));
+        };
+    else
+        condition.value = value_at<Dim>(field, 0.0, Vector<3>::Zero());
+}
+
+template <int Dim>
+void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
+    for (const SupportSettings& support : settings.supports) {
+        if (!names.has_group(support.group, support.where, "supports." + support.name + ".group")) continue;
+        solid::DirichletCondition<Dim> condition;
+        condition.group = support.group;
+        condition.constraint = support.constraint;
+        std::copy_n(support.components.begin(), Dim, condition.components.begin());
+        set_value<Dim>(condition, support.value);
+        scene.solid.boundary.dirichlet.push_back(std::move(condition));
+    }
+}
+
+/// Cuts a group into groups of faces with one normal each, which are appended to those of the mesh; their indices.
+template <int Dim>
+std::vector<std::size_t> cut_by_normal(mesh::Mesh<Dim>& mesh, const std::string& group, const std::string& name) {
+    std::vector<std::int32_t> faces = mesh.group(group).faces;
+    const auto normal = [&](std::int32_t face) -> const Vector<Dim>& { return mesh.face_normal[face]; };
+    std::ranges::stable_sort(
+        faces, [&](std::int32_t a, std::int32_t b) { return std::ranges::lexicographical_compare(normal(a), normal(b)); });
+    std::vector<std::size_t> parts;
+    for (const std::int32_t face : faces) {
+        if (parts.empty() || normal(mesh.groups[parts.back()].faces.front()) != normal(face)) {
+            parts.push_back(mesh.groups.size());
+            mesh.groups.push_back({fmt::format("{}, part {}", name, parts.size()), {}});
+        }
+        mesh.groups[parts.back()].faces.push_back(face);
+    }
+    for (const std::size_t part : parts) std::ranges::sort(mesh.groups[part].faces);
+    return parts;
+}
+
+/// A condition for each normal.
+template <int Dim>
+void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
+    const Formula& pressure = *traction.pressure;
+    for (const std::size_t part : cut_by_normal(scene.mesh, traction.group, "tractions." + traction.name)) {
+        const mesh::BoundaryGroup& group = scene.mesh.groups[part];
+        const Vector<Dim> normal = scene.mesh.face_normal[group.faces.front()];
+        solid::TractionCondition<Dim> condition{.group = group.name, .value = Vector<Dim>::Zero(), .history = {}};
+        condition.follows = traction.follows;
+        if (pressure.varies())
+            condition.history = [pressure, normal](double time, const Vector<Dim>& x) {
+                return Vector<Dim>(-pressure(time, in_space<Dim>(x)) * normal);
+            };
+        else
+            condition.value = -pressure.value() * normal;
+        scene.solid.boundary.traction.push_back(std::move(condition));
+    }
+}
+
+template <int Dim>
+void add_tractions(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
+    for (const TractionSettings& traction : settings.tractions) {
+        if (!names.has_group(traction.group, traction.where, "tractions." + traction.name + ".group")) continue;
+        if (traction.pressure) add_pressure(scene, traction);
+        if (!traction.value) continue;
+        solid::TractionCondition<Dim> condition;
+        condition.group = traction.group;
+        condition.follows = traction.follows;
+        set_value<Dim>(condition, *traction.value);
+        scene.solid.boundary.traction.push_back(std::move(condition));
+    }
+}
+
+template <int Dim>
+std::optional<solid::Anchor<Dim>> anchor_of(const AnchorSettings& end, const std::string& path, const Names<Dim>& names) {
+    solid::Anchor<Dim> anchor{.body = solid::ground, .position = head<Dim>(end.point), .radius = end.radius};
+    if (end.body.empty()) return anchor;
+    const auto body = names.body(end.body, end.where, path + ".body");
+    if (!body) return std::nullopt;
+    anchor.body = *body;
+    return anchor;
+}
+
+template <int Dim>
+void add_springs(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
+    for (const SpringSettings& spring : settings.springs) {
+        const auto from = anchor_of<Dim>(spring.from, "springs." + spring.name + ".from", names);
+        const auto to = anchor_of<Dim>(spring.to, "springs." + spring.name + ".to", names);
+        if (!from || !to) continue;
+        const double length = std::isnan(spring.length) ? (to->position - from->position).norm() : spring.length;
+        scene.solid.springs.push_back(
+            {.first = *from, .second = *to, .stiffness = spring.stiffness, .length = length, .damping = spring.damping});
+    }
+}
+
+template <int Dim>
+void add_moments(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
+    for (const MomentSettings& moment : settings.moments)
+        if (const auto body = names.body(moment.body, moment.where, "moments." + moment.name + ".body"))
+            scene.solid.moments.push_back({.body = *body, .moment = axial<Dim>(moment.value), .damping = moment.damping});
+}
+
+}  // namespace
+
+template <int Dim>
+void add_loads(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+    const Names<Dim> names(scene.mesh, settings.bodies, faults);
+    add_supports(scene, settings, names);
+    add_tractions(scene, settings, names);
+    add_springs(scene, settings, names);
+    add_moments(scene, settings, names);
+}
+
+template void add_loads<2>(run::Scene<2>&, const Settings&, std::vector<Fault>&);
+template void add_loads<3>(run::Scene<3>&, const Settings&, std::vector<Fault>&);
+
+}  // namespace abut::input

@@ -1,0 +1,37 @@
+#pragma once
+// Private to the layer.
+#include <algorithm>
+
+#include "abut/input/settings.hpp"
+
+/// Values of a scene in one dimension.
+namespace abut::input {
+
+/// About z in the plane.
+template <int Dim>
+[[nodiscard]] AxialVector<Dim> axial(const Vector<3>& vector) {
+    if constexpr (Dim == 2)
+        return AxialVector<2>(vector.z());
+    else
+        return vector;
+}
+
+template <int Dim>
+[[nodiscard]] Vector<3> in_space(const Vector<Dim>& position) {
+    Vector<3> result = Vector<3>::Zero();
+    result.head<Dim>() = position;
+    return result;
+}
+
+[[nodiscard]] inline bool varies(const FieldSettings& field) {
+    return std::ranges::any_of(field, [](const Formula& component) { return component.varies(); });
+}
+
+template <int Dim>
+[[nodiscard]] Vector<Dim> value_at(const FieldSettings& field, double time, const Vector<3>& position) {
+    Vector<Dim> value;
+    for (int i = 0; i < Dim; ++i) value[i] = field[static_cast<std::size_t>(i)](time, position);
+    return value;
+}
+
+}  // namespace abut::input
