@@ -171,6 +171,15 @@ struct Make {
         return key;
     }
     template <class Access>
+    static K axial_field(std::string name, Access access, const char* unit, std::string help) {
+        K key = key_of<Section>(std::move(name), "formula in t (2D), vector of formulas in t (3D)", std::move(help), access,
+                                [unit](Reader& reader, const Node& node, const std::string& path) {
+                                    return reader.axial_field(node, path, {.unit = unit});
+                                });
+        key.unit = unit;
+        return key;
+    }
+    template <class Access>
     static K formula(std::string name, Access access, const char* unit, Variables variables, std::string help) {
         const char* value = variables == Variables::time ? "formula in t" : "formula in t, x, y, z";
         K key = key_of<Section>(std::move(name), value, std::move(help), access,

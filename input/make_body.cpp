@@ -1,9 +1,9 @@
 #include "abut/input/make_body.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "abut/base/error.hpp"
+#include "abut/input/values.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/place.hpp"
@@ -18,14 +18,6 @@ std::array<int, Dim> counts_in(const std::array<int, 3>& counts) {
     std::array<int, Dim> result;
     std::copy_n(counts.begin(), Dim, result.begin());
     return result;
-}
-
-template <int Dim>
-Matrix<Dim> rotation(const Vector<3>& turn) {
-    if constexpr (Dim == 2)
-        return Eigen::Rotation2Dd(turn.z()).toRotationMatrix();
-    else
-        return Eigen::AngleAxisd(turn.norm(), Eigen::Vector3d(turn.normalized())).toRotationMatrix();
 }
 
 /// Where the middle of a shape goes when Gmsh makes it: a body that turns is made about the origin.

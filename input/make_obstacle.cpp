@@ -3,35 +3,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
+#include "abut/base/error.hpp"
 #include "abut/contact/obstacle.hpp"
+#include "abut/geometry/box.hpp"
+#include "abut/geometry/health/surface_health.hpp"
+#include "abut/input/check_obstacle.hpp"
 #include "abut/input/values.hpp"
+#include "abut/mesh/io/read_surface.hpp"
 
 namespace abut::input {
 namespace {
 
+template <int Dim>
+using Faces = std::vector<std::vector<Vector<Dim>>>;
+
 /// A closed outline, counter-clockwise, as segments with the outside on the right of each.
-std::vector<std::vector<Vector<2>>> faces_of_outline(std::vector<Vector<2>> corners, bool inside) {
+Faces<2> faces_of_outline(std::vector<Vector<2>> corners) {
     double area = 0.0;  // twice that of the outline, < 0 if it is clockwise
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vector<2>& a = corners[i];
         const Vector<2>& b = corners[(i + 1) % corners.size()];
         area += a.x() * b.y() - a.y() * b.x();
     }
-    if ((area < 0.0) != inside) std::ranges::reverse(corners);
-    std::vector<std::vector<Vector<2>>> faces;
+    if (area < 0.0) std::ranges::reverse(corners);
+    Faces<2> faces;
     for (std::size_t i = 0; i < corners.size(); ++i) faces.push_back({corners[i], corners[(i + 1) % corners.size()]});
     return faces;
 }
 
-std::vector<std::vector<Vector<2>>> faces_of_box(const Vector<2>& lower, const Vector<2>& upper, bool inside) {
-    return faces_of_outline({lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}}, inside);
+Faces<2> faces_of_box(const Vector<2>& lower, const Vector<2>& upper) {
+    return faces_of_outline({lower, {upper.x(), lower.y()}, upper, {lower.x(), upper.y()}});
 }
 
 /// Two faces for each direction; corners counter-clockwise seen from outside.
-std::vector<std::vector<Vector<3>>> faces_of_box(const Vector<3>& lower, const Vector<3>& upper, bool inside) {
-    std::vector<std::vector<Vector<3>>> faces;
+Faces<3> faces_of_box(const Vector<3>& lower, const Vector<3>& upper) {
+    Faces<3> faces;
     for (int along = 0; along < 3; ++along)
         for (const bool high : {false, true}) {
             const int a = (along + 1) % 3, b = (along + 2) % 3;
@@ -39,11 +48,65 @@ std::vector<std::vector<Vector<3>>> faces_of_box(const Vector<3>& lower, const V
             for (Vector<3>& corner : face) corner[along] = high ? upper[along] : lower[along];
             face[1][a] = face[2][a] = upper[a];
             face[2][b] = face[3][b] = upper[b];
-            if (high == inside) std::ranges::reverse(face);
+            if (!high) std::ranges::reverse(face);
             faces.push_back(std::move(face));
         }
     return faces;
 }
+
+template <int Dim>
+void turn_inside_out(Faces<Dim>& faces) {
+    for (auto& face : faces) std::ranges::reverse(face);
+}
+
+/// The faces of an obstacle about its own origin, facing outwards, and whether they close.
+template <int Dim>
+struct Shell {
+    Faces<Dim> faces;
+    bool closed = true;
+};
+
+/// Of a closed surface in either sense.
+Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::path& folder) {
+    const mesh::SurfaceMesh read = mesh::read_surface(folder / obstacle.surface);
+    const auto health = geometry::check_surface(read.soup());
+    const mesh::SurfaceMesh surface = mesh::clean(read, health, mesh::UnusableFaces::fail).mesh;
+    Shell<3> shell{.faces = {}, .closed = health.closed()};
+    for (std::int32_t face = 0; face < surface.faces.size(); ++face) {
+        std::vector<Vector<3>> corners;
+        for (const std::int32_t v : surface.faces[face]) corners.push_back(obstacle.scale * surface.vertices[v]);
+        shell.faces.push_back(std::move(corners));
+    }
+    const auto add = [](double sum, const geometry::SurfaceComponent& part) { return sum + part.volume; };
+    if (std::accumulate(health.components.begin(), health.components.end(), 0.0, add) < 0.0) turn_inside_out(shell.faces);
+    return shell;
+}
+
+template <int Dim>
+Shell<Dim> shell_of(const ObstacleSettings& obstacle, const std::filesystem::path& folder) {
+    if (obstacle.shape == ObstacleShape::plane)
+        return {
+            contact::plane_obstacle<Dim>(head<Dim>(obstacle.point), head<Dim>(obstacle.normal), obstacle.half_width).faces,
+            false};
+    if constexpr (Dim == 2)
+        if (obstacle.shape == ObstacleShape::polygon) {
+            std::vector<Vector<2>> corners;
+            for (const Vector<3>& corner : obstacle.corners) corners.push_back(head<2>(corner));
+            return {faces_of_outline(std::move(corners))};
+        }
+    if constexpr (Dim == 3)
+        if (obstacle.shape == ObstacleShape::surface) return shell_of_file(obstacle, folder);
+    return {faces_of_box(head<Dim>(obstacle.lower), head<Dim>(obstacle.upper))};
+}
+
+template <int Dim>
+void place(Faces<Dim>& faces, const ObstacleSettings& obstacle) {
+    const Matrix<Dim> turn = rotation<Dim>(obstacle.turn);
+    for (auto& face : faces)
+        for (Vector<Dim>& corner : face) corner = turn * corner + head<Dim>(obstacle.place);
+}
+
+// How it moves -------------------------------------------------------------------------------------------------------
 
 template <int Dim>
 std::function<Vector<Dim>(double)> path_of(const ObstacleSettings& obstacle) {
@@ -52,18 +115,50 @@ std::function<Vector<Dim>(double)> path_of(const ObstacleSettings& obstacle) {
     return [velocity = head<Dim>(obstacle.velocity)](double time) { return Vector<Dim>(velocity * time); };
 }
 
+/// Axis times angle at a time [rad]; empty: it does not turn.
+std::function<Vector<3>(double)> rotation_of(const ObstacleSettings& obstacle) {
+    if (obstacle.rotation)
+        return [rotation = *obstacle.rotation](double time) { return value_at<3>(rotation, time, Vector<3>::Zero()); };
+    if (obstacle.spin.isZero(0.0)) return {};
+    return [spin = obstacle.spin](double time) { return Vector<3>(spin * time); };
+}
+
 template <int Dim>
-contact::RigidObstacle<Dim> make_obstacle(const ObstacleSettings& obstacle) {
-    if (obstacle.shape == ObstacleShape::plane)
-        return contact::plane_obstacle<Dim>(head<Dim>(obstacle.point), head<Dim>(obstacle.normal), obstacle.half_width,
-                                            path_of<Dim>(obstacle));
-    if constexpr (Dim == 2)
-        if (obstacle.shape == ObstacleShape::polygon) {
-            std::vector<Vector<2>> corners;
-            for (const Vector<3>& corner : obstacle.corners) corners.push_back(head<2>(corner));
-            return {faces_of_outline(std::move(corners), obstacle.inside), path_of<2>(obstacle)};
-        }
-    return {faces_of_box(head<Dim>(obstacle.lower), head<Dim>(obstacle.upper), obstacle.inside), path_of<Dim>(obstacle)};
+Vector<Dim> middle_of(const Faces<Dim>& faces) {
+    geometry::Box<Dim> box;
+    for (const auto& face : faces)
+        for (const Vector<Dim>& corner : face) box.extend(corner);
+    return 0.5 * (box.lower + box.upper);
+}
+
+/// A translation where it does not turn, which is all that the modified reconstruction knows.
+template <int Dim>
+void set_in_motion(contact::RigidObstacle<Dim>& obstacle, const ObstacleSettings& settings) {
+    auto path = path_of<Dim>(settings);
+    auto angle = rotation_of(settings);
+    if (!angle) {
+        obstacle.path = std::move(path);
+        return;
+    }
+    const Vector<Dim> pivot = settings.pivot ? head<Dim>(*settings.pivot) : middle_of<Dim>(obstacle.faces);
+    obstacle.placement = [path = std::move(path), angle = std::move(angle), pivot](double time) {
+        contact::Placement<Dim> placement{.turn = rotation<Dim>(angle(time))};
+        placement.offset = pivot - placement.turn * pivot;
+        if (path) placement.offset += path(time);
+        return placement;
+    };
+}
+
+template <int Dim>
+void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, const Settings& all,
+                  std::vector<Fault>& faults) {
+    Shell<Dim> shell = shell_of<Dim>(settings, all.file.parent_path());
+    place<Dim>(shell.faces, settings);
+    if (settings.inside) turn_inside_out<Dim>(shell.faces);
+    contact::RigidObstacle<Dim> obstacle{.faces = std::move(shell.faces), .path = {}};
+    set_in_motion(obstacle, settings);
+    if (all.contact) check_outside(scene.mesh, obstacle, {.settings = settings, .closed = shell.closed}, faults);
+    scene.solid.obstacles.push_back(std::move(obstacle));
 }
 
 }  // namespace
@@ -78,7 +173,11 @@ void add_obstacles(run::Scene<Dim>& scene, const Settings& settings, std::vector
                               fmt::format("obstacles.{}: lower has to be below upper in every component.", obstacle.name)});
             continue;
         }
-        scene.solid.obstacles.push_back(make_obstacle<Dim>(obstacle));
+        try {
+            add_obstacle(scene, obstacle, settings, faults);
+        } catch (const Error& error) {
+            faults.push_back({obstacle.where, fmt::format("obstacles.{}: {}", obstacle.name, error.what())});
+        }
     }
 }
 

@@ -39,16 +39,16 @@ const Variety<Section, Kind>& chosen_variety(const Node& table, const std::strin
     return *std::ranges::find_if(varieties, [&](const auto& variety) { return variety.word == words[*index]; });
 }
 
-const Variety<BodySettings, Shape>& variety_of_body(const Node& table, const std::string& path, Reader& reader) {
+/// The key of a file says the shape, too: `files` pairs shapes with keys.
+template <class Section, class Kind>
+const Variety<Section, Kind>& variety_of(const Node& table, const std::string& path,
+                                         const std::vector<Variety<Section, Kind>>& varieties,
+                                         const std::vector<std::pair<Kind, const char*>>& files, Reader& reader) {
     if (!table.find("shape"))
-        for (const auto& variety : body_varieties())
-            for (const auto& [choice, key] : {std::pair(Shape::file, "mesh"), std::pair(Shape::surface, "surface")})
+        for (const auto& variety : varieties)
+            for (const auto& [choice, key] : files)
                 if (variety.choice == choice && fits(variety, reader.dimension) && table.find(key)) return variety;
-    return chosen_variety(table, path, body_varieties(), reader);
-}
-const Variety<ObstacleSettings, ObstacleShape>& variety_of_obstacle(const Node& table, const std::string& path,
-                                                                    Reader& reader) {
-    return chosen_variety(table, path, obstacle_varieties(), reader);
+    return chosen_variety(table, path, varieties, reader);
 }
 
 /// Its own keys, those of its kind, and `shape`, which is read already.
@@ -93,20 +93,28 @@ void read(BodySettings& body, const Node& table, const std::string& path, const 
           Reader& reader) {
     const std::size_t before = reader.faults().size();
     if (const Node* name = table.find("material")) take_material(body, *name, path, materials, reader);
-    read_varied(body, table, path, variety_of_body(table, path, reader), keys_of(table), reader);
+    const auto& variety = variety_of<BodySettings, Shape>(table, path, body_varieties(),
+                                                          {{Shape::file, "mesh"}, {Shape::surface, "surface"}}, reader);
+    read_varied(body, table, path, variety, keys_of(table), reader);
     if (reader.faults().size() != before) body.shape = Shape::none;  // not to be made
 }
 
 void check_path(const ObstacleSettings& obstacle, const Node& table, const std::string& path, Reader& reader) {
     if (obstacle.path && table.find("velocity"))
         reader.fault(table, fmt::format("{} has both velocity and path. Leave one of them out.", path));
+    if (obstacle.rotation && table.find("spin"))
+        reader.fault(table, fmt::format("{} has both spin and rotation. Leave one of them out.", path));
+    if (obstacle.pivot && !table.find("rotation") && !table.find("spin"))
+        reader.fault(table, fmt::format("{} has a pivot and does not turn. Give its spin or rotation.", path));
     if (obstacle.shape == ObstacleShape::plane && table.find("normal") && obstacle.normal.isZero(0.0))
         reader.fault(table, fmt::format("{}.normal is zero. Give the direction it faces.", path));
 }
 
 void read(ObstacleSettings& obstacle, const Node& table, const std::string& path, Reader& reader) {
     const std::size_t before = reader.faults().size();
-    read_varied(obstacle, table, path, variety_of_obstacle(table, path, reader), obstacle_keys(), reader);
+    const auto& variety = variety_of<ObstacleSettings, ObstacleShape>(table, path, obstacle_varieties(),
+                                                                      {{ObstacleShape::surface, "surface"}}, reader);
+    read_varied(obstacle, table, path, variety, obstacle_keys(), reader);
     if (reader.faults().size() == before) check_path(obstacle, table, path, reader);
     if (reader.faults().size() != before) obstacle.shape = ObstacleShape::none;
 }

@@ -116,10 +116,20 @@ std::optional<Vector<3>> Reader::vector(const Node& node, const std::string& key
     return Vector<3>((*components)[0].value(), (*components)[1].value(), (*components)[2].value());
 }
 
+bool Reader::is_in_plane(const Node& node) const {
+    return dimension == 2 || (dimension == 0 && node.type != Node::Type::array);
+}
+
 std::optional<Vector<3>> Reader::axial(const Node& node, const std::string& key, const Limits& limits) {
-    if (dimension == 3 || (dimension == 0 && node.type == Node::Type::array)) return vector(node, key, limits);
+    if (!is_in_plane(node)) return vector(node, key, limits);
     const auto about_z = number(node, key, limits);
     return about_z ? std::optional(Vector<3>(0.0, 0.0, *about_z)) : std::nullopt;
+}
+
+std::optional<FieldSettings> Reader::axial_field(const Node& node, const std::string& key, const Limits& limits) {
+    if (!is_in_plane(node)) return field(node, key, limits, Variables::time);
+    const auto about_z = formula(node, key, limits, Variables::time);
+    return about_z ? std::optional(FieldSettings{Formula(), Formula(), *about_z}) : std::nullopt;
 }
 
 std::optional<std::array<int, 3>> Reader::counts(const Node& node, const std::string& key) {

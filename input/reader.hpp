@@ -36,6 +36,8 @@ public:
                                                  Variables variables);
     [[nodiscard]] std::optional<FieldSettings> field(const Node& node, const std::string& key, const Limits& limits,
                                                      Variables variables);
+    /// In time, about z in the plane.
+    [[nodiscard]] std::optional<FieldSettings> axial_field(const Node& node, const std::string& key, const Limits& limits);
     [[nodiscard]] std::optional<std::array<int, 3>> counts(const Node& node, const std::string& key);
     [[nodiscard]] std::optional<std::vector<Vector<3>>> points(const Node& node, const std::string& key,
                                                                const Limits& limits);
@@ -44,6 +46,8 @@ public:
     [[nodiscard]] bool is_table(const Node& node, const std::string& key);
 
 private:
+    /// Whether it is about z: a number, not a list.
+    [[nodiscard]] bool is_in_plane(const Node& node) const;
     [[nodiscard]] bool has_components(const Node& node, const std::string& key, const std::string& of_what);
     void wrong_type(const Node& node, const std::string& key, const std::string& wanted);
 

@@ -128,8 +128,14 @@ const Keys<ObstacleSettings>& obstacle_keys() {
     using Obstacle = ObstacleSettings;
     using From = Make<Obstacle>;
     static const Keys<Obstacle> keys = {
+        From::vector("place", &Obstacle::place, "m", "0", "where its own origin goes, after it is turned"),
+        From::axial("turn", &Obstacle::turn, "rad", "turn about its own origin before it is placed"),
         From::vector("velocity", &Obstacle::velocity, "m/s", "0", "velocity, constant in time"),
-        From::field("path", &Obstacle::path, "m", Variables::time, "how far it has moved at t [s], instead of velocity")};
+        From::field("path", &Obstacle::path, "m", Variables::time, "how far it has moved at t [s], instead of velocity"),
+        From::axial("spin", &Obstacle::spin, "rad/s", "angular velocity, constant in time"),
+        From::axial_field("rotation", &Obstacle::rotation, "rad", "how far it has turned at t [s], instead of spin"),
+        From::vector("pivot", &Obstacle::pivot, "m", "",
+                     "about which it turns, and which moves with it; by default the middle of the box around it")};
     return keys;
 }
 
@@ -156,7 +162,15 @@ const std::vector<Variety<ObstacleSettings, ObstacleShape>>& obstacle_varieties(
           {2, 3},
           {required(From::vector("lower", &Obstacle::lower, "m", "", "corner with the smallest coordinates")),
            required(From::vector("upper", &Obstacle::upper, "m", "", "corner with the largest coordinates")), inside}},
-         {"polygon", ObstacleShape::polygon, {2}, {corners, inside}}});
+         {"polygon", ObstacleShape::polygon, {2}, {corners, inside}},
+         {"surface",
+          ObstacleShape::surface,
+          {3},
+          {required(From::text("surface", &Obstacle::surface, "path",
+                               ".stl, .obj, .off, .ply or .vtp file, from the folder of the scene; no shape is needed")),
+           From::number("scale", &Obstacle::scale, {.unit = "m", .above = 0.0},
+                        "length of the file's unit, 1e-3 for millimetres"),
+           inside}}});
     return varieties;
 }
 

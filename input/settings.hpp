@@ -71,7 +71,7 @@ struct BodySettings : Named {
     Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
 };
 
-enum class ObstacleShape { none, plane, box, polygon };
+enum class ObstacleShape { none, plane, box, polygon, surface };
 
 struct ObstacleSettings : Named {
     ObstacleShape shape = ObstacleShape::none;
@@ -81,9 +81,16 @@ struct ObstacleSettings : Named {
     Vector<3> lower = Vector<3>::Zero();   ///< [m]
     Vector<3> upper = Vector<3>::Ones();   ///< [m]
     std::vector<Vector<3>> corners;        ///< [m]
+    std::filesystem::path surface;
+    double scale = 1.0;  ///< of the lengths of `surface` [m]
     bool inside = false;
+    Vector<3> place = Vector<3>::Zero();     ///< [m]
+    Vector<3> turn = Vector<3>::Zero();      ///< axis times angle [rad]
     Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
     std::optional<FieldSettings> path;       ///< [m]
+    Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
+    std::optional<FieldSettings> rotation;   ///< axis times angle [rad]
+    std::optional<Vector<3>> pivot;          ///< [m]; not given: the middle of the box around it
 };
 
 struct SupportSettings : Named {

@@ -1,5 +1,6 @@
 #pragma once
 // Private to the layer.
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "abut/input/settings.hpp"
@@ -14,6 +15,15 @@ template <int Dim>
         return AxialVector<2>(vector.z());
     else
         return vector;
+}
+
+/// By an angle about z, or by axis times angle [rad].
+template <int Dim>
+[[nodiscard]] Matrix<Dim> rotation(const Vector<3>& turn) {
+    if constexpr (Dim == 2)
+        return Eigen::Rotation2Dd(turn.z()).toRotationMatrix();
+    else
+        return Eigen::AngleAxisd(turn.norm(), Eigen::Vector3d(turn.normalized())).toRotationMatrix();
 }
 
 template <int Dim>

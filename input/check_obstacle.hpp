@@ -1,0 +1,24 @@
+#pragma once
+// Private to the layer.
+#include <vector>
+
+#include "abut/contact/obstacle.hpp"
+#include "abut/input/fault.hpp"
+#include "abut/input/settings.hpp"
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::input {
+
+/// An obstacle as its table has it.
+struct ObstacleTable {
+    const ObstacleSettings& settings;
+    bool closed;  ///< its faces have an inside
+};
+
+/// A fault for each body that an obstacle cuts, or that is wholly inside of it, where it is at the start. Of a surface that
+/// is not closed nothing is inside: a body behind a plane is none of its matter.
+template <int Dim>
+void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim>& obstacle, const ObstacleTable& table,
+                   std::vector<Fault>& faults);
+
+}  // namespace abut::input
