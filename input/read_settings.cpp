@@ -218,6 +218,15 @@ int dimension_of(const Node& document) {
     return dim && (dim->whole == 2 || dim->whole == 3) ? static_cast<int>(dim->whole) : 0;
 }
 
+/// Under all other keys, wherever they stand. One that is none of its words stays for the key to say.
+void apply_preset(const Node& document, run::RunOptions& options) {
+    const Node* run = document.find("run");
+    const Node* preset = run ? run->find("preset") : nullptr;
+    if (!preset) return;
+    for (const auto& [word, choice] : run::preset_words)
+        if (preset->text == word) run::apply(choice, options);
+}
+
 void merge_overrides(Node& document, const std::vector<std::string>& set, std::vector<Fault>& faults) {
     for (const std::string& text : set) try {
             merge(document, read_override(text));
@@ -250,6 +259,7 @@ ReadSettings read_settings(const std::filesystem::path& path, const Overrides& o
     merge_overrides(document, overrides.set, reader.faults());
     reader.dimension = dimension_of(document);
     read.settings.options.out = std::filesystem::path("out") / read.settings.file.stem();
+    apply_preset(document, read.settings.options);
     if (const Node* materials = document.find("materials"))
         named_key("materials", &Settings::materials).take(read.settings, *materials, "materials", reader);
     read_table(read.settings, document, "", all_keys(), reader);

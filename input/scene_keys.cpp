@@ -55,6 +55,8 @@ const Keys<Settings>& top_keys() {
 
 const Keys<Settings>& run_keys() {
     static const Keys<Settings> keys = {
+        Of::word("preset", &Settings::preset, run::preset_words,
+                 "several choices at once, which other keys overrule (trade.md): speed or accuracy"),
         Of::number("time", option(&RunOptions::time), a_time, "end of the run"),
         Of::count("steps", option(&RunOptions::steps), 0, Of::many, "steps of the run where no time is given"),
         Of::number("cfl", option(&RunOptions::cfl), {.above = 0.0, .below = 1.0, .closed = true},

@@ -10,6 +10,7 @@
 #include "abut/input/formula.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
+#include "abut/run/preset.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material.hpp"
@@ -142,6 +143,7 @@ struct Settings {
     std::vector<TractionSettings> tractions;
     std::vector<SpringSettings> springs;
     std::vector<MomentSettings> moments;
+    std::optional<run::Preset> preset;  ///< in the options already
     run::RunOptions options;
 };
 

@@ -2,20 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <variant>
+
 #include "abut/base/error.hpp"
 
 namespace abut::apps {
+namespace {
+
+std::string text_of(const run::Value& value) {
+    if (const double* number = std::get_if<double>(&value)) return shown(*number);
+    return std::get<std::string>(value);
+}
+
+}  // namespace
 
 std::string words_of(Preset preset) {
-    switch (preset) {
-        case Preset::fast:
-            return "--cfl 0.99 --events off";
-        case Preset::balanced:
-            return "";
-        case Preset::exact:
-            return "--cfl 0.3 --filter neutral";
-    }
-    throw BadInput("not a Preset");
+    run::RunOptions options;
+    const run::NamedValues before = run::named_values(options);
+    run::apply(preset, options);
+    const run::NamedValues after = run::named_values(options);
+    std::string words;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        if (after[i].value != before[i].value)
+            words += fmt::format("{}--{} {}", words.empty() ? "" : " ", after[i].name, text_of(after[i].value));
+    return words;
 }
 
 void apply_words(const std::string& words, run::RunOptions& options) {
@@ -38,7 +48,7 @@ void add_preset_option(CLI::App& app, run::RunOptions& options) {
     for (const auto& [name, preset] : presets) names.push_back(name);
     const auto choose = [&options](const std::string& text) {
         for (const auto& [name, preset] : presets)
-            if (name == text) apply_words(words_of(preset), options);
+            if (name == text) run::apply(preset, options);
     };
     app.add_option_function<std::string>("--preset", choose,
                                          "several choices at once, which other options overrule (docs/trade.md): fast is " +

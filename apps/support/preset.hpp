@@ -1,20 +1,15 @@
 #pragma once
 #include <string>
 
+#include "abut/run/preset.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/run_options.hpp"
 
 namespace abut::apps {
 
-/// Settings of all that trades speed for accuracy, under a name. What each costs and gives is in docs/trade.md. None says what
-/// bodies are (`kinematics`) or what acts between them (`law`), and all go with any of these.
-enum class Preset {
-    fast,      ///< the longest stable step, nothing cut at events: pseudo-energy drifts a little
-    balanced,  ///< pseudo-energy to round-off; the defaults
-    exact,     ///< the smallest error of the motion on a given mesh
-};
+using run::Preset;
 
-inline const Choices<Preset> presets = {{"fast", Preset::fast}, {"balanced", Preset::balanced}, {"exact", Preset::exact}};
+inline const Choices<Preset> presets = choices_of(run::preset_words);
 
 /// What a user would type instead of --preset NAME, "" for the defaults.
 [[nodiscard]] std::string words_of(Preset preset);

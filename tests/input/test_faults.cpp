@@ -43,6 +43,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"[bodys.left]\nyoung = 1", {}, ".toml:19:2", {"bodys is an unknown key", "'bodies'"}},
     {"cfk = 0.5", {}, ".toml:19:1", {"run.cfk is an unknown key", "'cfl'"}},
     {"cfl = 1.5", {}, ".toml:19:1", {"run.cfl is 1.5", "above 0, at most 1"}},
+    {"preset = \"fats\"", {}, ".toml:19:1", {"run.preset is 'fats'", "Did you mean 'fast'?"}},
     {"cfl = true", {}, ".toml:19:1", {"run.cfl is true", "a number is needed"}},
     {"dt = -1", {}, ".toml:19:1", {"run.dt is -1 s", "above 0 s"}},
     {"integrator = \"leapfrg\"", {}, ".toml:19:1", {"'leapfrg'", "Did you mean 'leapfrog'?"}},

@@ -162,6 +162,20 @@ frames = 4
     CHECK(bilbao.options().gauge == 3.0);
 }
 
+TEST_CASE("a preset stands below all other keys, wherever it stands", "[input][scenes]") {
+    const WrittenScene written(two_blocks("cfl = 0.5\npreset = \"exact\"\n[contact]\nevents = true\n"));
+    const run::RunOptions exact = input::SceneFile(written.path()).options();
+    CHECK(exact.cfl == 0.5);
+    CHECK(exact.filter);
+    const run::RunOptions fast = input::SceneFile(written.path(), {.set = {"run.preset=fast"}}).options();
+    CHECK(fast.cfl == 0.5);
+    CHECK(fast.contact.events);
+    CHECK_FALSE(fast.filter);
+    const WrittenScene plain(two_blocks("preset = \"fast\""));
+    CHECK(input::SceneFile(plain.path()).options().cfl == 0.99);
+    CHECK_FALSE(input::SceneFile(plain.path()).options().contact.events);
+}
+
 TEST_CASE("bodies have their materials, motions and places", "[input][scenes]") {
     const WrittenScene written(two_blocks(R"toml([bodies.round]
 shape = "disc"
