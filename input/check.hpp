@@ -18,11 +18,13 @@ struct Estimate {
     double stable_dt = 0.0;  ///< [s]
     double dt = 0.0;         ///< [s], of memm_async before its levels
     std::int64_t steps = 0;
-    double end = 0.0;  ///< of the run [s]
+    double end = 0.0;      ///< of the run [s]
+    double seconds = 0.0;  ///< that it takes about: steps and records as long as the state at the start takes to evaluate
+    double bytes = 0.0;    ///< that this process has taken at most, once the solid was made; the run takes about as much
 };
 
 struct CheckedScene {
-    std::vector<Fault> faults;
+    std::vector<Fault> faults;         ///< in order
     std::optional<Estimate> estimate;  ///< where there is no fault
 };
 

@@ -14,7 +14,6 @@
 #include "abut/geometry/convex_distance.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/mesh/interpenetration.hpp"
-#include "abut/mesh/measures.hpp"
 
 namespace abut::input {
 namespace {
@@ -72,7 +71,8 @@ bool parted_by_a_plane(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Poi
 template <int Dim>
 double depth_in_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Points<Dim>& face) {
     const Points<Dim> corners = corners_of(mesh, cell);
-    const double tolerance = mesh::touching_tolerance * mesh::diameter<Dim>(mesh.vertices, mesh.cell_vertices[cell]);
+    const Box<Dim> box = box_of<Dim>(corners);
+    const double tolerance = mesh::touching_tolerance * (box.upper - box.lower).norm();
     if (parted_by_a_plane(mesh, cell, corners, face, tolerance)) return 0.0;
     const double depth = geometry::convex_proximity<Dim>(corners, face).depth;
     return depth > tolerance ? depth : 0.0;

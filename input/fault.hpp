@@ -12,10 +12,13 @@ struct Fault {
     std::string text;   ///< the key with its value, what is allowed, and what to do
 };
 
+/// By line and column; then those of a file as a whole, then those of other sources.
+[[nodiscard]] std::vector<Fault> in_order(std::vector<Fault> faults);
+
 /// "bars.toml:12:5: ..." on a line for each.
 [[nodiscard]] std::string text_of(const std::vector<Fault>& faults);
 
-/// All faults of a scene that could be found at once.
+/// All faults of a scene that could be found at once, in order.
 class SceneError : public BadInput {
 public:
     explicit SceneError(std::vector<Fault> faults);

@@ -44,7 +44,8 @@ std::string grammar() {
            varied("[obstacles.NAME]", obstacle_varieties(), obstacle_keys()) + table("[supports.NAME]", support_keys()) +
            table("[tractions.NAME]", traction_keys()) + table("[springs.NAME]", spring_keys()) +
            table("[springs.NAME.from], [springs.NAME.to]", anchor_keys()) + table("[moments.NAME]", moment_keys()) +
-           table("[run]", run_keys()) + table("[contact]", contact_keys()) + table("[output]", output_keys());
+           table("[run]", run_keys()) + table("[contact]", contact_keys()) + table("[output]", output_keys()) +
+           table("[output.probes.NAME]", probe_keys());
 }
 
 }  // namespace abut::input

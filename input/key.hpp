@@ -66,6 +66,22 @@ void read_table(Section& section, const Node& table, const std::string& path, co
                                             key.unit.empty() ? "" : " [" + key.unit + "]"));
 }
 
+/// A table of tables that have names, each of which `read_one(section, table, path)` reads.
+template <class Section, class ReadOne>
+void read_named(std::vector<Section>& sections, const Node& node, const std::string& name, Reader& reader,
+                const ReadOne& read_one) {
+    if (!reader.is_table(node, name)) return;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const std::string path = name + "." + node.names[i];
+        if (!reader.is_table(node.items[i], path)) continue;
+        Section section;
+        section.name = node.names[i];
+        section.where = node.items[i].where;
+        read_one(section, node.items[i], path);
+        sections.push_back(std::move(section));
+    }
+}
+
 /// One key: `read(reader, node, key)` returns an optional, which goes to what `access` leads to.
 template <class Section, class Access, class Read>
 [[nodiscard]] Key<Section> key_of(std::string name, std::string value, std::string help, Access access, Read read) {

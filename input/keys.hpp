@@ -24,6 +24,7 @@ struct Variety {
 [[nodiscard]] const Keys<Settings>& contact_keys();
 [[nodiscard]] const Keys<Settings>& output_keys();
 [[nodiscard]] const Keys<MaterialSettings>& material_keys();
+[[nodiscard]] const Keys<ProbeSettings>& probe_keys();
 [[nodiscard]] const Keys<BodySettings>& body_keys();  ///< of all bodies
 [[nodiscard]] const Keys<ObstacleSettings>& obstacle_keys();
 [[nodiscard]] const Keys<SupportSettings>& support_keys();

@@ -159,6 +159,7 @@ void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, cons
     set_in_motion(obstacle, settings);
     if (all.contact) check_outside(scene.mesh, obstacle, {.settings = settings, .closed = shell.closed}, faults);
     scene.solid.obstacles.push_back(std::move(obstacle));
+    scene.outputs.obstacles.push_back(settings.name);
 }
 
 }  // namespace

@@ -11,8 +11,10 @@
 #include "abut/input/make_body.hpp"
 #include "abut/input/make_loads.hpp"
 #include "abut/input/make_obstacle.hpp"
+#include "abut/input/names.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
+#include "abut/run/probe_file.hpp"
 
 namespace abut::input {
 namespace {
@@ -77,6 +79,27 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, std::vec
     }
 }
 
+template <int Dim>
+void add_outputs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+    const Names<Dim> names(scene.mesh, settings.bodies, faults);
+    for (const ProbeSettings& probe : settings.probes) {
+        const std::string path = "output.probes." + probe.name;
+        const auto body = names.body(probe.body, probe.where, path + ".body");
+        if (!body) continue;
+        run::Probe<Dim> made{.name = probe.name, .body = *body};
+        if (probe.point) made.position = head<Dim>(*probe.point);
+        try {
+            if (made.position) static_cast<void>(run::cell_at<Dim>(scene.mesh, *body, *made.position));
+        } catch (const BadInput& error) {
+            faults.push_back({probe.where, fmt::format("{}.point: {}", path, error.what())});
+        }
+        scene.outputs.probes.push_back(std::move(made));
+    }
+    scene.outputs.forces = settings.forces;
+    scene.outputs.interval = settings.sample_interval;
+    scene.outputs.fields = settings.fields;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -85,6 +108,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     add_bodies(scene, settings, faults);
     add_loads(scene, settings, faults);
     add_obstacles(scene, settings, faults);
+    add_outputs(scene, settings, faults);
     scene.contact = settings.contact;
     if (!scene.contact) scene.solid.obstacles.clear();
     if (scene.contact) check_apart(scene.mesh, settings, faults);

@@ -149,22 +149,6 @@ void read(MomentSettings& moment, const Node& table, const std::string& path, Re
         reader.fault(table, fmt::format("{} does nothing. Give its value [N m], its damping [N m s], or both.", path));
 }
 
-/// A table of tables that have names, each of which `read_one(section, table, path)` reads.
-template <class Section, class ReadOne>
-void read_named(std::vector<Section>& sections, const Node& node, const std::string& name, Reader& reader,
-                const ReadOne& read_one) {
-    if (!reader.is_table(node, name)) return;
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-        const std::string path = name + "." + node.names[i];
-        if (!reader.is_table(node.items[i], path)) continue;
-        Section section;
-        section.name = node.names[i];
-        section.where = node.items[i].where;
-        read_one(section, node.items[i], path);
-        sections.push_back(std::move(section));
-    }
-}
-
 /// Sections that are tables of keys.
 Key<Settings> table_key(const char* name, const Keys<Settings>& keys) {
     const auto take = [&keys](Settings& settings, const Node& node, const std::string& key, Reader& reader) {

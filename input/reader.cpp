@@ -156,21 +156,26 @@ std::optional<std::vector<Vector<3>>> Reader::points(const Node& node, const std
     return points.size() == node.items.size() ? std::optional(points) : std::nullopt;
 }
 
-std::optional<std::array<bool, 3>> Reader::components(const Node& node, const std::string& key) {
+std::optional<std::vector<std::size_t>> Reader::words(const Node& node, const std::string& key,
+                                                      const std::vector<std::string>& words) {
     if (node.type != Node::Type::array || node.items.empty()) {
-        wrong_type(node, key, "a list of components such as [\"x\"]");
+        wrong_type(node, key, fmt::format("a list of words such as [\"{}\"]", words.front()));
         return std::nullopt;
     }
+    std::vector<std::size_t> indices;
+    for (const Node& item : node.items)
+        if (const auto index = word(item, key, words)) indices.push_back(*index);
+    return indices.size() == node.items.size() ? std::optional(indices) : std::nullopt;
+}
+
+std::optional<std::array<bool, 3>> Reader::components(const Node& node, const std::string& key) {
     std::vector<std::string> names{"x", "y", "z"};
     if (dimension == 2) names.pop_back();
+    const auto chosen = words(node, key, names);
+    if (!chosen) return std::nullopt;
     std::array<bool, 3> components{};
-    bool good = true;
-    for (const Node& item : node.items) {
-        const auto index = word(item, key, names);
-        good = good && index;
-        if (index) components[*index] = true;
-    }
-    return good ? std::optional(components) : std::nullopt;
+    for (const std::size_t index : *chosen) components[index] = true;
+    return components;
 }
 
 bool Reader::is_table(const Node& node, const std::string& key) {

@@ -108,24 +108,6 @@ const Keys<Settings>& contact_keys() {
     return keys;
 }
 
-const Keys<Settings>& output_keys() {
-    static const Keys<Settings> keys = [] {
-        Keys<Settings> all = {
-            Of::text("out", option(&RunOptions::out), "path", "folder of all results, from where the program is started"),
-            Of::count("interval", option(&RunOptions::interval), 0, Of::many,
-                      "steps between records of the energies; 0: 1 in 2D, 10 in 3D"),
-            Of::number("checkpoint", option(&RunOptions::checkpoint), {.unit = "min", .above = 0.0, .zero = true},
-                       "time from one checkpoint to the next; 0: none"),
-            Of::count("checkpoint_steps", option(&RunOptions::checkpoint_steps), 0, Of::many,
-                      "steps from one checkpoint to the next, beside that; 0: by minutes alone"),
-            Of::count("frames", option(&RunOptions::frames), 0, Of::many,
-                      "frames for ParaView, first and last included; 0: none")};
-        all.front().by_default = "out/<scene>";
-        return all;
-    }();
-    return keys;
-}
-
 const Keys<ObstacleSettings>& obstacle_keys() {
     using Obstacle = ObstacleSettings;
     using From = Make<Obstacle>;

@@ -10,6 +10,7 @@
 #include "abut/input/formula.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
+#include "abut/run/outputs.hpp"
 #include "abut/run/preset.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
@@ -129,6 +130,11 @@ struct MomentSettings : Named {
     double damping = 0.0;                 ///< [N m s]
 };
 
+struct ProbeSettings : Named {
+    std::string body;
+    std::optional<Vector<3>> point;  ///< [m]
+};
+
 struct Settings {
     std::filesystem::path file;
     std::vector<std::string> set;           ///< values that replace those of the file, as given
@@ -143,6 +149,10 @@ struct Settings {
     std::vector<TractionSettings> tractions;
     std::vector<SpringSettings> springs;
     std::vector<MomentSettings> moments;
+    std::vector<ProbeSettings> probes;
+    bool forces = false;
+    int sample_interval = 0;
+    run::FrameFields fields;
     std::optional<run::Preset> preset;  ///< in the options already
     run::RunOptions options;
 };

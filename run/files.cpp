@@ -48,8 +48,8 @@ void remove_result(const fs::path& path) {
 }  // namespace
 
 const std::vector<std::string>& plain_results() {
-    static const std::vector<std::string> names{"summary.json", "report.html", "energy.csv",
-                                                "energy.png",   "energy.gp",   paraview_script_name};
+    static const std::vector<std::string> names{"summary.json", "report.html",        "energy.csv", "energy.png",
+                                                "energy.gp",    paraview_script_name, "probes.csv", "forces.csv"};
     return names;
 }
 

@@ -5,8 +5,9 @@
 
 namespace abut::run {
 
-/// Removes what ResultFiles of an earlier run may have left: summary.json, report.html, energy.csv, its picture, the script
-/// for ParaView, and the lists and frames of `series`. Everything else stays. Throws BadInput naming the file.
+/// Removes what ResultFiles of an earlier run may have left: summary.json, report.html, energy.csv, its picture, probes.csv,
+/// forces.csv, the script for ParaView, and the lists and frames of `series`. Everything else stays. Throws BadInput naming the
+/// file.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
 
 /// All files of ResultFiles except those of the series.

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "abut/run/cell_velocity.hpp"
+
 namespace abut::run {
 namespace {
 
@@ -15,14 +17,6 @@ Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
     full.topLeftCorner<Dim, Dim>() = stress;
     if constexpr (Dim == 2) full(2, 2) = poisson * stress.trace();
     return full;
-}
-
-/// v = M^-1 (p^- + p^+)/2 by cell [m/s].
-template <int Dim>
-std::vector<Vector<Dim>> velocities(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-    std::vector<double> momentum(run.p_before.begin(), run.p_before.end());
-    for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] = 0.5 * (momentum[i] + run.p_after[i]);
-    return solid.cell_velocity(momentum);
 }
 
 std::vector<double> finite_or_nan(std::vector<double> values) {
@@ -64,6 +58,7 @@ Frames<Dim>::Frames(std::filesystem::path directory, std::string series, int n_f
 template <int Dim>
 void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     series_.emplace(directory_, name_, scene.mesh);
+    fields_ = scene.outputs.fields;
     n_steps_ = result.steps;
 }
 
@@ -92,15 +87,17 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
     const auto gap = finite_or_nan(contact.gap);
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
     const Stresses<Dim> stresses(solid);
-    const auto velocity = velocities(run, solid);
+    const auto velocity = cell_velocity(run, solid);
     const auto displacement = solid.cell_displacement(run.q);
     std::vector<Vector<Dim>> of_vertices;  // a body that turns is not where the mean displacement of its cells takes it
     if (solid.moment_arms() == dynamics::MomentArms::mid_step) of_vertices = solid.vertex_displacement(run.q);
     mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
-    frame.cell_fields = {
-        {"velocity [m/s]", velocity}, {"stress [Pa]", stresses.stress}, {"von Mises [Pa]", stresses.equivalent}};
-    if constexpr (Dim == 2) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});
-    frame.boundary_fields = {{"contact pressure [Pa]", contact.pressure}, {"gap [m]", gap}};
+    if (fields_.velocity) frame.cell_fields.push_back({"velocity [m/s]", velocity});
+    if (fields_.stress) frame.cell_fields.push_back({"stress [Pa]", stresses.stress});
+    if (fields_.von_mises) frame.cell_fields.push_back({"von Mises [Pa]", stresses.equivalent});
+    if (Dim == 2 && fields_.stress) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});
+    if (fields_.pressure) frame.boundary_fields.push_back({"contact pressure [Pa]", contact.pressure});
+    if (fields_.gap) frame.boundary_fields.push_back({"gap [m]", gap});
     series_->write(frame);
 }
 

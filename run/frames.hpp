@@ -11,7 +11,7 @@ namespace abut::run {
 
 /// A run as a series for ParaView: displacement [m], velocity [m/s], stress and von Mises stress [Pa] on cells, contact
 /// pressure [Pa] and gap [m] on boundary faces (a face that nothing faces has the gap NaN). `n_frames` equally far apart,
-/// first and last step included. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
+/// first and last step included; Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
 /// throw if they cannot be written.
 template <int Dim>
 class Frames : public Observer<Dim> {
@@ -33,6 +33,7 @@ private:
     std::string name_;
     std::int64_t n_frames_;
     std::int64_t n_steps_ = 0;
+    FrameFields fields_;
     std::optional<mesh::VtuSeries<Dim>> series_;
 };
 

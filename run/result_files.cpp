@@ -49,6 +49,8 @@ void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& resu
     const Stopwatch watch(seconds_);
     energies_.begin(scene, result);
     has_begun_ = true;
+    if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
+    if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
     if (frames_) frames_->begin(scene, result);
 }
 
@@ -61,6 +63,8 @@ void ResultFiles<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const Run
 template <int Dim>
 void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     const Stopwatch watch(seconds_);
+    if (probes_) probes_->look(run, solid);
+    if (forces_) forces_->look(run, solid);
     if (frames_) frames_->look(run, solid);
 }
 
@@ -107,6 +111,8 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     {
         const Stopwatch watch(seconds);
         energies_.finish();
+        if (probes_) probes_->finish();
+        if (forces_) forces_->finish();
         without_picture_ = draw(out_, program_, scene, result);
     }
     result.seconds.output += seconds_ + seconds;
@@ -136,6 +142,8 @@ std::string ResultFiles<Dim>::table() const {
     const auto path = [&](const std::string& name) { return (out_ / name).string(); };
     std::string text = "Files\n" + table_line("report", path("report.html")) + table_line("energies", path("energy.csv")) +
                        table_line("summary", path("summary.json"));
+    if (probes_) text += table_line("probes", path("probes.csv"));
+    if (forces_) text += table_line("forces", path("forces.csv"));
     if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
     return text + table_line("picture", without_picture_.empty() ? path("energy.png") : "none: " + without_picture_);
 }

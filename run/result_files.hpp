@@ -10,15 +10,18 @@
 #include "abut/run/checkpoint_folder.hpp"
 #include "abut/run/energy_file.hpp"
 #include "abut/run/folder_lock.hpp"
+#include "abut/run/force_file.hpp"
 #include "abut/run/frames.hpp"
 #include "abut/run/observer.hpp"
+#include "abut/run/probe_file.hpp"
 #include "abut/run/report/report.hpp"
 
 namespace abut::run {
 
-/// All files of a run in one folder, RunOptions::out: energy.csv and the VTU series as it goes, then energy.gp, energy.png,
-/// the script for ParaView, report.html and summary.json; in `checkpoints`, what a run that is stopped goes on from. The folder
-/// is its own (FolderLock) until `finish`, or until it goes.
+/// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, probes.csv and forces.csv (where
+/// Scene::outputs asks for them) as it goes, then energy.gp, energy.png, the script for ParaView, report.html and summary.json;
+/// in `checkpoints`, what a run that is stopped goes on from. The folder is its own (FolderLock) until `finish`, or until it
+/// goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
 ///     run::ResultFiles<2> files(options, "mine", "bodies");
@@ -66,6 +69,8 @@ private:
     std::string name_;  // of the series
     EnergyFile<Dim> energies_;
     std::optional<Frames<Dim>> frames_;
+    std::optional<ProbeFile<Dim>> probes_;
+    std::optional<ForceFile<Dim>> forces_;
     CheckpointFolder checkpoints_;
     double minutes_;                                           // between two of them; 0: there are none
     int steps_;                                                // the same; 0: by minutes alone

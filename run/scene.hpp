@@ -9,6 +9,7 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/run/options.hpp"
+#include "abut/run/outputs.hpp"
 #include "abut/run/pilot_report.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/body_motion.hpp"
@@ -38,6 +39,7 @@ struct Scene {
     bool contact = true;                  ///< false: bodies pass through each other, at no cost
     double time = 0.0;                    ///< end of the run where no option says it [s]
     EnergyScale energy_scale{};           ///< to be given where all is at rest at the start
+    Outputs<Dim> outputs{};               ///< what ResultFiles leaves of it beside the energies
     std::string remedy_if_overlapping{};  ///< ends the message if bodies overlap at the start
     NamedValues options{};                ///< the scene's own, as they were used; for the summary
     std::function<void(const solid::Solid<Dim>&, double dt)> after_step{};  ///< looks on; may be empty

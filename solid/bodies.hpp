@@ -64,6 +64,12 @@ public:
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> deformable_cell(std::int32_t cell) const;
     /// The other way round: the cell of the mesh that is this one in `deformable`.
     [[nodiscard]] std::int32_t mesh_cell(std::int32_t deformable_cell) const;
+    /// The body of the mesh where bodies that deform come first, then those that are rigid; what comes behind stays.
+    [[nodiscard]] std::int32_t mesh_body(std::int32_t body) const {
+        const std::size_t i = static_cast<std::size_t>(body), n = deformable_bodies_.size();
+        if (i < n) return deformable_bodies_[i];
+        return i < n + rigid_->size() ? rigid_->mesh_body(i - n) : body;
+    }
     /// One value per body of the mesh, from those of the bodies that deform and a function of the rigid ones.
     template <class Rigid>
     [[nodiscard]] std::vector<double> of_bodies(const std::vector<double>& deformable, const Rigid& rigid) const {

@@ -10,6 +10,7 @@
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/contact_impulses.hpp"
 #include "abut/solid/contact_results.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
 #include "abut/solid/obstacles.hpp"
@@ -70,6 +71,9 @@ public:
     [[nodiscard]] virtual double energy() const { return 0.0; }
     /// Sets the forces on the obstacles, and adds the work of these in the step: `share` of it [J].
     virtual void take_obstacle_forces(double share, double& work) = 0;
+    /// Adds what bodies did to each other on the path of the step, or in a part of it this long [s].
+    virtual void add_impulses(double dt) = 0;
+    [[nodiscard]] std::span<const BodyImpulse<Dim>> impulses() const { return impulses_.pairs(); }
     [[nodiscard]] virtual const Obstacles<Dim>& obstacles() const = 0;
     /// Largest |g|/D [-].
     [[nodiscard]] virtual double compression() const = 0;
@@ -85,6 +89,9 @@ public:
     [[nodiscard]] virtual std::int64_t faces_left_out() const = 0;
     [[nodiscard]] virtual std::vector<Vector<Dim>> blind_corners() const = 0;
     [[nodiscard]] virtual std::optional<contact::EdgePair<Dim>> unseen_edges() const = 0;
+
+protected:
+    ContactImpulses<Dim> impulses_;
 };
 
 }  // namespace abut::solid

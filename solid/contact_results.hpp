@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include "abut/base/vector.hpp"
@@ -13,6 +14,16 @@ struct TouchingPair {
     BoundaryFace face_2;
     Vector<Dim> normal;  ///< from the body of face 1 into that of face 2
     double gap;          ///< [m]
+};
+
+/// What two bodies have done to each other by contact since the first step. Obstacles count as bodies behind those of the
+/// mesh, in their order.
+template <int Dim>
+struct BodyImpulse {
+    std::int32_t body_1;
+    std::int32_t body_2;    ///< > body_1
+    Vector<Dim> impulse;    ///< on body 2 [N s]; body 1 gets the opposite
+    double normal_impulse;  ///< of all pairs of faces along their normals [N s], > 0 in compression
 };
 
 /// Contact pressure [Pa] and smallest gap [m] of each boundary face, in the order of Mesh::boundary_faces; a face without an

@@ -330,6 +330,14 @@ void PairPotentialDriver<Dim>::take_obstacle_forces(double share, double& work) 
 }
 
 template <int Dim>
+void PairPotentialDriver<Dim>::add_impulses(double dt) {
+    for (const contact::BodyPairStep<Dim>& pair : contact_.last().body_pairs)
+        if (pair.active_pairs > 0)
+            this->impulses_.add(bodies_.mesh_body(pair.body_1), bodies_.mesh_body(pair.body_2), dt * pair.force,
+                                dt * pair.normal_force);
+}
+
+template <int Dim>
 void PairPotentialDriver<Dim>::keep_touching_faces() {
     touching_.clear();
     for (const contact::PairStep<Dim>& pair : contact_.last().pairs) {

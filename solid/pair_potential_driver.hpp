@@ -43,6 +43,7 @@ public:
     [[nodiscard]] std::span<const BodyPush<Dim>> rigid_pushes() const override { return rigid_pushes_; }
     [[nodiscard]] double energy() const override { return contact_.last().energy; }
     void take_obstacle_forces(double share, double& work) override;
+    void add_impulses(double dt) override;
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
     [[nodiscard]] double compression() const override { return contact_.last().report.compression; }
     [[nodiscard]] ContactField field() const override;

@@ -227,6 +227,13 @@ void ReconstructionDriver<Dim>::take_obstacle_forces(double share, double& work)
 }
 
 template <int Dim>
+void ReconstructionDriver<Dim>::add_impulses(double dt) {
+    const auto body = [&](contact::SurfaceFace face) { return surface_.body[static_cast<std::size_t>(face)]; };
+    for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
+        this->impulses_.add(body(pair.face_1), body(pair.face_2), dt * pair.force, dt * pair.normal_force);
+}
+
+template <int Dim>
 double ReconstructionDriver<Dim>::compression() const {
     return contact_->last().report.compression;
 }

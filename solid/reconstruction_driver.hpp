@@ -62,6 +62,7 @@ public:
     /// Whether some pair was active in the last step.
     [[nodiscard]] bool is_active() const { return !touching_.empty(); }
     void take_obstacle_forces(double share, double& work) override;
+    void add_impulses(double dt) override;
     [[nodiscard]] Obstacles<Dim>& obstacles() { return obstacles_; }
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
     [[nodiscard]] double compression() const override;

@@ -227,6 +227,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
         take_gradient(loads_->end());
     require_no_collapse();
     add_work(1.0);
+    if (contact_) contact_->add_impulses(dt);
     to_force(u_0, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
     outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
@@ -259,6 +260,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
     require_no_collapse();
     add_work(0.5);
+    if (contact_) contact_->add_impulses(dt);
     to_force(u_1, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
     outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
@@ -366,6 +368,7 @@ void Solid<Dim>::add_contact_impulse(const dynamics::FreeFlight& flight, double 
     reconstruction_->integrate();
     reconstruction_->take_obstacle_forces(1.0, work_);
     reconstruction_->obstacles().add_part(dt);
+    reconstruction_->add_impulses(dt);
     if (!reconstruction_->is_active()) return;
     const Stopwatch watch(times_.contact);
     levels_->add_contact_impulse(reconstruction_->input_cells(), corrections(), dt, impulse);

@@ -135,6 +135,10 @@ public:
     /// [N]. Throws Misuse where there is no such obstacle.
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
 
+    /// Of all pairs of bodies that have touched so far, by (body_1, body_2): the force between them, integrated in time as the
+    /// scheme does. The difference of two times over the time between is the mean force.
+    [[nodiscard]] std::span<const BodyImpulse<Dim>> contact_impulses() const;
+
     // Loads from outside: groups with a TractionCondition::from_outside, whose faces come in the order of the group. All throw
     // BadInput for another group. docs/loads.md; `outside_faces` gives all of it in one value (outside_faces.hpp).
 
@@ -191,6 +195,9 @@ public:
 
     /// Displacement of the cells of the mesh (n_cells) [m] in q.
     [[nodiscard]] std::vector<Vector<Dim>> cell_displacement(std::span<const double> q) const;
+    /// F - I of a cell of the mesh in space, of the state that was evaluated last, in q: a point of the cell that is at X at
+    /// rest is displaced by the displacement of the cell and this times X - x_c.
+    [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell, std::span<const double> q) const;
     /// Displacement of the vertices of the mesh (n_vertices) [m] in q, which was evaluated last: the mean over the cells around
     /// each of where these carry it, turned and stretched as they are.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_displacement(std::span<const double> q) const;

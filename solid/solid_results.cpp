@@ -70,6 +70,11 @@ Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const {
 }
 
 template <int Dim>
+std::span<const BodyImpulse<Dim>> Solid<Dim>::contact_impulses() const {
+    return contact_ ? contact_->impulses() : std::span<const BodyImpulse<Dim>>{};
+}
+
+template <int Dim>
 const contact::Contact<Dim>* Solid<Dim>::contact() const {
     return reconstruction_ ? &reconstruction_->contact() : nullptr;
 }
@@ -160,6 +165,19 @@ std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q
 }
 
 template <int Dim>
+Matrix<Dim> Solid<Dim>::displacement_gradient(std::int32_t cell, std::span<const double> q) const {
+    const auto [deformable, body] = bodies_->deformable_cell(cell);
+    if (deformable >= 0) {
+        const Matrix<Dim>& turn = frames_->end()[static_cast<std::size_t>(body)].turn;
+        return turn * ccg_.displacement_gradient(deformable) + turn - Matrix<Dim>::Identity();
+    }
+    for (std::size_t i = 0; i < bodies_->rigid().size(); ++i)
+        if (bodies_->rigid().mesh_body(i) == mesh_.cell_body[cell])
+            return bodies_->rigid().place(i, as_vectors<Dim>(q)).map - Matrix<Dim>::Identity();
+    return Matrix<Dim>::Zero();
+}
+
+template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const {
     std::vector<Matrix<Dim>> turn(mesh_.body_names.size(), Matrix<Dim>::Identity());  // of rigid bodies
     for (std::size_t i = 0; i < bodies_->rigid().size(); ++i)
@@ -224,6 +242,8 @@ double Solid<Dim>::step_margin() const {
     template std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const;                         \
     template double Solid<Dim>::compression() const;                                                               \
     template Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const;                                   \
+    template std::span<const BodyImpulse<Dim>> Solid<Dim>::contact_impulses() const;                               \
+    template Matrix<Dim> Solid<Dim>::displacement_gradient(std::int32_t cell, std::span<const double> q) const;    \
     template const contact::Contact<Dim>* Solid<Dim>::contact() const;                                             \
     template const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const;                                  \
     template double Solid<Dim>::skin() const;                                                                      \

@@ -60,6 +60,15 @@ const std::vector<Wrong> wrong_scenes = {
     {"[contact]\nskin = -1", {}, ".toml:20:1", {"-1 m", "0 m or above"}},
     {"[contact]\nfacing_cosine = 0.5", {}, ".toml:20:1", {"0.5", "above -1, below 0"}},
     {"[output]\nframes = [1]", {}, ".toml:20:1", {"output.frames is a list of 1", "whole number"}},
+    {"[output]\nfields = [\"strain\"]", {}, ".toml:20:", {"output.fields is 'strain'", "'stress'"}},
+    {"[output]\nfields = []", {}, ".toml:20:1", {"a list of 0", "a list of words such as"}},
+    {"[output]\nforces = 1", {}, ".toml:20:1", {"output.forces is the number 1", "true or false"}},
+    {"[output.probes.tip]\npoint = [0, 0]", {}, ".toml:19:16", {"output.probes.tip.body is missing"}},
+    {"[output.probes.tip]\nbody = \"rihgt\"", {}, ".toml:19:16", {"'rihgt', which is no body", "'right'"}},
+    {"[output.probes.tip]\nbody = \"left\"\npoint = [0.5, 1.5]",
+     {},
+     ".toml:19:16",
+     {"0.5 m beside body 'left'", "0.25 m is allowed", "inside of it"}},
     {"[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1]\nnormal = [0, 0]", {}, ".toml:19:12", {"normal is zero"}},
     {"[obstacles.floor]\nshape = \"plane\"\npoint = [0, -1, 0]\nnormal = [0, 1]",
      {},
@@ -186,7 +195,7 @@ TEST_CASE("every wrong scene gets a message that says where, what, how much is a
         }));
         CHECK(checked.faults.size() == 1);  // none that only follows from it
     }
-    CHECK(wrong_scenes.size() >= 25);
+    CHECK(wrong_scenes.size() >= 60);
 }
 
 TEST_CASE("all faults of a scene come at once, those of meshes and groups too", "[input][faults]") {
@@ -207,6 +216,21 @@ shape = "plane"
         CHECK(text.find(word) != std::string::npos);
     CHECK(text.find("supports.held") == std::string::npos);  // its body has no mesh: nothing is known of its groups
     CHECK(checked.faults.size() == 6);
+}
+
+TEST_CASE("faults come in the order of the file, those of the command line last", "[input][faults]") {
+    const WrittenScene file(two_blocks("cfl = 2\n[output]\nfarmes = 3\n[bodies.right.x]\n[supports.a]\ngroup = \"b\""));
+    const auto checked = input::check_scene(file.path(), {.set = {"run.dt=0"}});
+    std::vector<std::string> places;
+    const std::size_t name = file.path().string().size();
+    for (const auto& fault : checked.faults)
+        places.push_back(fault.where.starts_with("--") ? fault.where : fault.where.substr(name));
+    CHECK(places == std::vector<std::string>{":19:1", ":21:1", ":22:15", ":23:11", "--set run.dt=0"});
+    const std::vector<input::Fault> mixed{
+        {"--set a=1", ""}, {"a.toml", ""}, {"a.toml:10:1", ""}, {"a.toml:9:7", ""}, {"a.toml:9:3", ""}};
+    std::vector<std::string> sorted;
+    for (const auto& fault : input::in_order(mixed)) sorted.push_back(fault.where);
+    CHECK(sorted == std::vector<std::string>{"a.toml:9:3", "a.toml:9:7", "a.toml:10:1", "a.toml", "--set a=1"});
 }
 
 TEST_CASE("a scene with a fault is not run: reading throws all of them", "[input][faults]") {

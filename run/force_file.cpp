@@ -1,0 +1,49 @@
+#include "abut/run/force_file.hpp"
+
+#include <fmt/format.h>
+
+namespace abut::run {
+
+template <int Dim>
+ForceFile<Dim>::ForceFile(std::filesystem::path path) : file_(std::move(path)) {}
+
+template <int Dim>
+void ForceFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    names_ = scene.mesh.body_names;
+    for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i)
+        names_.push_back(i < scene.outputs.obstacles.size() ? scene.outputs.obstacles[i] : fmt::format("obstacle_{}", i));
+    interval_ = scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval;
+    n_steps_ = result.steps;
+    file_.open();
+    std::string columns = "step,time,body_1,body_2";
+    for (int i = 0; i < Dim; ++i) columns += fmt::format(",force_{}", "xyz"[i]);
+    file_.write(columns + ",normal_force\n");
+}
+
+template <int Dim>
+void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    if (run.steps == 0 || (run.steps % interval_ != 0 && run.steps != n_steps_)) return;
+    const double seconds = run.time - time_;
+    time_ = run.time;
+    for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses()) {
+        const auto [last, is_new] = last_.try_emplace({pair.body_1, pair.body_2}, pair);
+        const Vector<Dim> before = is_new ? Vector<Dim>(Vector<Dim>::Zero()) : last->second.impulse;
+        const double normal_before = is_new ? 0.0 : last->second.normal_impulse;
+        last->second = pair;
+        if (pair.impulse == before && pair.normal_impulse == normal_before) continue;
+        std::string row = fmt::format("{},{:.17g},{},{}", run.steps, run.time, names_[static_cast<std::size_t>(pair.body_1)],
+                                      names_[static_cast<std::size_t>(pair.body_2)]);
+        for (int i = 0; i < Dim; ++i) row += fmt::format(",{:.17g}", (pair.impulse[i] - before[i]) / seconds);
+        file_.write(fmt::format("{},{:.17g}\n", row, (pair.normal_impulse - normal_before) / seconds));
+    }
+}
+
+template <int Dim>
+void ForceFile<Dim>::finish() {
+    file_.finish();
+}
+
+template class ForceFile<2>;
+template class ForceFile<3>;
+
+}  // namespace abut::run

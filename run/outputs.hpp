@@ -1,0 +1,37 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+
+namespace abut::run {
+
+/// Where a run is watched: in the cell that holds a place, or on the mean over a whole body.
+template <int Dim>
+struct Probe {
+    std::string name;
+    std::int32_t body = 0;                  ///< number in the mesh
+    std::optional<Vector<Dim>> position{};  ///< at rest [m]; none: the body as a whole
+};
+
+/// What frames for ParaView hold beside the displacement.
+struct FrameFields {
+    bool velocity = true;
+    bool stress = true;  ///< in 2D with that out of the plane
+    bool von_mises = true;
+    bool pressure = true;  ///< of contact, on the surface
+    bool gap = true;       ///< on the surface
+};
+
+/// What ResultFiles leaves of a scene beside its energies.
+template <int Dim>
+struct Outputs {
+    std::vector<Probe<Dim>> probes{};  ///< probes.csv; none: no file
+    bool forces = false;               ///< forces.csv
+    int interval = 0;                  ///< steps between rows of these files; 0: those between records of the energies
+    FrameFields fields{};
+    std::vector<std::string> obstacles{};  ///< names; empty: obstacle_0 and so on
+};
+
+}  // namespace abut::run

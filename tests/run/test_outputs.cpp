@@ -1,0 +1,203 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/run/probe_file.hpp"
+#include "abut/run/result_files.hpp"
+#include "abut/run/simulation.hpp"
+#include "run/folder.hpp"
+#include "run/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using test::Folder;
+using test::read_text;
+
+/// A table by the names of its columns.
+struct Csv {
+    explicit Csv(const std::string& text) {
+        std::istringstream lines(text);
+        std::string line;
+        std::getline(lines, line);
+        names = cells(line);
+        while (std::getline(lines, line)) rows.push_back(cells(line));
+    }
+    static std::vector<std::string> cells(const std::string& line) {
+        std::vector<std::string> cells;
+        std::istringstream stream(line);
+        for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+        return cells;
+    }
+    [[nodiscard]] const std::string& text(std::size_t row, const std::string& name) const {
+        const auto found = std::find(names.begin(), names.end(), name);
+        REQUIRE(found != names.end());
+        return rows[row][static_cast<std::size_t>(found - names.begin())];
+    }
+    [[nodiscard]] double number(std::size_t row, const std::string& name) const { return std::stod(text(row, name)); }
+
+    std::vector<std::string> names;
+    std::vector<std::vector<std::string>> rows;
+};
+
+/// Runs a scene and gives a file that it leaves.
+template <int Dim>
+std::string file_of(const run::Scene<Dim>& scene, run::RunOptions options, const std::string& name,
+                    run::RunResult<Dim>* result = nullptr) {
+    const Folder folder;
+    options.out = folder.path();
+    run::ResultFiles<Dim> files(options, "outputs", "bodies");
+    run::RunResult<Dim> ended = run::simulate<Dim>(scene, options, files);
+    files.finish(scene, ended);
+    if (result) *result = std::move(ended);
+    return read_text(folder.path() / name);
+}
+
+/// Two unit squares, 1 cm apart, that meet with 0.1 m/s and rebound within 3 s.
+run::Scene<2> two_blocks() {
+    run::Scene<2> scene;
+    const std::vector<mesh::Mesh<2>> meshes{
+        mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {5, 5}, mesh::CellShape::quadrangle, "left"),
+        mesh::structured_box<2>({1.01, 0.2}, {2.01, 1.2}, {6, 6}, mesh::CellShape::quadrangle, "right")};
+    scene.mesh = mesh::combine<2>(meshes);
+    scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.3, .density = 1.0});
+    scene.velocity = {Vector<2>(0.1, 0.0), Vector<2>::Zero()};
+    scene.time = 4.0;
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("forces times their intervals are the change of momentum, whatever scheme takes the forces, and law",
+          "[run][outputs]") {
+    using run::SolidIntegrator;
+    using solid::ContactLaw;
+    const auto [integrator, law] =
+        GENERATE(table<SolidIntegrator, ContactLaw>({{SolidIntegrator::memm, ContactLaw::reconstruction},
+                                                     {SolidIntegrator::memm_async, ContactLaw::reconstruction},
+                                                     {SolidIntegrator::leapfrog, ContactLaw::reconstruction},
+                                                     {SolidIntegrator::memm, ContactLaw::pair_potential},
+                                                     {SolidIntegrator::leapfrog, ContactLaw::pair_potential}}));
+    CAPTURE(run::name_of(integrator), static_cast<int>(law));
+    run::Scene<2> scene = two_blocks();
+    scene.outputs = {.forces = true, .interval = 3};
+    run::RunResult<2> result;
+    const Csv forces(file_of<2>(scene, {.law = law, .integrator = integrator, .frames = 0}, "forces.csv", &result));
+    REQUIRE(forces.rows.size() > 2);
+    Vector<2> impulse = Vector<2>::Zero();
+    double normal_impulse = 0.0;
+    for (std::size_t row = 0; row < forces.rows.size(); ++row) {
+        CHECK(forces.text(row, "body_1") == "left");
+        CHECK(forces.text(row, "body_2") == "right");
+        const auto steps = static_cast<int>(forces.number(row, "step")) % 3;
+        const double seconds = (steps == 0 ? 3 : steps) * result.dt;
+        impulse += seconds * Vector<2>(forces.number(row, "force_x"), forces.number(row, "force_y"));
+        normal_impulse += seconds * forces.number(row, "normal_force");
+    }
+    const Vector<2> gained = result.end[1].mass * (result.end[1].velocity - result.start[1].velocity);
+    CHECK(gained.x() > 0.05);  // they did meet
+    CHECK((impulse - gained).norm() < 1e-12 * gained.norm());
+    if (law == ContactLaw::reconstruction)  // normals are those at rest, along x
+        CHECK(normal_impulse == Approx(impulse.x()).epsilon(1e-12));
+}
+
+TEST_CASE("forces on an obstacle carry its name, and bodies that turn change numbers without changing names",
+          "[run][outputs]") {
+    run::Scene<2> scene = test::block_on_plane(0.05);
+    const std::vector<mesh::Mesh<2>> meshes{
+        mesh::structured_box<2>({3.0, 5.0}, {4.0, 6.0}, {1, 1}, mesh::CellShape::quadrangle, "far"), scene.mesh};
+    scene.mesh = mesh::combine<2>(meshes);
+    scene.solid.materials.assign(2, scene.solid.materials.front());
+    scene.solid.kinematics = {solid::Kinematics::rigid, solid::Kinematics::floating};
+    scene.velocity = {Vector<2>::Zero(), Vector<2>(0.0, -0.05)};
+    scene.outputs = {.forces = true, .interval = 1, .obstacles = {"floor"}};
+    run::RunResult<2> result;
+    const Csv forces(file_of<2>(scene, {.frames = 0}, "forces.csv", &result));
+    REQUIRE_FALSE(forces.rows.empty());
+    double impulse = 0.0;
+    for (std::size_t row = 0; row < forces.rows.size(); ++row) {
+        CHECK(forces.text(row, "body_1") == "block");
+        CHECK(forces.text(row, "body_2") == "floor");
+        impulse += result.dt * forces.number(row, "force_y");
+    }
+    const double gained = result.end[1].mass * (result.end[1].velocity.y() - result.start[1].velocity.y());
+    CHECK(gained > 0.05);
+    CHECK(-impulse == Approx(gained).epsilon(1e-12));
+}
+
+TEST_CASE("a probe sees an affine displacement and its stress exactly", "[run][outputs]") {
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {5.0, 5.0}, {5, 5}, mesh::CellShape::quadrangle, "block");
+    scene.solid.materials = {{.young = 2.0, .poisson = 0.25, .density = 1.0}};
+    scene.velocity = {Vector<2>::Zero()};
+    scene.energy_scale = {"H0", 1.0};
+    scene.displacement = [](const Vector<2>& x) { return Vector<2>(0.01 * x.x() + 0.02 * x.y(), -0.03 * x.y()); };
+    scene.outputs = {.probes = {{.name = "inside", .position = Vector<2>(2.1, 2.7)}, {.name = "all"}}, .interval = 2};
+    const Csv probes(file_of<2>(scene, {.steps = 5, .frames = 0}, "probes.csv"));
+    REQUIRE(probes.rows.size() == 4);  // steps 0, 2, 4 and the last
+    CHECK(probes.text(3, "step") == "5");
+    CHECK(probes.number(0, "inside.displacement_x") == Approx(0.01 * 2.1 + 0.02 * 2.7).epsilon(1e-13));
+    CHECK(probes.number(0, "inside.displacement_y") == Approx(-0.03 * 2.7).epsilon(1e-13));
+    const double lambda = 0.8, mu = 0.8;  // E nu/((1 + nu)(1 - 2 nu)), E/(2 (1 + nu))
+    const double xx = lambda * -0.02 + 2.0 * mu * 0.01, yy = lambda * -0.02 - 2.0 * mu * 0.03, zz = lambda * -0.02,
+                 xy = 2.0 * mu * 0.01;
+    CHECK(probes.number(0, "inside.stress_xx") == Approx(xx).margin(1e-14));
+    CHECK(probes.number(0, "inside.stress_yy") == Approx(yy).epsilon(1e-12));
+    CHECK(probes.number(0, "inside.stress_zz") == Approx(zz).epsilon(1e-12));
+    CHECK(probes.number(0, "inside.stress_xy") == Approx(xy).epsilon(1e-12));
+    const double mises =
+        std::sqrt(0.5 * ((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) + 3 * xy * xy);
+    CHECK(probes.number(0, "inside.von_mises") == Approx(mises).epsilon(1e-12));
+    CHECK(probes.number(0, "all.displacement_x") == Approx(0.03 * 2.5).epsilon(1e-13));  // at the middle
+}
+
+TEST_CASE("a probe on a body that spins goes round with it", "[run][outputs]") {
+    const auto kinematics = GENERATE(solid::Kinematics::rigid, solid::Kinematics::floating);
+    run::Scene<3> scene;
+    scene.mesh =
+        mesh::structured_box<3>({-1.0, -1.0, -1.0}, {1.0, 1.0, 1.0}, {2, 2, 2}, mesh::CellShape::hexahedron, "block");
+    scene.solid.materials = {{.young = 1e4, .poisson = 0.0, .density = 1.0}};
+    scene.solid.kinematics = {kinematics};
+    scene.velocity = {Vector<3>(0.5, 0.0, 0.0)};
+    scene.spin = {AxialVector<3>(0.0, 0.0, 0.1)};
+    scene.outputs = {.probes = {{.name = "corner", .position = Vector<3>(1.0, 1.0, 1.0)}}, .interval = 50};
+    const Csv probes(file_of<3>(scene, {.time = 1.0, .dt = 2e-3, .frames = 0}, "probes.csv"));
+    const std::size_t last = probes.rows.size() - 1;
+    const double angle = 0.1, place = std::numbers::pi / 4.0 + angle, r = std::sqrt(2.0);
+    // A body that deforms grows by the square of its spin: rho w^2 L^2/E of 1e-6.
+    CHECK(probes.number(last, "corner.displacement_x") == Approx(0.5 + r * std::cos(place) - 1.0).margin(1e-5));
+    CHECK(probes.number(last, "corner.displacement_y") == Approx(r * std::sin(place) - 1.0).margin(1e-5));
+    CHECK(probes.number(last, "corner.displacement_z") == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("a place beside its body is refused with the distance, one on its skin is taken", "[run][outputs]") {
+    const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {4.0, 2.0}, {4, 2}, mesh::CellShape::quadrangle, "block");
+    const std::int32_t inside = run::cell_at<2>(mesh, 0, {3.5, 1.5});
+    CHECK((mesh.cell_centroid[inside] - Vector<2>(3.5, 1.5)).norm() < 1e-14);
+    CHECK(run::cell_at<2>(mesh, 0, {3.5, 2.0}) == inside);
+    CHECK(run::cell_at<2>(mesh, 0, {3.5, 2.4}) == inside);
+    CHECK_THROWS_WITH((run::cell_at<2>(mesh, 0, {3.5, 2.6})), Catch::Contains("0.6 m beside body 'block', 0.5 m"));
+    CHECK_THROWS_AS((run::cell_at<2>(mesh, 1, {3.5, 1.5})), BadInput);
+}
+
+TEST_CASE("frames hold the fields that are asked for", "[run][outputs]") {
+    const Folder folder;
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.outputs.fields = {.velocity = false, .stress = false, .von_mises = true, .pressure = false, .gap = true};
+    const run::RunOptions options{.steps = 2, .out = folder.path(), .frames = 1};
+    run::ResultFiles<2> files(options, "outputs", "bodies");
+    static_cast<void>(run::simulate<2>(scene, options, files));
+    const std::string cells = read_text(folder.path() / "bodies_000000.vtu");
+    const std::string surface = read_text(folder.path() / "bodies_surface_000000.vtp");
+    CHECK(cells.find("displacement") != std::string::npos);
+    CHECK(cells.find("von Mises") != std::string::npos);
+    CHECK(cells.find("velocity") == std::string::npos);
+    CHECK(cells.find("stress") == std::string::npos);
+    CHECK(surface.find("gap") != std::string::npos);
+    CHECK(surface.find("pressure") == std::string::npos);
+}
