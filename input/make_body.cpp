@@ -8,6 +8,7 @@
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/place.hpp"
 #include "abut/mesh/shapes/fill.hpp"
+#include "abut/mesh/shapes/gear.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::input {
@@ -54,6 +55,15 @@ mesh::Mesh<Dim> structured_box(const BodySettings& body) {
 
 mesh::Mesh<2> round_body_in_plane(const BodySettings& body) {
     const Vector<2> middle = head<2>(centre(body));
+    if (body.shape == Shape::gear)
+        return mesh::gear({.centre = middle,
+                           .teeth = body.teeth,
+                           .radius = body.radius,
+                           .bore = body.bore,
+                           .pressure_angle = body.pressure_angle,
+                           .backlash = body.backlash,
+                           .cells = body.cells_per_tooth,
+                           .name = body.name});
     if (body.shape == Shape::fan_disc) return mesh::fan_disc(middle, body.radius, body.sectors, 0.0, body.name);
     return mesh::disc({.centre = middle,
                        .radius = body.radius,
@@ -81,7 +91,8 @@ mesh::Mesh<3> round_body_in_space(const BodySettings& body) {
 }
 
 bool has_centre(Shape shape) {
-    return shape == Shape::disc || shape == Shape::fan_disc || shape == Shape::cylinder || shape == Shape::sphere;
+    return shape == Shape::disc || shape == Shape::fan_disc || shape == Shape::gear || shape == Shape::cylinder ||
+           shape == Shape::sphere;
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 // Private to the layer.
 #include <array>
 #include <filesystem>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +35,7 @@ struct Named {
 /// A vector whose components may be formulas.
 using FieldSettings = std::array<Formula, 3>;
 
-enum class Shape { none, disc, fan_disc, box, structured_box, cylinder, sphere, file, surface };
+enum class Shape { none, disc, fan_disc, gear, box, structured_box, cylinder, sphere, file, surface };
 
 struct RefinementSettings {
     Vector<3> point = Vector<3>::Zero();  ///< [m]
@@ -62,6 +63,11 @@ struct BodySettings : Named {
     std::array<int, 3> counts{};
     std::optional<mesh::CellShape> cells;
     int sectors = 12;
+    int teeth = 12;
+    double bore = 0.1;                               ///< [m]
+    double pressure_angle = std::numbers::pi / 9.0;  ///< [rad]
+    double backlash = 0.0;                           ///< [m]
+    int cells_per_tooth = 4;
     int variant = 0;
     std::optional<RefinementSettings> refinement;
     Vector<3> place = Vector<3>::Zero();  ///< [m]

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "abut/mesh/shapes/gear.hpp"
 #include "studies/kinematics/axles.hpp"
 #include "studies/kinematics/rows.hpp"
 #include "studies/kinematics/shapes.hpp"
@@ -17,8 +18,8 @@ constexpr double backlash = 0.01, gap = 1e-3;
 
 /// 12 teeth drive 18, which a dashpot resists; both turn as rigid gears would that share the moment.
 struct Pair {
-    Gear first{.teeth = 12, .radius = 1.0, .bore = 0.4, .pressure_angle = 25.0 * pi / 180.0, .backlash = backlash};
-    Gear second = first;
+    mesh::Gear first{.teeth = 12, .radius = 1.0, .bore = 0.4, .pressure_angle = 25.0 * pi / 180.0, .backlash = backlash};
+    mesh::Gear second = first;
     double ratio = 1.5;                             // of the numbers of teeth
     double damping = drive * ratio * ratio / spin;  // [N m s]
 
@@ -35,7 +36,7 @@ struct Pair {
     }
 };
 
-solid::Spring<2> axle(std::int32_t body, const Gear& gear) {
+solid::Spring<2> axle(std::int32_t body, const mesh::Gear& gear) {
     return {.first = {.body = solid::ground, .position = gear.centre},
             .second = {.body = body, .position = gear.centre, .radius = 1.2 * gear.bore},
             .stiffness = hinge};

@@ -1,6 +1,5 @@
 #include "studies/kinematics/shapes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,71 +15,6 @@ struct Rings {
         if (ring == 0) return 0;
         return 1 + corners * ring * (ring - 1) / 2 + (side * ring + place) % (corners * ring);
     }
-};
-
-/// Vertices of a gear: rows of the ring from the bore to the ground of the gaps, then those of each tooth above it.
-class GearGrid {
-public:
-    explicit GearGrid(const Gear& gear) : gear_(gear) {
-        const double module = 2.0 * gear.radius / gear.teeth, pitch = 2.0 * std::numbers::pi / gear.teeth;
-        root_ = gear.radius - 1.25 * module;
-        tip_ = gear.radius + module;
-        const double side = 2.0 * half_tooth(gear, root_) * root_ / gear.cells;  // of a cell
-        gap_cells_ = std::max(2, static_cast<int>(std::lround(pitch * root_ / side)) - gear.cells);
-        rows_ = std::max(2, static_cast<int>(std::lround((tip_ - root_) / side)));
-        layers_ = std::max(2, static_cast<int>(std::lround((root_ - gear.bore) / side)));
-    }
-    [[nodiscard]] mesh::CellSoup<2> soup() const {
-        mesh::CellSoup<2> soup;
-        soup.name = gear_.name;
-        soup.body_names = {gear_.name};
-        for (int layer = 0; layer <= layers_; ++layer)
-            for (int i = 0; i < around(); ++i) soup.vertices.push_back(of_ring(layer, i));
-        for (int tooth = 0; tooth < gear_.teeth; ++tooth)
-            for (int row = 1; row <= rows_; ++row)
-                for (int i = 0; i <= gear_.cells; ++i) soup.vertices.push_back(of_tooth(tooth, row, i));
-        const auto append = [&](int a, int b, int c, int d) {
-            soup.cell_vertices.append(std::array<std::int32_t, 4>{a, b, c, d});
-            soup.cell_shape.push_back(mesh::CellShape::quadrangle);
-            soup.cell_body.push_back(0);
-        };
-        for (int layer = 0; layer < layers_; ++layer)
-            for (int i = 0; i < around(); ++i)
-                append(ring(layer, i), ring(layer + 1, i), ring(layer + 1, i + 1), ring(layer, i + 1));
-        for (int tooth = 0; tooth < gear_.teeth; ++tooth)
-            for (int row = 0; row < rows_; ++row)
-                for (int i = 0; i < gear_.cells; ++i)
-                    append(above(tooth, row, i), above(tooth, row + 1, i), above(tooth, row + 1, i + 1),
-                           above(tooth, row, i + 1));
-        return soup;
-    }
-
-private:
-    [[nodiscard]] int around() const { return gear_.teeth * (gear_.cells + gap_cells_); }
-    [[nodiscard]] int ring(int layer, int i) const { return layer * around() + i % around(); }
-    [[nodiscard]] int above(int tooth, int row, int i) const {
-        if (row == 0) return ring(layers_, tooth * (gear_.cells + gap_cells_) + i);
-        return (layers_ + 1) * around() + (tooth * rows_ + row - 1) * (gear_.cells + 1) + i;
-    }
-    [[nodiscard]] Vector<2> at(double radius, double angle) const {
-        return gear_.centre + radius * Vector<2>(std::cos(angle), std::sin(angle));
-    }
-    [[nodiscard]] Vector<2> of_tooth(int tooth, int row, int i) const {
-        const double radius = root_ + (tip_ - root_) * row / rows_;
-        const double middle = gear_.phase + 2.0 * std::numbers::pi * tooth / gear_.teeth;
-        return at(radius, middle + half_tooth(gear_, radius) * (2.0 * i / gear_.cells - 1.0));
-    }
-    [[nodiscard]] Vector<2> of_ring(int layer, int i) const {
-        const int tooth = i / (gear_.cells + gap_cells_), k = i % (gear_.cells + gap_cells_);
-        const double pitch = 2.0 * std::numbers::pi / gear_.teeth, half = half_tooth(gear_, root_);
-        const double from_middle = k <= gear_.cells ? half * (2.0 * k / gear_.cells - 1.0)
-                                                    : half + (pitch - 2.0 * half) * (k - gear_.cells) / gap_cells_;
-        return at(gear_.bore + (root_ - gear_.bore) * layer / layers_, gear_.phase + pitch * tooth + from_middle);
-    }
-
-    const Gear& gear_;
-    double root_, tip_;
-    int gap_cells_, rows_, layers_;
 };
 
 }  // namespace
@@ -137,15 +71,6 @@ mesh::Mesh<2> polygon(const Polygon& polygon) {
             }
     return mesh::build_mesh(std::move(soup));
 }
-
-double half_tooth(const Gear& gear, double radius) {
-    const auto involute = [](double angle) { return std::tan(angle) - angle; };
-    const double base = gear.radius * std::cos(gear.pressure_angle);
-    const double thickness = 0.5 * std::numbers::pi / gear.teeth - 0.5 * gear.backlash / gear.radius;
-    return thickness + involute(gear.pressure_angle) - (radius > base ? involute(std::acos(base / radius)) : 0.0);
-}
-
-mesh::Mesh<2> gear(const Gear& gear) { return mesh::build_mesh(GearGrid(gear).soup()); }
 
 double Ball::back_area() const {
     const double r = radius * std::sin(back);

@@ -40,6 +40,20 @@ const std::vector<Wrong> wrong_scenes = {
      {},
      ".toml:19:9",
      {"shape is missing", "'disc'"}},  // 3D only
+    {"[bodies.wheel]\nshape = \"gear\"\nyoung = 1\ndensity = 1\nplace = [9, 9]\nteeth = 16\nradius = 2\nbore = 1.8",
+     {},
+     ".toml:19:9",
+     {"the bore is 1.8 m", "below 1.6875 m", "Change bore"}},
+    {"[bodies.wheel]\nshape = \"gear\"\nyoung = 1\ndensity = 1\nplace = [9, 9]\nteeth = 16\nradius = 2\nbore = "
+     "1\ncells_per_tooth = 3",
+     {},
+     ".toml:19:9",
+     {"3 cells", "even number"}},
+    {"[bodies.wheel]\nshape = \"gear\"\nyoung = 1\ndensity = 1\nplace = [9, 9]\nteeth = 16\nradius = 2\nbore = 1\nbacklash "
+     "= 0.2",
+     {},
+     ".toml:19:9",
+     {"the tip of a tooth", "above 0 m", "backlash"}},
     {"[bodys.left]\nyoung = 1", {}, ".toml:19:2", {"bodys is an unknown key", "'bodies'"}},
     {"cfk = 0.5", {}, ".toml:19:1", {"run.cfk is an unknown key", "'cfl'"}},
     {"cfl = 1.5", {}, ".toml:19:1", {"run.cfl is 1.5", "above 0, at most 1"}},

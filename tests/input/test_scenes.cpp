@@ -75,7 +75,7 @@ TEST_CASE("every scene of the project has no fault, starts, and keeps its pseudo
         file.dimension() == 2 ? run_some_steps<2>(file) : run_some_steps<3>(file);
         ++n;
     }
-    CHECK(n == 7);
+    CHECK(n == 11);
 }
 
 TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
@@ -325,6 +325,32 @@ steps = 1
         if (mesh.face_centroid[f].x() < -0.5) far += mesh.face_measure[f], ++n_far;
     }
     CHECK(near / n_near < 0.5 * far / n_far);
+}
+
+TEST_CASE("a gear has its teeth between tips and ground, and its bore", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([bodies.wheel]
+shape = "gear"
+teeth = 16
+radius = 2
+bore = 1
+cells_per_tooth = 2
+place = [0, 9]
+young = 1
+density = 1
+)toml"));
+    const auto mesh = input::SceneFile(written.path()).scene<2>().mesh;
+    double tip = 0.0, ground = 9.0;
+    const auto distance = [&](std::int32_t vertex) { return (mesh.vertices[vertex] - Vector<2>(0.0, 9.0)).norm(); };
+    for (const std::int32_t face : mesh.group("wheel.teeth").faces)
+        for (const std::int32_t vertex : mesh.face_vertices[face])
+            tip = std::max(tip, distance(vertex)), ground = std::min(ground, distance(vertex));
+    CHECK(tip == Approx(2.25));  // a module of 0.25 above the pitch circle
+    CHECK(ground == Approx(2.0 - 1.25 * 0.25));
+    for (const std::int32_t face : mesh.group("wheel.bore").faces)
+        for (const std::int32_t vertex : mesh.face_vertices[face]) CHECK(distance(vertex) == Approx(1.0));
+    const std::size_t of_blocks = 8 + 12;
+    CHECK(mesh.group("wheel.teeth").faces.size() + mesh.group("wheel.bore").faces.size() ==
+          mesh.boundary_faces.size() - of_blocks);
 }
 
 TEST_CASE("obstacles face outwards, or inwards where bodies are inside, and follow their paths", "[input][scenes]") {
