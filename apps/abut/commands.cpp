@@ -18,6 +18,7 @@
 #include "apps/abut/build_info.hpp"
 #include "apps/abut/restart.hpp"
 #include "apps/detect/detect.hpp"
+#include "apps/abut/sweep.hpp"
 #include "apps/support/preset.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
@@ -35,6 +36,7 @@ struct CommandLine {
     fs::path results;
     int threads = 0;
     std::vector<std::string> set;
+    std::vector<std::string> sweep;
     run::RunOptions options;
     Messages messages = Messages::normal;
     CLI::App* run = nullptr;
@@ -74,6 +76,13 @@ void add_commands(CLI::App& app, CommandLine& line) {
     line.run = app.add_subcommand("run", "runs a scene; options stand above its values");
     add_scene_options(*line.run, line);
     add_message_options(*line.run, line.messages);
+    line.run
+        ->add_option("--sweep", line.sweep,
+                     "a key and its values in turn, a folder for each run and sweep.csv for all; of several keys all "
+                     "combinations")
+        ->expected(1)
+        ->take_all()
+        ->type_name("KEY=A,B,...");
     line.check = app.add_subcommand("check", "says all that is wrong with a scene, or what a run of it would take");
     add_scene_options(*line.check, line);
     line.restart = app.add_subcommand("restart", "goes on with a run that was stopped or killed, from its last checkpoint");
@@ -113,11 +122,11 @@ input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
             }};
 }
 
-void run_file(const Program& program, const fs::path& path, const input::Overrides& overrides, const Restart& restart) {
-    const input::SceneFile file(path, overrides);
+/// `restart`: what a restart needs; none where one run of several is made.
+void run_file(const Program& program, const input::SceneFile& file, const Restart* restart) {
     Program named = program;
     named.name = file.name();
-    if (!file.options().resume) named.beside_checkpoints = files_for_restart(restart);
+    if (restart && !file.options().resume) named.beside_checkpoints = files_for_restart(*restart);
     if (file.dimension() == 2)
         run_scene<2>(named, file.options(), [&] { return file.scene<2>(); });
     else
@@ -142,7 +151,7 @@ void restart_run(const Program& program, const fs::path& results, int threads) {
         of_run.resume = true;
         if (threads > 0) of_run.threads = threads;
     };
-    run_file(program, scene_for_restart(results), over, restart);
+    run_file(program, input::SceneFile(scene_for_restart(results), over), &restart);
 }
 
 void check_file(const fs::path& path, const input::Overrides& overrides) {
@@ -169,9 +178,13 @@ int run_abut(int argc, char** argv) {
     const auto add_options = [&](CLI::App& app) { add_commands(app, line); };
     return run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
-        if (line.run->parsed())
-            run_file(program, line.scene, overrides(argc, argv, line), {fs::absolute(line.scene), {argv, argv + argc}});
-        else if (line.restart->parsed())
+        if (line.run->parsed() && !line.sweep.empty()) {
+            run_sweep(line.scene, overrides(argc, argv, line), read_sweeps(line.sweep),
+                      [&](const input::SceneFile& file) { run_file(program, file, nullptr); });
+        } else if (line.run->parsed()) {
+            const Restart restart{fs::absolute(line.scene), {argv, argv + argc}};
+            run_file(program, input::SceneFile(line.scene, overrides(argc, argv, line)), &restart);
+        } else if (line.restart->parsed())
             restart_run(program, line.results, line.threads);
         else if (line.check->parsed())
             check_file(line.scene, overrides(argc, argv, line));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "programs/program.hpp"
 
@@ -74,6 +75,38 @@ TEST_CASE("abut run refuses what abut check refuses, and touches no file", "[pro
     }
     CHECK(run_program("abut", "run nowhere.toml", "").exit_code == 1);
     CHECK(run_program("abut", "", "").exit_code == 1);
+}
+
+TEST_CASE("a sweep runs all combinations, and its table says what became of each", "[programs][abut]") {
+    const Folder folder("abut_sweep");
+    const auto out = folder.path() / "sweep";
+    const auto outcome = run_program("abut",
+                                     fmt::format("run {} --steps 3 --frames 0 --out '{}' --sweep bodies.left.density=1,-2,3 "
+                                                 "--sweep \"bodies.left.velocity=[0.05,0],[1e200,0]\"",
+                                                 scene("slipping_cylinders"), out.string()),
+                                     "");
+    CHECK(outcome.exit_code == 1);
+    CHECK(has(outcome.error, "4 of 6 runs did not end"));
+    std::ifstream table(out / "sweep.csv");
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(table, line);) lines.push_back(line);
+    REQUIRE(lines.size() == 7);
+    CHECK(has(lines[0], "folder,\"bodies.left.density\",\"bodies.left.velocity\",state,"));
+    CHECK(has(lines[1], "run_1,\"1\",\"[0.05,0]\",held,"));
+    CHECK(has(lines[2], "run_2,\"1\",\"[1e200,0]\","));
+    CHECK_FALSE(has(lines[2], "held"));
+    CHECK(has(lines[3], "run_3,\"-2\",\"[0.05,0]\",refused,"));
+    CHECK(has(lines[3], "bodies.left.density is -2 kg/m^3"));
+    CHECK(has(lines[5], "run_5,\"3\",\"[0.05,0]\",held,"));
+    for (const char* run : {"run_1", "run_5"}) CHECK(fs::exists(out / run / "summary.json"));
+    for (const char* run : {"run_2", "run_3"}) CHECK_FALSE(fs::exists(out / run / "summary.json"));
+    const auto wrong = [&](const std::string& sweeps) {
+        return run_program("abut", fmt::format("run {} --out '{}' {}", scene("slipping_cylinders"), out.string(), sweeps),
+                           "");
+    };
+    CHECK(has(wrong("--sweep bodies.left.density").error, "a key and its values"));
+    CHECK(has(wrong("--sweep bodies.left.density=1,,2").error, "a key and its values"));
+    CHECK(has(wrong("--sweep run.cfl=0.5 --sweep run.cfl=0.4").error, "given twice"));
 }
 
 TEST_CASE("abut new writes a scene that has no fault and runs, and no file twice", "[programs][abut]") {

@@ -1,0 +1,196 @@
+#include "apps/abut/sweep.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/run/files.hpp"
+#include "apps/support/csv.hpp"
+#include "apps/support/signals.hpp"
+
+namespace abut::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Columns of summary.json that sweep.csv repeats.
+constexpr std::array<const char*, 8> figures{
+    "steps", "dt", "energy_excess_max", "parasitic_max", "momentum_drift_max", "events", "lost_contacts", "compression_max"};
+
+/// What has become of one run.
+struct Outcome {
+    std::string folder;
+    std::vector<std::string> values;
+    std::string state;
+    std::string message;
+    nlohmann::json summary = nlohmann::json::object();
+};
+
+/// At commas outside of brackets and quotation marks.
+std::vector<std::string> parts_of(const std::string& text) {
+    std::vector<std::string> parts(1);
+    int depth = 0;
+    char quote = 0;
+    for (const char c : text) {
+        if (quote != 0)
+            quote = c == quote ? '\0' : quote;
+        else if (c == '"' || c == '\'')
+            quote = c;
+        else if (c == '[' || c == '{' || c == '(')
+            ++depth;
+        else if (c == ']' || c == '}' || c == ')')
+            --depth;
+        else if (c == ',' && depth == 0) {
+            parts.emplace_back();
+            continue;
+        }
+        parts.back() += c;
+    }
+    return parts;
+}
+
+Sweep read_sweep(const std::string& text) {
+    const auto equals = text.find('=');
+    Sweep sweep{text.substr(0, equals), {}};
+    if (equals != std::string::npos) sweep.values = parts_of(text.substr(equals + 1));
+    const bool empty = std::ranges::any_of(sweep.values, [](const std::string& value) { return value.empty(); });
+    if (sweep.key.empty() || sweep.values.empty() || empty)
+        throw BadInput(fmt::format("--sweep {}: a key and its values are needed: --sweep bodies.left.density=1,2,4.", text));
+    return sweep;
+}
+
+/// The values of run `index`, the last key varying fastest.
+std::vector<std::string> values_of(std::size_t index, const std::vector<Sweep>& sweeps) {
+    std::vector<std::string> values(sweeps.size());
+    for (std::size_t i = sweeps.size(); i-- > 0;) {
+        values[i] = sweeps[i].values[index % sweeps[i].values.size()];
+        index /= sweeps[i].values.size();
+    }
+    return values;
+}
+
+/// "bodies.left.density=2"
+std::vector<std::string> settings_of(const std::vector<std::string>& values, const std::vector<Sweep>& sweeps) {
+    std::vector<std::string> settings;
+    for (std::size_t i = 0; i < sweeps.size(); ++i) settings.push_back(sweeps[i].key + "=" + values[i]);
+    return settings;
+}
+
+std::string state_of(ErrorKind kind) {
+    if (kind == ErrorKind::diverged || kind == ErrorKind::too_deep) return "diverged";
+    return kind == ErrorKind::bad_input || kind == ErrorKind::limit_exceeded ? "refused" : "failed";
+}
+
+/// A number of summary.json as a field; nothing where there is none.
+std::string field(const nlohmann::json& summary, const std::string& name) {
+    const auto found = summary.find(name);
+    return found == summary.end() || !found->is_number() ? "" : all_digits(found->get<double>());
+}
+
+/// Over the scale of energies.
+std::string drift(const nlohmann::json& summary) {
+    if (!summary.contains("pseudo_energy_drift")) return "";
+    return all_digits(summary["pseudo_energy_drift"].get<double>() / summary["energy_scale"]["value"].get<double>());
+}
+
+std::string row_of(const Outcome& outcome) {
+    std::vector<std::string> fields{outcome.folder};
+    for (const std::string& value : outcome.values) fields.push_back(quoted(value));
+    fields.push_back(outcome.state);
+    fields.push_back(drift(outcome.summary));
+    for (const char* figure : figures) fields.push_back(field(outcome.summary, figure));
+    fields.push_back(outcome.summary.contains("seconds") ? field(outcome.summary["seconds"], "total") : "");
+    fields.push_back(quoted(outcome.message));
+    return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+void write_table(const fs::path& path, const std::vector<Outcome>& outcomes, const std::vector<Sweep>& sweeps) {
+    std::vector<std::string> columns{"folder"};
+    for (const Sweep& sweep : sweeps) columns.push_back(quoted(sweep.key));
+    columns.insert(columns.end(), {"state", "pseudo_energy_drift_over_scale"});
+    columns.insert(columns.end(), figures.begin(), figures.end());
+    columns.insert(columns.end(), {"seconds", "message"});
+    std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+    for (const Outcome& outcome : outcomes) text += row_of(outcome);
+    run::write_whole(path, text);
+}
+
+/// Runs into `folder` of what the scene has for its results, which is kept in `out`.
+Outcome outcome_of(const fs::path& scene, const input::Overrides& overrides, const std::string& folder, fs::path& out,
+                   const std::function<void(const input::SceneFile&)>& run_one) {
+    Outcome outcome{.folder = folder, .values = {}, .state = "held", .message = {}};
+    const auto into_folder = [&](run::RunOptions& options) {
+        if (overrides.options) overrides.options(options);
+        out = options.out;
+        options.out /= folder;
+    };
+    try {
+        run_one(input::SceneFile(scene, {.set = overrides.set, .options = into_folder}));
+        std::ifstream(out / folder / "summary.json") >> outcome.summary;
+        if (noted_signal() != 0) outcome.state = "stopped";
+    } catch (const Error& error) {
+        if (out.empty()) throw;  // no scene at all
+        outcome.state = state_of(error.kind());
+        outcome.message = error.what();
+    } catch (const std::exception& error) {
+        outcome.state = "failed";
+        outcome.message = error.what();
+    }
+    return outcome;
+}
+
+void report(const std::vector<Outcome>& outcomes, std::size_t n_runs, const std::vector<Sweep>& sweeps,
+            const fs::path& table) {
+    fmt::print("Sweep\n");
+    for (const Outcome& outcome : outcomes)
+        fmt::print("  {}  {}  {}\n", outcome.folder, fmt::join(settings_of(outcome.values, sweeps), " "), outcome.state);
+    fmt::print("  table  {}\n", table.string());
+    if (noted_signal() != 0) return;
+    const auto n_bad = std::ranges::count_if(outcomes, [](const Outcome& outcome) { return outcome.state != "held"; });
+    if (n_bad > 0)
+        throw BadInput(fmt::format("{} of {} runs did not end. {} says which and why.", n_bad, n_runs, table.string()));
+}
+
+}  // namespace
+
+std::vector<Sweep> read_sweeps(const std::vector<std::string>& texts) {
+    std::vector<Sweep> sweeps;
+    for (const std::string& text : texts) {
+        Sweep sweep = read_sweep(text);
+        if (std::ranges::any_of(sweeps, [&](const Sweep& other) { return other.key == sweep.key; }))
+            throw BadInput(fmt::format("--sweep {}: the key is given twice. Give all its values at once.", text));
+        sweeps.push_back(std::move(sweep));
+    }
+    return sweeps;
+}
+
+void run_sweep(const fs::path& scene, const input::Overrides& overrides, const std::vector<Sweep>& sweeps,
+               const std::function<void(const input::SceneFile&)>& run_one) {
+    std::size_t n_runs = 1;
+    for (const Sweep& sweep : sweeps) n_runs *= sweep.values.size();
+    const auto width = static_cast<int>(std::to_string(n_runs).size());
+    std::vector<Outcome> outcomes;
+    fs::path out;
+    for (std::size_t i = 0; i < n_runs && noted_signal() == 0; ++i) {
+        const std::vector<std::string> values = values_of(i, sweeps), settings = settings_of(values, sweeps);
+        spdlog::info("run {} of {}: {}", i + 1, n_runs, fmt::join(settings, " "));
+        input::Overrides with_values = overrides;
+        with_values.set.insert(with_values.set.end(), settings.begin(), settings.end());
+        outcomes.push_back(outcome_of(scene, with_values, fmt::format("run_{:0{}}", i + 1, width), out, run_one));
+        outcomes.back().values = values;
+        if (!outcomes.back().message.empty()) spdlog::warn("{}: {}", outcomes.back().state, outcomes.back().message);
+        fs::create_directories(out);
+        write_table(out / "sweep.csv", outcomes, sweeps);
+    }
+    report(outcomes, n_runs, sweeps, out / "sweep.csv");
+}
+
+}  // namespace abut::apps
