@@ -29,7 +29,8 @@ const Keys<SpringSettings>& spring_keys() {
     using Spring = SpringSettings;
     using Of = Make<Spring>;
     static const Keys<Spring> keys = {
-        anchor("from", &Spring::from, "one end: keys below"), anchor("to", &Spring::to, "the other end: keys below"),
+        anchor("from", &Spring::from, "one end, such as {body = \"left\", point = [0, 0]}"),
+        anchor("to", &Spring::to, "the other end, as from"),
         Of::number("stiffness", &Spring::stiffness, {.unit = "N/m", .above = 0.0, .zero = true}, "of the spring"),
         Of::number("length", &Spring::length, {.unit = "m", .above = 0.0, .zero = true},
                    "where it is not tense, 0: a hinge; by default the distance of its ends at rest"),

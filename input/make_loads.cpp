@@ -24,10 +24,56 @@ void set_value(Condition& condition, const FieldSettings& field) {
         condition.value = value_at<Dim>(field, 0.0, Vector<3>::Zero());
 }
 
+/// Bodies of the faces of a group, with the kinematics that they are run with.
 template <int Dim>
-void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
+class Movers {
+public:
+    Movers(const run::Scene<Dim>& scene, const Settings& settings)
+        : scene_(scene), of_all_(run::kinematics_of_all(settings.options.kinematics)) {}
+
+    /// The name of the first body of this kind; empty if there is none.
+    [[nodiscard]] std::string first(const std::string& group, solid::Kinematics kinematics) const {
+        const mesh::Mesh<Dim>& mesh = scene_.mesh;
+        for (const std::int32_t face : mesh.group(group).faces) {
+            const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
+            if (of_all_.value_or(scene_.solid.kinematics[body]) == kinematics) return mesh.body_names[body];
+        }
+        return "";
+    }
+
+private:
+    const run::Scene<Dim>& scene_;
+    std::optional<solid::Kinematics> of_all_;
+};
+
+/// A frame that turns has no place for a displacement in space, and a finite body for none that varies.
+template <int Dim>
+bool can_hold(const SupportSettings& support, const Movers<Dim>& movers, std::vector<Fault>& faults) {
+    for (const auto& [kinematics, word] :
+         {std::pair(solid::Kinematics::floating, "floating"), std::pair(solid::Kinematics::rigid, "rigid")})
+        if (const std::string body = movers.first(support.group, kinematics); !body.empty()) {
+            faults.push_back(
+                {support.where, fmt::format("supports.{} holds body '{}', which is {}: only small and finite bodies can be "
+                                            "held so. Hold it by [springs.NAME].",
+                                            support.name, body, word)});
+            return false;
+        }
+    if (support.constraint == solid::Constraint::full && !varies(support.value)) return true;
+    const std::string body = movers.first(support.group, solid::Kinematics::finite);
+    if (body.empty()) return true;
+    faults.push_back({support.where, fmt::format("supports.{} holds body '{}', which is finite: it can be clamped, with "
+                                                 "constraint = \"full\" and a constant value. Do so, or hold it by "
+                                                 "[springs.NAME].",
+                                                 support.name, body)});
+    return false;
+}
+
+template <int Dim>
+void add_supports(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names, std::vector<Fault>& faults) {
+    const Movers<Dim> movers(scene, settings);
     for (const SupportSettings& support : settings.supports) {
         if (!names.has_group(support.group, support.where, "supports." + support.name + ".group")) continue;
+        if (!can_hold(support, movers, faults)) continue;
         solid::DirichletCondition<Dim> condition;
         condition.group = support.group;
         condition.constraint = support.constraint;
@@ -75,10 +121,23 @@ void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
     }
 }
 
+/// Nothing says how far a face of a finite body has turned.
 template <int Dim>
-void add_tractions(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names) {
+bool can_follow(const TractionSettings& traction, const Movers<Dim>& movers, std::vector<Fault>& faults) {
+    const std::string body = traction.follows ? movers.first(traction.group, solid::Kinematics::finite) : "";
+    if (body.empty()) return true;
+    faults.push_back({traction.where, fmt::format("tractions.{} follows body '{}', which is finite: only bodies of other "
+                                                  "kinematics can be followed. Leave follows out.",
+                                                  traction.name, body)});
+    return false;
+}
+
+template <int Dim>
+void add_tractions(run::Scene<Dim>& scene, const Settings& settings, const Names<Dim>& names, std::vector<Fault>& faults) {
+    const Movers<Dim> movers(scene, settings);
     for (const TractionSettings& traction : settings.tractions) {
         if (!names.has_group(traction.group, traction.where, "tractions." + traction.name + ".group")) continue;
+        if (!can_follow(traction, movers, faults)) continue;
         if (traction.pressure) add_pressure(scene, traction);
         if (!traction.value) continue;
         solid::TractionCondition<Dim> condition;
@@ -123,8 +182,8 @@ void add_moments(run::Scene<Dim>& scene, const Settings& settings, const Names<D
 template <int Dim>
 void add_loads(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
-    add_supports(scene, settings, names);
-    add_tractions(scene, settings, names);
+    add_supports(scene, settings, names, faults);
+    add_tractions(scene, settings, names, faults);
     add_springs(scene, settings, names);
     add_moments(scene, settings, names);
 }

@@ -39,7 +39,7 @@ constexpr std::array<run::Word<solid::Constraint>, 3> constraint_words{{{"full",
 template <class Section>
 Key<Section> group() {
     return required(Make<Section>::text("group", &Section::group, "text",
-                                        "group of boundary faces, \"<body>.<group>\": groups of shapes are listed below"));
+                                        "group of boundary faces, \"<body>.<group>\" such as \"left.xmin\""));
 }
 
 }  // namespace

@@ -97,9 +97,9 @@ void require(bool good, const Gear& gear, const std::string& what) {
 
 void check(const Gear& gear) {
     const double module = 2.0 * gear.radius / gear.teeth;
-    require(gear.teeth >= 4, gear, std::to_string(gear.teeth) + " teeth are given, at least 4 are needed. Change teeth.");
+    require(gear.teeth >= 4, gear, std::to_string(gear.teeth) + " teeth are given, at least 4 are needed.");
     require(gear.cells >= 2 && gear.cells % 2 == 0, gear,
-            std::to_string(gear.cells) + " cells across a tooth are given, an even number is needed. Change cells.");
+            std::to_string(gear.cells) + " cells across a tooth are given, an even number above 0 is needed.");
     require(std::isfinite(gear.radius) && gear.radius > 0.0, gear,
             "the radius is " + number(gear.radius) + " m, above 0 m is needed. Change radius.");
     require(gear.bore > 0.0 && gear.bore < gear.radius - 1.25 * module, gear,

@@ -1,0 +1,140 @@
+#include <array>
+#include <catch2/catch.hpp>
+
+#include "abut/run/simulation.hpp"
+#include "input/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using test::two_blocks;
+using test::WrittenScene;
+
+/// Mean over a run of the integral of the displacement along x over the area [m^3].
+class MeanPull : public run::Observer<2> {
+public:
+    explicit MeanPull(const mesh::Mesh<2>& mesh) : mesh_(mesh) {}
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
+        const auto u = solid.cell_displacement(view.q);
+        for (std::size_t cell = 0; cell < u.size(); ++cell) moment_ += mesh_.cell_measure[cell] * u[cell].x();
+        ++n_;
+    }
+    [[nodiscard]] double mean() const { return moment_ / n_; }
+
+private:
+    const mesh::Mesh<2>& mesh_;
+    double moment_ = 0.0;
+    int n_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("supports and tractions have values or formulas in time and place", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([supports.moved]
+group = "left.xmin"
+constraint = "components"
+components = ["y"]
+value = [0, "2*t + x*y"]
+[supports.held]
+group = "right.ymin"
+constraint = "normal"
+value = [0.1, 0.2]
+[tractions.pressed]
+group = "right.ymax"
+value = [0, "-3"]
+follows = true
+)toml"));
+    const auto boundary = input::SceneFile(written.path()).scene<2>().solid.boundary;
+    REQUIRE(boundary.dirichlet.size() == 2);
+    CHECK(boundary.dirichlet[0].group == "left.xmin");
+    CHECK(boundary.dirichlet[0].constraint == solid::Constraint::components);
+    CHECK(boundary.dirichlet[0].components == std::array{false, true});
+    CHECK(boundary.dirichlet[0].history(3.0, Vector<2>(2.0, 5.0)) == Vector<2>(0.0, 16.0));
+    CHECK(boundary.dirichlet[1].constraint == solid::Constraint::normal);
+    CHECK(boundary.dirichlet[1].value == Vector<2>(0.1, 0.2));
+    CHECK_FALSE(boundary.dirichlet[1].history);
+    REQUIRE(boundary.traction.size() == 1);
+    CHECK(boundary.traction[0].value == Vector<2>(0.0, -3.0));
+    CHECK(boundary.traction[0].follows);
+}
+
+TEST_CASE("a pressure acts against the normals of all faces of its group", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([bodies.round]
+shape = "disc"
+radius = 0.25
+size = 0.1
+place = [0, 5]
+young = 3
+density = 4
+[tractions.blown]
+group = "round.boundary"
+pressure = "3*t + x*y"
+follows = true
+[tractions.pressed]
+group = "left.ymax"
+pressure = 2
+)toml"));
+    const run::Scene<2> scene = input::SceneFile(written.path()).scene<2>();
+    std::size_t n_faces = 0;
+    for (const auto& traction : scene.solid.boundary.traction)
+        for (const std::int32_t face : scene.mesh.group(traction.group).faces) {
+            const Vector<2>& x = scene.mesh.face_centroid[face];
+            const bool of_round = x.y() > 4.0;
+            CHECK(traction.follows == of_round);
+            const double pressure = of_round ? 3.0 * 0.5 + x.x() * x.y() : 2.0;
+            const Vector<2> value = traction.history ? traction.history(0.5, x) : traction.value;
+            CHECK((value + pressure * scene.mesh.face_normal[face]).norm() < 1e-14);
+            ++n_faces;
+        }
+    CHECK(n_faces == scene.mesh.group("round.boundary").faces.size() + 2);
+}
+
+TEST_CASE("springs are between bodies or a body and the ground, and moments on bodies", "[input][scenes]") {
+    const WrittenScene written(two_blocks(R"toml([springs.between]
+from = {body = "left", point = [1, 0.5], radius = 0.25}
+to = {body = "right", point = [1.5, "1/2"]}
+stiffness = 3
+damping = 4
+[springs.axle]
+from = {point = [2, 0.5]}
+to = {body = "right", point = [2, 0.5]}
+stiffness = 5
+[springs.tense]
+from = {point = [0, 0]}
+to = {body = "left", point = [0, 0]}
+stiffness = 5
+length = 7
+[moments.drive]
+body = "right"
+value = 8
+damping = 9
+)toml"));
+    const auto solid = input::SceneFile(written.path()).scene<2>().solid;
+    REQUIRE(solid.springs.size() == 3);
+    CHECK(solid.springs[0].first.body == 0);
+    CHECK(solid.springs[0].first.position == Vector<2>(1.0, 0.5));
+    CHECK(solid.springs[0].first.radius == 0.25);
+    CHECK(solid.springs[0].second.body == 1);
+    CHECK(solid.springs[0].stiffness == 3.0);
+    CHECK(solid.springs[0].damping == 4.0);
+    CHECK(solid.springs[0].length == 0.5);  // at rest it is not tense
+    CHECK(solid.springs[1].first.body == solid::ground);
+    CHECK(solid.springs[1].length == 0.0);  // a hinge
+    CHECK(solid.springs[2].length == 7.0);
+    REQUIRE(solid.moments.size() == 1);
+    CHECK(solid.moments[0].body == 1);
+    CHECK(solid.moments[0].moment[0] == 8.0);
+    CHECK(solid.moments[0].damping == 9.0);
+}
+
+TEST_CASE("a plate that a growing traction pulls moves as plane strain has it", "[input][scenes]") {
+    const input::SceneFile file(ABUT_SOURCE "/scenes/pulled_plate.toml");
+    const run::Scene<2> scene = file.scene<2>();
+    MeanPull pull(scene.mesh);
+    const auto result = run::simulate<2>(scene, file.options(), pull);
+    // Under t_0 = 1 Pa u = t_0 x (1 - nu^2)/E; its integral over 0.5 m^2, with the mean of x 1/2, is a quarter of that at
+    // the end. The traction grows as (1 - cos(pi t/2))/2 for 2 s, 1/2 on the mean, and stays for 2 s: 3/4 over all.
+    const double end = 0.91 / 100.0;
+    CHECK(pull.mean() == Approx(0.75 * 0.5 * end * 0.5).epsilon(0.02));
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+}
