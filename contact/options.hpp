@@ -1,4 +1,8 @@
 #pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
 
@@ -37,6 +41,8 @@ struct CandidateOptions {
     double largest_motion = 1.0;
     /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list
     geometry::SearchLimits limits;
+    /// Pairs of bodies of the surface, in either order, that pass through each other: none of their faces are candidates
+    std::vector<std::array<std::int32_t, 2>> ignored_bodies = {};
 };
 
 /// Every choice that trades cost for accuracy. The defaults are the exact ones.

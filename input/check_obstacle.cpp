@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -131,7 +132,7 @@ std::vector<std::int32_t> first_cells(const mesh::Mesh<Dim>& mesh) {
 
 template <int Dim>
 void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim>& obstacle, const ObstacleTable& table,
-                   std::vector<Fault>& faults) {
+                   mesh::IgnoredPairs ignored, std::vector<Fault>& faults) {
     const std::vector<Points<Dim>> faces = faces_at_start(obstacle);
     const std::vector<double> depth = depths(mesh, faces);
     const std::vector<std::int32_t> cells = first_cells(mesh);
@@ -140,16 +141,24 @@ void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim
                           fmt::format("obstacle '{}' and body '{}' overlap at the start: {}. Move one of them with place.",
                                       table.settings.name, mesh.body_names[body], what)});
     };
+    const auto is_ignored = [&](std::size_t body) {
+        const auto b = static_cast<std::int32_t>(body);
+        return std::ranges::any_of(ignored, [&](const auto& pair) {
+            return pair == std::array{b, table.number} || pair == std::array{table.number, b};
+        });
+    };
     for (std::size_t body = 0; body < depth.size(); ++body)
-        if (depth[body] > 0.0)
+        if (is_ignored(body))
+            continue;
+        else if (depth[body] > 0.0)
             fault(body, fmt::format("a face of the obstacle is {:.6g} m inside a cell, 0 m is allowed", depth[body]));
         else if (table.closed && is_in_solid<Dim>(faces, mesh.cell_centroid[cells[body]], table.settings.inside))
             fault(body, table.settings.inside ? "the whole body is outside of its room" : "the whole body is inside of it");
 }
 
 template void check_outside<2>(const mesh::Mesh<2>&, const contact::RigidObstacle<2>&, const ObstacleTable&,
-                               std::vector<Fault>&);
+                               mesh::IgnoredPairs, std::vector<Fault>&);
 template void check_outside<3>(const mesh::Mesh<3>&, const contact::RigidObstacle<3>&, const ObstacleTable&,
-                               std::vector<Fault>&);
+                               mesh::IgnoredPairs, std::vector<Fault>&);
 
 }  // namespace abut::input

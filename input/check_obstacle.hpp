@@ -5,6 +5,7 @@
 #include "abut/contact/obstacle.hpp"
 #include "abut/input/fault.hpp"
 #include "abut/input/settings.hpp"
+#include "abut/mesh/interpenetration.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::input {
@@ -12,13 +13,14 @@ namespace abut::input {
 /// An obstacle as its table has it.
 struct ObstacleTable {
     const ObstacleSettings& settings;
-    bool closed;  ///< its faces have an inside
+    bool closed;          ///< its faces have an inside
+    std::int32_t number;  ///< as a body behind those of the mesh
 };
 
-/// A fault for each body that an obstacle cuts, or that is wholly inside of it, where it is at the start. Of a surface that
+/// A fault for each body that is not ignored and that an obstacle cuts, or that is wholly inside of it, where it is at the start. Of a surface that
 /// is not closed nothing is inside: a body behind a plane is none of its matter.
 template <int Dim>
 void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim>& obstacle, const ObstacleTable& table,
-                   std::vector<Fault>& faults);
+                   mesh::IgnoredPairs ignored, std::vector<Fault>& faults);
 
 }  // namespace abut::input

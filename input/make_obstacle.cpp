@@ -157,7 +157,10 @@ void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, cons
     if (settings.inside) turn_inside_out<Dim>(shell.faces);
     contact::RigidObstacle<Dim> obstacle{.faces = std::move(shell.faces), .path = {}};
     set_in_motion(obstacle, settings);
-    if (all.contact) check_outside(scene.mesh, obstacle, {.settings = settings, .closed = shell.closed}, faults);
+    const auto number = static_cast<std::int32_t>(scene.mesh.n_bodies() + (&settings - all.obstacles.data()));
+    if (all.contact)
+        check_outside<Dim>(scene.mesh, obstacle, {.settings = settings, .closed = shell.closed, .number = number},
+                           scene.solid.ignored_pairs, faults);
     scene.solid.obstacles.push_back(std::move(obstacle));
     scene.outputs.obstacles.push_back(settings.name);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -64,9 +65,11 @@ const Named* table_of(const std::string& body, const std::vector<BodySettings>& 
 
 /// One fault for each pair of bodies, with the deepest pair of their cells.
 template <int Dim>
-void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, std::vector<Fault>& faults) {
+void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::IgnoredPairs ignored,
+                 std::vector<Fault>& faults) {
     std::set<std::array<std::int32_t, 2>> seen;
-    for (const mesh::Interpenetration& pair : mesh::find_interpenetrations(mesh)) {
+    for (const mesh::Interpenetration& pair :
+         mesh::find_interpenetrations(mesh, settings.options.contact.search.broad_phase, ignored)) {
         if (!seen.insert(pair.bodies).second) continue;
         const std::string& first = mesh.body_names[static_cast<std::size_t>(pair.bodies[0])];
         const std::string& second = mesh.body_names[static_cast<std::size_t>(pair.bodies[1])];
@@ -76,6 +79,25 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, std::vec
              fmt::format("bodies '{}' and '{}' overlap at the start: two of their cells are {:.6g} m inside each "
                          "other, 0 m is allowed. Move one of them with place.",
                          first, second, pair.depth)});
+    }
+}
+
+/// Bodies by their number, and obstacles behind them. Those that are not there because of a fault are left out.
+template <int Dim>
+void add_ignored_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+    const Names<Dim> names(scene.mesh, settings.bodies, faults);
+    const auto obstacle = [&](const std::string& name) -> std::optional<std::int32_t> {
+        const auto found = std::ranges::find(settings.obstacles, name, &ObstacleSettings::name);
+        if (found == settings.obstacles.end()) return std::nullopt;
+        return scene.mesh.n_bodies() + static_cast<std::int32_t>(found - settings.obstacles.begin());
+    };
+    for (const IgnoredPair& pair : settings.ignored_pairs) {
+        std::array<std::optional<std::int32_t>, 2> numbers;
+        for (std::size_t i = 0; i < 2; ++i) {
+            numbers[i] = names.has_body(pair.names[i]) ? std::nullopt : obstacle(pair.names[i]);
+            if (!numbers[i]) numbers[i] = names.body(pair.names[i], pair.where, "contact.ignored_pairs");
+        }
+        if (numbers[0] && numbers[1]) scene.solid.ignored_pairs.push_back({*numbers[0], *numbers[1]});
     }
 }
 
@@ -106,12 +128,16 @@ template <int Dim>
 run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults) {
     run::Scene<Dim> scene;
     add_bodies(scene, settings, faults);
+    add_ignored_pairs(scene, settings, faults);
     add_loads(scene, settings, faults);
     add_obstacles(scene, settings, faults);
     add_outputs(scene, settings, faults);
     scene.contact = settings.contact;
-    if (!scene.contact) scene.solid.obstacles.clear();
-    if (scene.contact) check_apart(scene.mesh, settings, faults);
+    if (!scene.contact) {
+        scene.solid.obstacles.clear();
+        scene.solid.ignored_pairs.clear();
+    }
+    if (scene.contact) check_apart<Dim>(scene.mesh, settings, scene.solid.ignored_pairs, faults);
     if (settings.energy_scale > 0.0) scene.energy_scale = {"H0", settings.energy_scale};
     scene.time = settings.options.time;
     scene.options = {{"scene", settings.file.string()}, {"set", settings.set}};

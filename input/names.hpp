@@ -31,6 +31,9 @@ public:
                                                   hint(group, groups_))});
         return false;
     }
+    [[nodiscard]] bool has_body(const std::string& name) const {
+        return std::ranges::find(mesh_.body_names, name) != mesh_.body_names.end();
+    }
     /// Its number in the mesh; nothing, and a fault, if there is none.
     [[nodiscard]] std::optional<std::int32_t> body(const std::string& name, const std::string& where,
                                                    const std::string& key) const {

@@ -168,6 +168,20 @@ std::optional<std::vector<std::size_t>> Reader::words(const Node& node, const st
     return indices.size() == node.items.size() ? std::optional(indices) : std::nullopt;
 }
 
+std::optional<std::vector<IgnoredPair>> Reader::pairs(const Node& node, const std::string& key) {
+    const auto is_pair = [](const Node& item) {
+        return item.type == Node::Type::array && item.items.size() == 2 &&
+               std::ranges::all_of(item.items, [](const Node& name) { return name.type == Node::Type::text; });
+    };
+    if (node.type != Node::Type::array || !std::ranges::all_of(node.items, is_pair)) {
+        wrong_type(node, key, "a list of pairs of names such as [[\"left\", \"right\"]]");
+        return std::nullopt;
+    }
+    std::vector<IgnoredPair> pairs;
+    for (const Node& item : node.items) pairs.push_back({{item.items[0].text, item.items[1].text}, item.where});
+    return pairs;
+}
+
 std::optional<std::array<bool, 3>> Reader::components(const Node& node, const std::string& key) {
     std::vector<std::string> names{"x", "y", "z"};
     if (dimension == 2) names.pop_back();

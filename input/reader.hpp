@@ -44,6 +44,7 @@ public:
     /// Indices of some of these words.
     [[nodiscard]] std::optional<std::vector<std::size_t>> words(const Node& node, const std::string& key,
                                                                 const std::vector<std::string>& words);
+    [[nodiscard]] std::optional<std::vector<IgnoredPair>> pairs(const Node& node, const std::string& key);
     /// "x", "y", "z"
     [[nodiscard]] std::optional<std::array<bool, 3>> components(const Node& node, const std::string& key);
     [[nodiscard]] bool is_table(const Node& node, const std::string& key);

@@ -85,6 +85,10 @@ const Keys<Settings>& contact_keys() {
     using contact::ContactOptions;
     static const Keys<Settings> keys = {
         Of::truth("enabled", &Settings::contact, "false: bodies pass through each other"),
+        key_of<Settings>("ignored_pairs", "list of pairs of names",
+                         "bodies, or a body and an obstacle, that pass through each other: [[\"left\", \"floor\"]]",
+                         &Settings::ignored_pairs,
+                         [](Reader& reader, const Node& node, const std::string& key) { return reader.pairs(node, key); }),
         Of::word("law", option(&RunOptions::law), run::law_words,
                  "the modified reconstruction for bodies that do not turn, the pair potential for all"),
         Of::word("broad_phase", search(&CandidateOptions::broad_phase), broad_phase_words(),

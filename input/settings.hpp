@@ -136,6 +136,12 @@ struct MomentSettings : Named {
     double damping = 0.0;                 ///< [N m s]
 };
 
+/// Names of bodies or obstacles.
+struct IgnoredPair {
+    std::array<std::string, 2> names;
+    std::string where;  ///< Fault::where
+};
+
 struct ProbeSettings : Named {
     std::string body;
     std::optional<Vector<3>> point;  ///< [m]
@@ -148,6 +154,7 @@ struct Settings {
     Vector<3> gravity = Vector<3>::Zero();  ///< [m/s^2]
     double energy_scale = 0.0;              ///< [J]
     bool contact = true;
+    std::vector<IgnoredPair> ignored_pairs;
     std::vector<MaterialSettings> materials;
     std::vector<BodySettings> bodies;
     std::vector<ObstacleSettings> obstacles;

@@ -93,11 +93,16 @@ std::string cell_labels(const Mesh<Dim>& mesh, const Interpenetration& pair) {
 }  // namespace
 
 template <int Dim>
-std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase) {
+std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase,
+                                                     IgnoredPairs ignored) {
     const auto bodies = cells_by_body(mesh);
     std::vector<Interpenetration> found;
     for (std::int32_t body_1 = 0; body_1 < mesh.n_bodies(); ++body_1)
         for (std::int32_t body_2 = body_1 + 1; body_2 < mesh.n_bodies(); ++body_2) {
+            if (std::ranges::any_of(ignored, [&](const auto& pair) {
+                    return pair == std::array{body_1, body_2} || pair == std::array{body_2, body_1};
+                }))
+                continue;
             const auto& part_1 = bodies[static_cast<std::size_t>(body_1)];
             const auto& part_2 = bodies[static_cast<std::size_t>(body_2)];
             if (!geometry::bounding_box<Dim>(part_1.boxes).overlaps(geometry::bounding_box<Dim>(part_2.boxes))) continue;
@@ -114,8 +119,8 @@ std::vector<Interpenetration> find_interpenetrations(const Mesh<Dim>& mesh, geom
 }
 
 template <int Dim>
-void check_apart(const Mesh<Dim>& mesh, const std::string& remedy, geometry::BroadPhase broad_phase) {
-    const auto found = find_interpenetrations(mesh, broad_phase);
+void check_apart(const Mesh<Dim>& mesh, const std::string& remedy, geometry::BroadPhase broad_phase, IgnoredPairs ignored) {
+    const auto found = find_interpenetrations(mesh, broad_phase, ignored);
     if (found.empty()) return;
     const Interpenetration& worst = found.front();
     throw MeshError(mesh.name + ": bodies " + body_names(mesh, worst) + " overlap at the start: cells " +
@@ -125,9 +130,10 @@ void check_apart(const Mesh<Dim>& mesh, const std::string& remedy, geometry::Bro
                     "). " + remedy);
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                   \
-    template std::vector<Interpenetration> find_interpenetrations<Dim>(const Mesh<Dim>&, geometry::BroadPhase); \
-    template void check_apart<Dim>(const Mesh<Dim>&, const std::string&, geometry::BroadPhase);
+#define ABUT_INSTANTIATE(Dim)                                                                                  \
+    template std::vector<Interpenetration> find_interpenetrations<Dim>(const Mesh<Dim>&, geometry::BroadPhase, \
+                                                                       IgnoredPairs);                          \
+    template void check_apart<Dim>(const Mesh<Dim>&, const std::string&, geometry::BroadPhase, IgnoredPairs);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,18 +20,21 @@ struct Interpenetration {
     double depth;                        ///< [m], > 0: the shortest translation that parts these two cells
 };
 
+/// Pairs of bodies, in either order, that may overlap.
+using IgnoredPairs = std::span<const std::array<std::int32_t, 2>>;
+
 /// All pairs of cells of different bodies that overlap, deepest first (equal depths by cells). Every cell is taken as the
 /// convex hull of its vertices. Cells that touch, or overlap by no more than `touching_tolerance` of the larger one's
 /// diameter, are none. A body that lies wholly inside another is found: its cells overlap those around it.
 /// The depth is that of two cells: bodies that are far inside each other have to be moved further.
 template <int Dim>
 [[nodiscard]] std::vector<Interpenetration> find_interpenetrations(
-    const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic);
+    const Mesh<Dim>& mesh, geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic, IgnoredPairs ignored = {});
 
 /// Throws MeshError if there are any, naming the bodies, how many pairs of cells, and which are the deepest; `remedy` ends
 /// the message. To be called before a run: contact takes what overlaps at the start for pressed together.
 template <int Dim>
 void check_apart(const Mesh<Dim>& mesh, const std::string& remedy = "Move the bodies apart.",
-                 geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic);
+                 geometry::BroadPhase broad_phase = geometry::BroadPhase::automatic, IgnoredPairs ignored = {});
 
 }  // namespace abut::mesh

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace abut::run {
 
 template <int Dim>
@@ -22,7 +24,8 @@ void ForceFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 
 template <int Dim>
 void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (run.steps == 0 || (run.steps % interval_ != 0 && run.steps != n_steps_)) return;
+    const bool is_start = std::isnan(time_);
+    if (!is_start && run.steps % interval_ != 0 && run.steps != n_steps_) return;
     const double seconds = run.time - time_;
     time_ = run.time;
     for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses()) {
@@ -30,6 +33,7 @@ void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
         const Vector<Dim> before = is_new ? Vector<Dim>(Vector<Dim>::Zero()) : last->second.impulse;
         const double normal_before = is_new ? 0.0 : last->second.normal_impulse;
         last->second = pair;
+        if (is_start) continue;
         if (pair.impulse == before && pair.normal_impulse == normal_before) continue;
         std::string row = fmt::format("{},{:.17g},{},{}", run.steps, run.time, names_[static_cast<std::size_t>(pair.body_1)],
                                       names_[static_cast<std::size_t>(pair.body_2)]);

@@ -35,7 +35,7 @@ private:
     std::vector<std::string> names_;  // of bodies, then of obstacles
     std::int64_t interval_ = 1;
     std::int64_t n_steps_ = 0;
-    double time_ = 0.0;  // of the last rows [s]
+    double time_ = not_given;  // of the last rows, or of the start [s]
     std::map<std::pair<std::int32_t, std::int32_t>, solid::BodyImpulse<Dim>> last_;
 };
 

@@ -310,7 +310,8 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
         {
             const Stopwatch watch(seconds.setup);
             if (scene.contact)
-                mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase);
+                mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase,
+                                  scene.solid.ignored_pairs);
             std::optional<PilotReport> pilot;
             if (options.kinematics == BodyKinematics::automatic) pilot = choose_kinematics(scene, options);
             start.emplace(scene, options, std::move(pilot));

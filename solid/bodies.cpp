@@ -92,6 +92,18 @@ void Bodies<Dim>::check() const {
         throw BadInput(mesh_.name + ": " + std::to_string(options_.obstacles.size()) +
                        " obstacles are given without contact, so nothing would feel them. Give "
                        "SolidOptions::contact, or no obstacles.");
+    if (options_.contact && !options_.contact->search.ignored_bodies.empty())
+        throw BadInput(mesh_.name +
+                       ": contact is to be ignored by bodies of its surface, which a solid numbers as it likes. Give "
+                       "SolidOptions::ignored_pairs instead.");
+    const std::int64_t n_all = mesh_.n_bodies() + std::ssize(options_.obstacles);
+    for (const auto& pair : options_.ignored_pairs)
+        for (const std::int32_t body : pair)
+            if (body < 0 || body >= n_all)
+                throw BadInput(mesh_.name + ": contact is to be ignored of body " + std::to_string(body) +
+                                   "; bodies and obstacles are counted from 0 to " + std::to_string(n_all - 1) +
+                                   ". Correct SolidOptions::ignored_pairs.",
+                               {.value = static_cast<double>(body), .allowed = static_cast<double>(n_all - 1)});
     for (const auto& condition : options_.boundary.dirichlet) refuse_on_turning_bodies(condition);
     for (const auto& condition : options_.boundary.traction) {
         refuse_following(condition);

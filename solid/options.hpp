@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -28,6 +30,8 @@ struct SolidOptions {
     ContactLaw law = ContactLaw::automatic;
     geometry::FacingFade facing;                         ///< of `pair_potential` (contact::NodalOptions)
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
+    /// Pairs of bodies, in either order, that pass through each other; obstacle i is body n_bodies + i
+    std::vector<std::array<std::int32_t, 2>> ignored_pairs = {};
 };
 
 /// Where the time of all steps of a Solid went [s].

@@ -22,8 +22,22 @@ constexpr double far_skins = 4.0;
 /// The largest stretch of a difference of two rotations over its Frobenius norm: sqrt(1/2), and what rounding adds.
 constexpr double difference_stretch = 0.70710679;
 
+/// In the order of the bodies that contact has.
 template <int Dim>
-contact::NodalOptions nodal_options(const SolidOptions<Dim>& options) {
+std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies) {
+    std::vector<std::array<std::int32_t, 2>> pairs = bodies.deformable_options().ignored_pairs;
+    const std::int32_t n = bodies.mesh().n_bodies();
+    std::vector<std::int32_t> of_contact(static_cast<std::size_t>(n));
+    for (std::int32_t body = 0; body < n; ++body) of_contact[static_cast<std::size_t>(bodies.mesh_body(body))] = body;
+    for (auto& pair : pairs)
+        for (std::int32_t& body : pair)
+            if (body < n) body = of_contact[static_cast<std::size_t>(body)];
+    return pairs;
+}
+
+template <int Dim>
+contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
+    const SolidOptions<Dim>& options = bodies.deformable_options();
     const contact::ContactOptions& contact = *options.contact;
     const contact::ContactOptions other_law;
     if (contact.overlap != other_law.overlap || contact.weighting != other_law.weighting || contact.area != other_law.area ||
@@ -31,7 +45,9 @@ contact::NodalOptions nodal_options(const SolidOptions<Dim>& options) {
         throw BadInput(
             "contact: overlap, weighting, area and quadrature are choices of the modified reconstruction, and bodies that "
             "turn need the pair potential. Leave them at their defaults, or choose Kinematics::small for all bodies.");
-    return {.search = contact.search,
+    contact::CandidateOptions search = contact.search;
+    search.ignored_bodies = ignored_pairs(bodies);
+    return {.search = std::move(search),
             .facing = options.facing,
             .events = contact.events,
             .compression_warning = contact.compression_warning,
@@ -51,7 +67,7 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       times_(times),
       obstacles_(bodies.deformable_options().obstacles),
       corners_(bodies, ccg, frames, obstacles_),
-      contact_(corners_.for_contact(), nodal_options(bodies.deformable_options())),
+      contact_(corners_.for_contact(), nodal_options(bodies)),
       all_(corners_.list_all()),
       x_0_(corners_.rest()),
       x_1_(x_0_),

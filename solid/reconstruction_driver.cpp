@@ -13,12 +13,23 @@
 #include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
+namespace {
+
+/// Bodies and obstacles have the numbers of the mesh.
+template <int Dim>
+contact::ContactOptions contact_options(const SolidOptions<Dim>& options) {
+    contact::ContactOptions contact = *options.contact;
+    contact.search.ignored_bodies = options.ignored_pairs;
+    return contact;
+}
+
+}  // namespace
 
 template <int Dim>
 ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
                                                 const Loads<Dim>& loads, SolidTimes& times)
     : mesh_(mesh),
-      options_(*options.contact),
+      options_(contact_options(options)),
       ccg_(ccg),
       loads_(loads),
       times_(times),

@@ -94,7 +94,7 @@ private:
     }
 
     const mesh::Mesh<Dim>& mesh_;
-    const contact::ContactOptions& options_;
+    const contact::ContactOptions options_;
     Ccg<Dim>& ccg_;
     const Loads<Dim>& loads_;
     SolidTimes& times_;

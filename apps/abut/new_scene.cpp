@@ -57,7 +57,11 @@ cfl = 0.9                # step over the stable step
 
 [output]
 frames = 21              # for ParaView
+forces = true            # forces.csv: between bodies, and on the floor
 # out = "out/mine"       # out/<scene> by default
+# [output.probes.top]    # probes.csv: a point of a body
+# body = "block"
+# point = [0, 0.3]       # [m] at rest
 )toml";
     return text;
 }

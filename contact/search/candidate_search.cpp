@@ -182,13 +182,21 @@ private:
         std::vector<Box<Dim>> boxes;
         for (const BodyFaces& body : order_.bodies) boxes.push_back(geometry::bounding_box<Dim>(boxes_of(body)));
         auto pairs = geometry::overlapping_pairs<Dim>({}, boxes, [&](std::int32_t a, std::int32_t b) {
-            return !order_.bodies[static_cast<std::size_t>(a)].is_rigid ||
-                   !order_.bodies[static_cast<std::size_t>(b)].is_rigid;
+            const BodyFaces &body_1 = order_.bodies[static_cast<std::size_t>(a)],
+                            &body_2 = order_.bodies[static_cast<std::size_t>(b)];
+            return !(body_1.is_rigid && body_2.is_rigid) && !are_ignored(body_1, body_2);
         });
         if (options_.self_contact)
             for (std::int32_t body = 0; body < static_cast<std::int32_t>(order_.bodies.size()); ++body)
                 pairs.push_back({body, body});
         return pairs;
+    }
+
+    [[nodiscard]] bool are_ignored(const BodyFaces& body_1, const BodyFaces& body_2) const {
+        const std::int32_t a = surface_.body[order_.faces[body_1.begin]], b = surface_.body[order_.faces[body_2.begin]];
+        return std::ranges::any_of(options_.ignored_bodies, [&](const std::array<std::int32_t, 2>& pair) {
+            return pair == std::array{a, b} || pair == std::array{b, a};
+        });
     }
 
     template <class Faces>

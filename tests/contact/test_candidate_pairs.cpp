@@ -1,5 +1,6 @@
 // Which pairs of faces a list of candidates holds.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "contact/reference.hpp"
@@ -82,6 +83,29 @@ std::vector<std::vector<bool>> within_rings(const contact::Surface<3>& surface, 
 }
 
 }  // namespace
+
+TEMPLATE_TEST_CASE_SIG(
+    "bodies that are ignored, in either order, have no candidates; the lists of all others stay as they are",
+    "[contact][candidates]", ((int Dim), Dim), 2, 3) {
+    contact::Surface<Dim> surface = pressed_grids<Dim>(0.01);
+    const contact::Surface<Dim> above = pressed_grids<Dim>(0.02);  // its second grid is a third body
+    for (std::int32_t face = 0; face < above.size(); ++face) {
+        if (above.body[face] == 0) continue;
+        std::vector<Vector<Dim>> corners;
+        for (const std::int32_t v : above.view().vertices_of(face)) corners.push_back(above.vertices[v]);
+        surface.append(corners, above.cell_depth[face], 1.0, 2);
+    }
+    const std::vector<Vector<Dim>> rest(static_cast<std::size_t>(surface.size()), Vector<Dim>::Zero());
+    const auto all = candidates_of<Dim>(surface, rest, rest, {}, 0.1);
+    const std::array<std::int32_t, 2> pair = GENERATE(std::array{0, 2}, std::array{2, 0});
+    const auto some = candidates_of<Dim>(surface, rest, rest, {.ignored_bodies = {pair, {7, 9}}}, 0.1);
+    std::vector<IndexPair> expected;
+    for (const IndexPair& candidate : all)
+        if (surface.body[candidate.first] + surface.body[candidate.second] != 2) expected.push_back(candidate);
+    CHECK(expected.size() < all.size());
+    CHECK_FALSE(expected.empty());
+    CHECK(some == expected);
+}
 
 TEMPLATE_TEST_CASE_SIG("flat faces pressed into each other, whose own boxes are disjoint, are found by every broad phase",
                        "[contact][candidates]", ((int Dim), Dim), 2, 3) {

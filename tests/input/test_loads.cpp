@@ -1,5 +1,8 @@
 #include <array>
 #include <catch2/catch.hpp>
+#include <cstdint>
+#include <set>
+#include <string>
 
 #include "abut/run/simulation.hpp"
 #include "input/scenes.hpp"
@@ -25,6 +28,14 @@ private:
     const mesh::Mesh<2>& mesh_;
     double moment_ = 0.0;
     int n_ = 0;
+};
+
+/// Pairs of bodies that have touched by the end of a run.
+struct ContactSeen : public run::Observer<2> {
+    void look(const dynamics::RunView<2>&, solid::Solid<2>& solid) override {
+        for (const auto& pair : solid.contact_impulses()) pairs.insert({pair.body_1, pair.body_2});
+    }
+    std::set<std::array<std::int32_t, 2>> pairs;
 };
 
 }  // namespace
@@ -56,6 +67,64 @@ follows = true
     REQUIRE(boundary.traction.size() == 1);
     CHECK(boundary.traction[0].value == Vector<2>(0.0, -3.0));
     CHECK(boundary.traction[0].follows);
+}
+
+TEST_CASE("bodies that are ignored pass through each other and through obstacles, and all others do not",
+          "[input][contact]") {
+    // b flies from the left through a, which rests, and meets c; a falls through the floor, on which c stands. Bodies that are
+    // rigid come last in the contact of bodies that turn: numbers must not get mixed up.
+    const WrittenScene written(R"toml(dim = 2
+gravity = [0, -0.01]
+[materials.soft]
+young = 4
+density = 1
+[bodies.a]
+shape = "structured_box"
+lower = [0, 0]
+upper = [1, 1]
+counts = [2, 2]
+material = "soft"
+[bodies.b]
+shape = "structured_box"
+lower = [-0.9, 0.3]
+upper = [-0.1, 0.8]
+counts = [3, 2]
+material = "soft"
+velocity = [1, 0]
+[bodies.c]
+shape = "structured_box"
+lower = [1.5, 0]
+upper = [2.5, 1]
+counts = [3, 3]
+material = "soft"
+[obstacles.floor]
+shape = "plane"
+point = [0, 0]
+normal = [0, 1]
+half_width = 9
+[contact]
+ignored_pairs = [["b", "a"], ["floor", "a"]]
+[run]
+time = 2.5
+)toml");
+    const auto [law, of_a, of_c] = GENERATE(table<std::string, std::string, std::string>(
+        {{"reconstruction", "small", "small"}, {"pair_potential", "small", "small"}, {"automatic", "rigid", "floating"}}));
+    CAPTURE(law, of_a);
+    const input::SceneFile file(
+        written.path(), {.set = {"contact.law=" + law, "bodies.a.kinematics=" + of_a, "bodies.c.kinematics=" + of_c}});
+    ContactSeen seen;
+    const auto result = run::simulate<2>(file.scene<2>(), file.options(), seen);
+    CHECK(seen.pairs == std::set<std::array<std::int32_t, 2>>{{1, 2}, {2, 3}});
+    CHECK(result.end[0].velocity.x() == Approx(0.0).margin(1e-14));
+    const double time = result.ledger.entries().back().time;
+    CHECK(result.end[0].velocity.y() == Approx(-0.01 * time).epsilon(1e-10));  // it falls freely
+    CHECK(result.end[1].velocity.x() < 0.5);                                   // has met c
+    CHECK(result.end[2].velocity.x() > 0.1);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    const WrittenScene overlapping(two_blocks("[contact]\nignored_pairs = [[\"right\", \"left\"]]"));
+    CHECK(input::check_scene(overlapping.path(), {.set = {"bodies.right.place=[-1, 0]"}}).faults.empty());
+    const input::SceneFile crossed(overlapping.path(), {.set = {"bodies.right.place=[-1, 0]"}});
+    CHECK_NOTHROW(run::simulate<2>(crossed.scene<2>(), crossed.options()));
 }
 
 TEST_CASE("a pressure acts against the normals of all faces of its group", "[input][scenes]") {
