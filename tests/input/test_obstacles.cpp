@@ -118,6 +118,30 @@ run.steps = 1
     CHECK(obstacles[1].placement(0.25).turn(0, 2) == Approx(std::sin(0.25)));
 }
 
+TEST_CASE("in space a body in a closed obstacle, across its skin, or outside of a hollow one overlaps it",
+          "[input][obstacles]") {
+    const auto faults = [](const std::string& obstacle) {
+        const WrittenScene written(fmt::format(R"toml(dim = 3
+bodies.block = {{shape = "structured_box", lower = [-1, -1, -1], upper = [1, 1, 1], counts = [2, 2, 2], young = 1, density = 1}}
+energy_scale = 1
+run.steps = 1
+[obstacles.stone]
+surface = "{}/scenes/ball.stl"   # of radius 100
+{}
+)toml",
+                                               ABUT_SOURCE, obstacle));
+        return input::text_of(input::check_scene(written.path()).faults);
+    };
+    const double corner = std::sqrt(3.0);
+    CHECK(faults("scale = 0.05").find("the whole body is inside of it") != std::string::npos);  // of radius 5
+    CHECK(faults("scale = 0.05\nplace = [5, 0, 0]").find("m inside a cell") != std::string::npos);
+    CHECK(faults("scale = 0.005").find("m inside a cell") != std::string::npos);  // the other way round
+    CHECK(faults("scale = 0.05\nplace = [9, 0, 0]\ninside = true").find("outside of its room") != std::string::npos);
+    CHECK(faults("scale = 0.05\ninside = true").empty());
+    CHECK(faults(fmt::format("scale = 0.01\nplace = [{0}, {0}, {0}]", 1.001 * (1.0 + 1.0 / corner))).empty());
+    CHECK(faults("scale = 0.05\nplace = [5, 0, 0]\npath = [9, 0, \"t\"]").empty());  // it starts elsewhere
+}
+
 TEST_CASE("a body that touches an obstacle, is behind a plane, or in a hollow one, does not overlap it",
           "[input][obstacles]") {
     for (const char* obstacle :
