@@ -135,7 +135,7 @@ Outcome outcome_of(const fs::path& scene, const input::Overrides& overrides, con
     try {
         run_one(input::SceneFile(scene, {.set = overrides.set, .options = into_folder}));
         std::ifstream(out / folder / "summary.json") >> outcome.summary;
-        if (noted_signal() != 0) outcome.state = "stopped";
+        if (!outcome.summary.value("complete", true)) outcome.state = "stopped";
     } catch (const Error& error) {
         if (out.empty()) throw;  // no scene at all
         outcome.state = state_of(error.kind());
@@ -144,6 +144,7 @@ Outcome outcome_of(const fs::path& scene, const input::Overrides& overrides, con
         outcome.state = "failed";
         outcome.message = error.what();
     }
+    if (!outcome.message.empty()) run::remove_files(out / folder, {"summary.json"});  // of a sweep before
     return outcome;
 }
 

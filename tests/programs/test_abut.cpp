@@ -104,6 +104,8 @@ TEST_CASE("a sweep runs all combinations, and its table says what became of each
         return run_program("abut", fmt::format("run {} --out '{}' {}", scene("slipping_cylinders"), out.string(), sweeps),
                            "");
     };
+    CHECK(wrong("--sweep bodies.left.density=-1").exit_code == 1);
+    CHECK_FALSE(fs::exists(out / "run_1" / "summary.json"));  // that of the sweep before is gone
     CHECK(has(wrong("--sweep bodies.left.density").error, "a key and its values"));
     CHECK(has(wrong("--sweep bodies.left.density=1,,2").error, "a key and its values"));
     CHECK(has(wrong("--sweep run.cfl=0.5 --sweep run.cfl=0.4").error, "given twice"));
