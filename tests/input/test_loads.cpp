@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -38,6 +40,17 @@ struct ContactSeen : public run::Observer<2> {
     std::set<std::array<std::int32_t, 2>> pairs;
 };
 
+/// How far two bodies have turned, counted on over whole turns [rad].
+struct Turns : public run::Observer<2> {
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
+        const auto motions = solid::body_motions<2>(view, solid);
+        for (std::size_t body = 0; body < 2; ++body) turned[body] += (view.time - time) * motions[body].spin[0];
+        time = view.time;
+    }
+    std::array<double, 2> turned{};
+    double time = 0.0;
+};
+
 }  // namespace
 
 TEST_CASE("supports and tractions have values or formulas in time and place", "[input][scenes]") {
@@ -67,6 +80,38 @@ follows = true
     REQUIRE(boundary.traction.size() == 1);
     CHECK(boundary.traction[0].value == Vector<2>(0.0, -3.0));
     CHECK(boundary.traction[0].follows);
+}
+
+TEST_CASE("12 teeth turn 18 two thirds as far, the other way round", "[input][scenes]") {
+    const input::SceneFile file(ABUT_SOURCE "/scenes/gears.toml");
+    Turns turns;
+    const auto result = run::simulate<2>(file.scene<2>(), file.options(), turns);
+    CHECK(turns.turned[0] == Approx(3.0).epsilon(0.05));  // 60 s with 0.05 rad/s
+    // As far as 2/3, up to the play of 2 * 0.01 m at 1.5 m and as much again for teeth that bend
+    CHECK(turns.turned[1] == Approx(-turns.turned[0] / 1.5).margin(2.0 * 2.0 * 0.01 / 1.5));
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.contact.missed_contacts == 0);
+}
+
+TEST_CASE("a pile that a paddle stirs gains the work of it exactly, and loses no contact", "[input][scenes]") {
+    const input::SceneFile file(ABUT_SOURCE "/scenes/pile.toml");
+    ContactSeen seen;
+    const run::Scene<2> scene = file.scene<2>();
+    const auto result = run::simulate<2>(scene, file.options(), seen);
+    const std::int32_t paddle = scene.mesh.n_bodies() + 1;
+    CHECK(std::ranges::any_of(seen.pairs, [&](const auto& pair) { return pair[1] == paddle; }));
+    CHECK(std::abs(result.ledger.entries().back().work) > 1e-3 * result.scale.value);
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.contact.missed_contacts == 0);
+}
+
+TEST_CASE("equal bars that collide exchange their velocities, as the theory of one dimension has it", "[input][scenes]") {
+    const input::SceneFile file(ABUT_SOURCE "/scenes/colliding_bars.toml");
+    const auto result = run::simulate<2>(file.scene<2>(), file.options());
+    CHECK(result.end[0].velocity.x() == Approx(-0.1).epsilon(0.03));
+    CHECK(result.end[1].velocity.x() == Approx(0.1).epsilon(0.03));
+    CHECK(result.ledger.pseudo_energy_drift() < 1e-11 * result.scale.value);
+    CHECK(result.contact.missed_contacts == 0);
 }
 
 TEST_CASE("bodies that are ignored pass through each other and through obstacles, and all others do not",
