@@ -83,6 +83,28 @@ TEST_CASE("the trap of irregular steps: kept, steps drawn at random explode at a
     CHECK(drift < 1e-12);
 }
 
+TEST_CASE("where a step ends is known before its force, and a step that is set first has the bits of one that is dictated",
+          "[solid][memm]") {
+    Well well{.k = 1.0, .b = 3.0};
+    const auto change = GENERATE(StepChange::keep, StepChange::restart);
+    auto dictated = from_rest(well, 0.1), set_first = from_rest(well, 0.1);
+    for (int i = 0; i < 50; ++i) {
+        const double dt = 0.1 + 0.02 * std::sin(0.3 * i);
+        dictated.step(dt, change);
+        set_first.set_step(dt, change);
+        const double next = set_first.next_q()[0];
+        set_first.step();
+        CHECK(set_first.q()[0] == next);
+        CHECK(set_first.q()[0] == dictated.q()[0]);
+        CHECK(set_first.p_after()[0] == dictated.p_after()[0]);
+        CHECK(set_first.time() == dictated.time());
+    }
+    CHECK(set_first.restart_jumps() == dictated.restart_jumps());
+    const double before = set_first.dt();
+    CHECK_THROWS_AS(set_first.set_step(0.0, change), BadInput);
+    CHECK(set_first.dt() == before);
+}
+
 TEST_CASE("H - H~ is a square, zero only without acceleration", "[solid][memm]") {
     Well well;
     auto memm = from_rest(well, 0.1);
