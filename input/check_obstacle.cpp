@@ -111,7 +111,8 @@ double share_of_sight(const Points<3>& face, const Vector<3>& from) {
     return angle / (4.0 * std::numbers::pi);
 }
 
-/// Whether a closed obstacle is around a point; of one that is turned inside out, whether it is in the solid around the room.
+/// Whether a closed obstacle is around a point; of one that is turned inside out, whether it is in the solid around the
+/// room.
 template <int Dim>
 bool is_in_solid(const std::vector<Points<Dim>>& faces, const Vector<Dim>& point, bool room) {
     double turns = 0.0;  // +1 inside of faces that look outwards

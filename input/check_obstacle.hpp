@@ -17,8 +17,8 @@ struct ObstacleTable {
     std::int32_t number;  ///< as a body behind those of the mesh
 };
 
-/// A fault for each body that is not ignored and that an obstacle, where it is at the start, cuts or has wholly inside of it.
-/// A surface that is not closed has no inside: a body that is wholly behind a plane does not overlap it.
+/// A fault for each body that is not ignored and that an obstacle, where it is at the start, cuts or has wholly inside of
+/// it. A surface that is not closed has no inside: a body that is wholly behind a plane does not overlap it.
 template <int Dim>
 void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim>& obstacle, const ObstacleTable& table,
                    mesh::IgnoredPairs ignored, std::vector<Fault>& faults);

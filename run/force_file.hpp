@@ -13,9 +13,9 @@ namespace abut::run {
 
 /// Forces of contact as CSV: a row for each pair of bodies, or of a body and an obstacle, that touched since the last rows,
 /// every `Outputs::interval` steps and at the end. Columns: step, time [s], body_1, body_2 (names), the mean force on body 2
-/// since the last rows, "force_x" and so on [N], and "normal_force" [N], the sum over all faces of what presses them together.
-/// Force times interval, summed over all rows, is the change of momentum that contact made, to round-off; not so of Bilbao's
-/// scheme, whose steps take more than the force.
+/// since the last rows, "force_x" and so on [N], and "normal_force" [N], the sum over all faces of what presses them
+/// together. Force times interval, summed over all rows, is the change of momentum that contact made, to round-off; not so
+/// of Bilbao's scheme, whose steps take more than the force.
 ///
 /// It is written as it goes, and is called `path`.partial until `finish`.
 template <int Dim>

@@ -5,8 +5,8 @@
 
 namespace abut::run {
 
-/// Settings of all that trades speed for accuracy, under a name. What each costs and gives is in docs/trade.md. None says what
-/// bodies are (`kinematics`) or what acts between them (`law`), and all go with any of these.
+/// Settings of all that trades speed for accuracy, under a name. What each costs and gives is in docs/trade.md. None says
+/// what bodies are (`kinematics`) or what acts between them (`law`), and all go with any of these.
 enum class Preset {
     fast,      ///< the longest stable step, nothing cut at events: pseudo-energy drifts a little
     balanced,  ///< pseudo-energy to round-off; the defaults

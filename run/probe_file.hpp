@@ -9,8 +9,8 @@
 namespace abut::run {
 
 /// What the probes of a scene see, as CSV: a row at the start, every `Outputs::interval` steps, and at the end. Columns are
-/// step, time and, for each probe, "<name>.displacement_x" [m], "<name>.velocity_x" [m/s], "<name>.stress_xx" [Pa] and so on,
-/// "<name>.von_mises" [Pa]; in 2D stress_zz is that of plane strain.
+/// step, time and, for each probe, "<name>.displacement_x" [m], "<name>.velocity_x" [m/s], "<name>.stress_xx" [Pa] and so
+/// on, "<name>.von_mises" [Pa]; in 2D stress_zz is that of plane strain.
 ///
 /// A probe at a place takes the cell that holds it: the displacement is that of the place itself, velocity and stress are
 /// those of the cell. That of a body takes the means over its volume.
@@ -21,8 +21,8 @@ class ProbeFile : public Observer<Dim> {
 public:
     explicit ProbeFile(std::filesystem::path path);
 
-    /// Opens the file. Throws BadInput if it cannot be written, for a body that does not exist, and for a place that is beside
-    /// its body, with the distance.
+    /// Opens the file. Throws BadInput if it cannot be written, for a body that does not exist, and for a place that is
+    /// beside its body, with the distance.
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if a row cannot be written.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;

@@ -18,11 +18,11 @@ struct Sweep {
 /// without a key or a value, and for a key that comes twice.
 [[nodiscard]] std::vector<Sweep> read_sweeps(const std::vector<std::string>& texts);
 
-/// Runs a scene with each value, or with all combinations of several keys, the last one varying fastest. Each run has a folder
-/// of its own in RunOptions::out, run_1 and so on, and a row in sweep.csv there, which is written anew after each: values,
-/// state, main figures, and the message of a run that did not end. States are held (it ended), stopped (by a signal, which
-/// ends the sweep as well), refused (BadInput), diverged (Diverged, TooDeep) and failed (all else). `run_one` runs a scene
-/// into its folder. Throws BadInput at the end if a run did not end well.
+/// Runs a scene with each value, or with all combinations of several keys, the last one varying fastest. Each run has a
+/// folder of its own in RunOptions::out, run_1 and so on, and a row in sweep.csv there, which is written anew after each:
+/// values, state, main figures, and the message of a run that did not end. States are held (it ended), stopped (by a signal,
+/// which ends the sweep as well), refused (BadInput), diverged (Diverged, TooDeep) and failed (all else). `run_one` runs a
+/// scene into its folder. Throws BadInput at the end if a run did not end well.
 void run_sweep(const std::filesystem::path& scene, const input::Overrides& overrides, const std::vector<Sweep>& sweeps,
                const std::function<void(const input::SceneFile&)>& run_one);
 

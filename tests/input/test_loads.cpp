@@ -116,8 +116,8 @@ TEST_CASE("equal bars that collide exchange their velocities, as the theory of o
 
 TEST_CASE("bodies that are ignored pass through each other and through obstacles, and all others do not",
           "[input][contact]") {
-    // b flies from the left through a, which rests, and meets c; a falls through the floor, on which c stands. Bodies that are
-    // rigid come last in the contact of bodies that turn: numbers must not get mixed up.
+    // b flies from the left through a, which rests, and meets c; a falls through the floor, on which c stands. Bodies that
+    // are rigid come last in the contact of bodies that turn: numbers must not get mixed up.
     const WrittenScene written(R"toml(dim = 2
 gravity = [0, -0.01]
 [materials.soft]

@@ -122,9 +122,16 @@ TEST_CASE("in space a body in a closed obstacle, across its skin, or outside of 
           "[input][obstacles]") {
     const auto faults = [](const std::string& obstacle) {
         const WrittenScene written(fmt::format(R"toml(dim = 3
-bodies.block = {{shape = "structured_box", lower = [-1, -1, -1], upper = [1, 1, 1], counts = [2, 2, 2], young = 1, density = 1}}
 energy_scale = 1
-run.steps = 1
+[bodies.block]
+shape = "structured_box"
+lower = [-1, -1, -1]
+upper = [1, 1, 1]
+counts = [2, 2, 2]
+young = 1
+density = 1
+[run]
+steps = 1
 [obstacles.stone]
 surface = "{}/scenes/ball.stl"   # of radius 100
 {}
