@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::vector<std::string> plain_results = {"summary.json", "report.html",        "energy.csv", "energy.png",
+                                                "energy.gp",    paraview_script_name, "probes.csv", "forces.csv"};
+
 bool take(std::string_view& text, std::string_view start) {
     if (!text.starts_with(start)) return false;
     text.remove_prefix(start.size());
@@ -47,14 +50,8 @@ void remove_result(const fs::path& path) {
 
 }  // namespace
 
-const std::vector<std::string>& plain_results() {
-    static const std::vector<std::string> names{"summary.json", "report.html",        "energy.csv", "energy.png",
-                                                "energy.gp",    paraview_script_name, "probes.csv", "forces.csv"};
-    return names;
-}
-
 void remove_earlier_results(const fs::path& directory, const std::string& series) {
-    remove_files(directory, plain_results());
+    remove_files(directory, plain_results);
     std::vector<fs::path> frames;
     std::error_code error;
     for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))

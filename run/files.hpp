@@ -10,9 +10,6 @@ namespace abut::run {
 /// file.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
 
-/// All files of ResultFiles except those of the series.
-[[nodiscard]] const std::vector<std::string>& plain_results();
-
 /// Removes files of these names, and what they are called while they are written. Throws BadInput naming the file.
 void remove_files(const std::filesystem::path& directory, const std::vector<std::string>& names);
 

@@ -27,10 +27,14 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if rows cannot be written.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void save(StateWriter& state) override;
+    /// Throws BadInput if rows that were written are gone.
+    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// The run is complete: gives the file its name. Throws BadInput if it cannot.
     void finish();
 
 private:
+    void look_up(const Scene<Dim>& scene, const RunResult<Dim>& result);
     PartialFile file_;
     std::vector<std::string> names_;  // of bodies, then of obstacles
     std::int64_t interval_ = 1;

@@ -71,7 +71,7 @@ void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& sol
 }
 
 template <int Dim>
-void Frames<Dim>::save(StateWriter& state) const {
+void Frames<Dim>::save(StateWriter& state) {
     state.put_all(std::span(series_->times()));
 }
 

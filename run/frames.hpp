@@ -22,7 +22,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Writes a frame if one is due at this step.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
-    void save(StateWriter& state) const override;
+    void save(StateWriter& state) override;
     /// Throws BadInput if frames that were written are gone.
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
 

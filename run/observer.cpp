@@ -36,8 +36,8 @@ void Observers<Dim>::keep(const Checkpoint& checkpoint) {
 }
 
 template <int Dim>
-void Observers<Dim>::save(StateWriter& state) const {
-    for (const Observer<Dim>& observer : observers_) observer.save(state);
+void Observers<Dim>::save(StateWriter& state) {
+    for (Observer<Dim>& observer : observers_) observer.save(state);
 }
 
 template <int Dim>

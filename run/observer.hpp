@@ -32,7 +32,7 @@ public:
     }
     virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
     /// What `resume` needs, for a checkpoint.
-    virtual void save(StateWriter&) const {}
+    virtual void save(StateWriter&) {}
     /// In place of `begin`, where a run goes on after a checkpoint: `result` has the entries of the ledger until then, `state`
     /// holds what `save` has put there.
     virtual void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader&) { begin(scene, result); }
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] bool asks_to_stop() const override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
-    void save(StateWriter& state) const override;
+    void save(StateWriter& state) override;
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
 
 private:

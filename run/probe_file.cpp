@@ -109,18 +109,24 @@ typename ProbeFile<Dim>::Watched ProbeFile<Dim>::watched(const mesh::Mesh<Dim>& 
 }
 
 template <int Dim>
-void ProbeFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    std::vector<std::string> columns{"step", "time"};
+void ProbeFile<Dim>::look_up(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     for (const Probe<Dim>& probe : scene.outputs.probes) {
         try {
             probes_.push_back(watched(scene.mesh, probe));
         } catch (const BadInput& error) {
             throw BadInput(fmt::format("probe '{}': {}", probe.name, error.what()));
         }
-        for (std::string& column : columns_of<Dim>(in_csv(probe.name))) columns.push_back(std::move(column));
     }
     interval_ = scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval;
     n_steps_ = result.steps;
+}
+
+template <int Dim>
+void ProbeFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    look_up(scene, result);
+    std::vector<std::string> columns{"step", "time"};
+    for (const Probe<Dim>& probe : scene.outputs.probes)
+        for (std::string& column : columns_of<Dim>(in_csv(probe.name))) columns.push_back(std::move(column));
     file_.open();
     file_.write(fmt::format("{}\n", fmt::join(columns, ",")));
 }
@@ -152,6 +158,17 @@ void ProbeFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
         for (const double value : values) row += fmt::format(",{:.17g}", value);
     }
     file_.write(row + "\n");
+}
+
+template <int Dim>
+void ProbeFile<Dim>::save(StateWriter& state) {
+    state.put(static_cast<std::uint64_t>(file_.size()));
+}
+
+template <int Dim>
+void ProbeFile<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
+    look_up(scene, result);
+    file_.go_on_after(state.get<std::uint64_t>());
 }
 
 template <int Dim>

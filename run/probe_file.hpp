@@ -26,10 +26,14 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if a row cannot be written.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void save(StateWriter& state) override;
+    /// Throws BadInput if rows that were written are gone.
+    void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// The run is complete: gives the file its name. Throws BadInput if it cannot.
     void finish();
 
 private:
+    void look_up(const Scene<Dim>& scene, const RunResult<Dim>& result);
     /// The cells that a probe looks at, and their shares.
     struct Watched {
         std::vector<std::int32_t> cells;

@@ -91,7 +91,9 @@ void ResultFiles<Dim>::keep_beside_checkpoints(std::string name, std::string tex
 }
 
 template <int Dim>
-void ResultFiles<Dim>::save(StateWriter& state) const {
+void ResultFiles<Dim>::save(StateWriter& state) {
+    if (probes_) probes_->save(state);
+    if (forces_) forces_->save(state);
     if (frames_) frames_->save(state);
 }
 
@@ -99,9 +101,11 @@ void ResultFiles<Dim>::save(StateWriter& state) const {
 template <int Dim>
 void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     const Stopwatch watch(seconds_);
-    remove_files(out_, plain_results());
+    remove_files(out_, {"summary.json", "report.html", "energy.csv", "energy.png", "energy.gp"});
     energies_.resume(scene, result, state);
     has_begun_ = true;
+    if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
+    if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
     if (frames_) frames_->resume(scene, result, state);
 }
 

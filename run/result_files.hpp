@@ -41,7 +41,7 @@ public:
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
-    void save(StateWriter& state) const override;
+    void save(StateWriter& state) override;
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// After the run. Adds the time of all output to `result.seconds`, that of the picture also to the total. Throws
     /// BadInput if a file cannot be written; a picture that cannot be drawn is no error.

@@ -189,7 +189,7 @@ private:
         if (!recorded) record();
     }
 
-    [[nodiscard]] Checkpoint checkpoint() const {
+    [[nodiscard]] Checkpoint checkpoint() {
         Checkpoint checkpoint{.run = identity(scene_, result_),
                               .motion = integrator_.state(),
                               .solid = solid_.state(),

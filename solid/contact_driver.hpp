@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/contact/contact.hpp"
@@ -74,6 +75,7 @@ public:
     /// Adds what bodies did to each other on the path of the step, or in a part of it this long [s].
     virtual void add_impulses(double dt) = 0;
     [[nodiscard]] std::span<const BodyImpulse<Dim>> impulses() const { return impulses_.pairs(); }
+    void restore_impulses(std::vector<BodyImpulse<Dim>> impulses) { impulses_.restore(std::move(impulses)); }
     [[nodiscard]] virtual const Obstacles<Dim>& obstacles() const = 0;
     /// Largest |g|/D [-].
     [[nodiscard]] virtual double compression() const = 0;

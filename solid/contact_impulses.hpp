@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/solid/contact_results.hpp"
@@ -26,6 +27,7 @@ public:
         found->normal_impulse += normal_impulse;
     }
     [[nodiscard]] std::span<const BodyImpulse<Dim>> pairs() const { return pairs_; }
+    void restore(std::vector<BodyImpulse<Dim>> pairs) { pairs_ = std::move(pairs); }
 
 private:
     std::vector<BodyImpulse<Dim>> pairs_;  // by (body_1, body_2)

@@ -48,7 +48,15 @@ std::vector<std::byte> Solid<Dim>::state() const {
     outside_->save(state);
     bodies_->rigid().save(state);
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
-    if (contact_) state.put_all(std::span<const std::byte>(contact_->state()));
+    if (!contact_) return std::move(state).finish();
+    state.put_all(std::span<const std::byte>(contact_->state()));
+    state.put(static_cast<std::int32_t>(contact_->impulses().size()));
+    for (const BodyImpulse<Dim>& pair : contact_->impulses()) {
+        state.put(pair.body_1);
+        state.put(pair.body_2);
+        put(state, pair.impulse);
+        state.put(pair.normal_impulse);
+    }
     return std::move(state).finish();
 }
 
@@ -75,6 +83,14 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
         const auto u = as_vectors<Dim>(q);
         frames_->stand_at(of_cells(u));
         contact_->restore(state.get_all<std::byte>(), u, time_);
+        std::vector<BodyImpulse<Dim>> impulses(static_cast<std::size_t>(state.get<std::int32_t>()));
+        for (BodyImpulse<Dim>& pair : impulses) {
+            pair.body_1 = state.get<std::int32_t>();
+            pair.body_2 = state.get<std::int32_t>();
+            take(state, pair.impulse);
+            pair.normal_impulse = state.get<double>();
+        }
+        contact_->restore_impulses(std::move(impulses));
     }
     state.finish();
 }

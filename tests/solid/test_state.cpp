@@ -167,6 +167,8 @@ std::int64_t compare_with_restarts(const solid::SolidOptions<Dim>& options, cons
                 whole.solid.outside_work(whole.integrator.q()).steps);
         REQUIRE(other.solid.outside_work(other.integrator.q()).changes ==
                 whole.solid.outside_work(whole.integrator.q()).changes);
+        REQUIRE(std::ranges::equal(other.solid.contact_impulses(), whole.solid.contact_impulses(), {},
+                                   &solid::BodyImpulse<Dim>::impulse, &solid::BodyImpulse<Dim>::impulse));
         REQUIRE(other.solid.evaluations() == whole.solid.evaluations());
     }
     return pairs;
