@@ -73,10 +73,8 @@ Markup warnings_part(const std::vector<Warning>& warnings) {
         const Markup item = element("li", warning.text) + "\n";
         (warning.severity == Severity::warning ? serious : notes) += item;
     }
-    Markup content;
-    if (!serious.empty()) content += element("ul", {{"class", "warnings"}}, serious) + "\n";
-    if (!notes.empty()) content += element("p", "Good to know:") + element("ul", notes) + "\n";
-    return section("Warnings", content);
+    const auto list = [](const Markup& items) { return items.empty() ? items : element("ul", items) + "\n"; };
+    return section("Warnings", list(serious)) + section("Good to know", list(notes));
 }
 
 /// A row of a table of figures with units.
