@@ -12,8 +12,8 @@
 namespace abut::run {
 namespace {
 
-// What the bits of a run do not depend on.
-constexpr std::array<std::string_view, 2> free_choices{"out", "threads"};
+// What the bits of a run do not depend on: threads, and where files are.
+constexpr std::array<std::string_view, 3> free_choices{"out", "scene", "threads"};
 
 }  // namespace
 

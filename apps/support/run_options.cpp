@@ -135,7 +135,9 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
                        {.unit = "min", .above = 0.0, .zero = true, .remedy = "Give minutes, or 0 for no checkpoints."}));
     grouped(add_count(app, "--checkpoint-steps", options.checkpoint_steps,
                       "steps from one checkpoint to the next, beside that; 0: by minutes alone", 0));
-    app.add_flag("--resume", options.resume, "goes on from the last checkpoint in the folder of --out")->group("Output");
+    app.add_flag("--resume", options.resume,
+                 "goes on from the last checkpoint in the folder of --out; by default a run begins at its start")
+        ->group("Output");
     grouped(add_count(app, "--threads", options.threads, "threads; 0: all. The results do not depend on it", 0));
 }
 

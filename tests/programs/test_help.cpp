@@ -69,7 +69,7 @@ bool holds(const std::string& line, const std::string& word) { return line.find(
 
 }  // namespace
 
-TEST_CASE("--help explains every option in one line with unit and default", "[programs]") {
+TEST_CASE("the text of --help explains every option in one line with unit and default", "[programs]") {
     const auto [program, options] = GENERATE(from_range(explained));
     const auto outcome = run_program(program, "--help", "");
     CHECK(outcome.exit_code == 0);
@@ -88,7 +88,7 @@ TEST_CASE("--help explains every option in one line with unit and default", "[pr
     }
 }
 
-TEST_CASE("--help names the default that a run uses", "[programs]") {
+TEST_CASE("the text of --help names the default that a run uses", "[programs]") {
     const auto help = run_program("slipping_cylinders", "--help", "").out;
     const auto outcome = run_well("slipping_cylinders", "--size 0.25 --steps 1 --frames 0", "defaults");
     const auto used = read_summary(outcome)["options"];

@@ -37,7 +37,7 @@ std::vector<json> of_event(const std::vector<json>& lines, const std::string& ev
 
 }  // namespace
 
-TEST_CASE("--quiet says nothing of a good run, and leaves the same results", "[programs][messages]") {
+TEST_CASE("with --quiet a program says nothing of a good run, and leaves the same results", "[programs][messages]") {
     const auto quiet = run_well("slipping_cylinders", "--size 0.25 --steps 20 --frames 2 --quiet", "quiet");
     CHECK(quiet.out.empty());
     CHECK(quiet.error.empty());
@@ -65,7 +65,7 @@ TEST_CASE("an error is on standard error whatever a program says otherwise", "[p
     CHECK("slipping_cylinders: error: " + lines.back()["text"].get<std::string>() + "\n" == normal.error);
 }
 
-TEST_CASE("--json tells a run line by line, in the figures of its files", "[programs][messages]") {
+TEST_CASE("with --json a program tells a run line by line, in the figures of its files", "[programs][messages]") {
     const auto outcome = run_well("slipping_cylinders", "--size 0.25 --steps 20 --interval 5 --frames 0 --json", "lines");
     CHECK(outcome.error.empty());
     const auto lines = lines_of(outcome.out);
@@ -91,7 +91,8 @@ TEST_CASE("--json tells a run line by line, in the figures of its files", "[prog
     CHECK(progress.back()["seconds_left"] == 0.0);
 }
 
-TEST_CASE("--json tells of warnings, and of the code with which a signal ends a run", "[programs][messages]") {
+TEST_CASE("with --json a program tells of warnings, and of the code with which a signal ends a run",
+          "[programs][messages]") {
     const auto warned =
         run_well("slipping_cylinders", "--size 0.25 --steps 20 --interval 10 --restart 10 --frames 0 --json", "warned");
     const auto warnings = of_event(lines_of(warned.out), "warning");

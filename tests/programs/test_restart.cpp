@@ -52,7 +52,7 @@ TEST_CASE("abut restart gives the energies of the run that nobody stopped or kil
     const int signal = GENERATE(SIGTERM, SIGKILL);
     const auto whole = run_well("abut", fmt::format("run '{}' {}", scene("slipping_cylinders"), moderate), "whole");
     const Folder folder("stopped");
-    run_until_checkpoint(folder.path(), scene("slipping_cylinders"), signal);
+    run_until_checkpoint(folder.path(), fs::relative(scene("slipping_cylinders")).string(), signal);
     const auto rest = run_program("abut", fmt::format("restart '{}' --threads 1", folder.path().string()), "");
     CAPTURE(rest.error);
     REQUIRE(rest.exit_code == 0);
