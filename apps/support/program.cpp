@@ -26,7 +26,6 @@ int report_errors(const Program& program, const std::function<void()>& body) {
     try {
         spdlog::set_default_logger(spdlog::stdout_color_mt(program.name));
         spdlog::set_pattern("[%T] %v");
-        if (program.messages != Messages::normal) spdlog::set_level(spdlog::level::off);
         body();
         return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
     } catch (const std::exception& error) {

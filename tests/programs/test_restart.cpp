@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "programs/child.hpp"
@@ -76,9 +77,11 @@ TEST_CASE("a restart takes the scene as it was, with its files where they were",
     fs::copy_file(scene("slipping_cylinders"), mine);
     run_until_checkpoint(results.path(), mine.string(), SIGKILL);
     std::ofstream(mine) << "this is no scene any more\n";
-    const auto rest = run_program("abut", fmt::format("restart '{}'", results.path().string()), "");
+    const auto rest = run_program("abut", fmt::format("restart '{}' --json", results.path().string()), "");
     CAPTURE(rest.error);
     CHECK(rest.exit_code == 0);
+    std::istringstream lines(rest.out);
+    for (std::string line; std::getline(lines, line);) CHECK(nlohmann::json::parse(line).contains("event"));
     CHECK(fs::exists(results.path() / "summary.json"));
 }
 
