@@ -19,7 +19,7 @@ enum class StepChange {
     restart,  ///< they are rebuilt from p^n with the new dt: accurate, and H~ jumps by O(dt^2), reported
 };
 
-/// All that the next steps of a scheme depend on, but for its system.
+/// All that the next steps of a scheme depend on, except its system.
 struct IntegratorState {
     std::vector<double> q;         ///< q^n
     std::vector<double> p_before;  ///< p^{n-1/2}

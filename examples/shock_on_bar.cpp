@@ -7,7 +7,7 @@
 //
 // The gas is one-dimensional: finite volumes, minmod slopes, HLLC, Heun's method, cells that move with the bar. The coupling:
 // MEMM knows where the faces of the bar will be before it knows the load (Memm::next_q), so the gas takes the step first, on
-// a wall that moves so far, and hands its mean pressure on. Both book the same work: mass is exact and energy, too, but for
+// a wall that moves so far, and hands its mean pressure on. Both book the same work: mass is exact and energy, too, except
 // what the half-cell behind the loaded face stores, which goes as h. The pressure answers to the motion of its own step, which
 // feeds the alternating mode of MEMM: neutral restarts take that out. To compare, with the argument `without_restarts` there
 // are none, and with `lagged` the bar feels the pressure of the step before (docs/loads.md).

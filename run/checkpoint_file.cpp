@@ -41,19 +41,13 @@ std::string head(std::span<const std::byte> content) {
     return text;
 }
 
-[[noreturn]] void refuse_to_write(const fs::path& path, int reason) {
-    std::error_code error;
-    fs::remove(path, error);
-    throw BadInput(cannot_be_written(path, std::strerror(reason)));
-}
-
-/// To the disc: until here a loss of power loses nothing.
+/// To the disc: from here on a loss of power loses nothing.
 void synchronise(const fs::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const int reason = errno;
     if (file >= 0) ::close(file);
-    if (!done) refuse_to_write(path, reason);
+    if (!done) throw BadInput(cannot_be_written(path, std::strerror(reason)));
 }
 
 void write_file(const fs::path& path, const std::string& head, std::span<const std::byte> content) {
@@ -61,7 +55,7 @@ void write_file(const fs::path& path, const std::string& head, std::span<const s
     file.write(head.data(), static_cast<std::streamsize>(head.size()));
     file.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
     file.close();
-    if (!file) refuse_to_write(path, errno);
+    if (!file) throw BadInput(cannot_be_written(path, std::strerror(errno)));
     synchronise(path);
 }
 
@@ -176,9 +170,15 @@ void write_checkpoint(const Checkpoint& checkpoint, const fs::path& path) {
     const Bytes content = packed(checkpoint);
     fs::path partial = path;
     partial += ".partial";
-    write_file(partial, head(content), content);
-    move_file(partial, path);
-    synchronise(path.parent_path());
+    try {
+        write_file(partial, head(content), content);
+        move_file(partial, path);
+    } catch (const BadInput&) {
+        std::error_code ignored;
+        fs::remove(partial, ignored);
+        throw;
+    }
+    synchronise(fs::absolute(path).parent_path());
 }
 
 Checkpoint read_checkpoint(const fs::path& path) {

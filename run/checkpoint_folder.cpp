@@ -36,9 +36,22 @@ void CheckpointFolder::add(const Checkpoint& checkpoint) const {
     std::error_code error;
     fs::create_directories(directory_, error);
     if (error) refuse_directory(directory_, error.message());
-    write_checkpoint(checkpoint, directory_ / fmt::format("step_{:012}.h5", checkpoint.motion.steps));
+    remove_unfinished();
+    const fs::path path = directory_ / fmt::format("step_{:012}.h5", checkpoint.motion.steps);
+    write_checkpoint(checkpoint, path);
     const std::vector<fs::path> all = files();
-    for (std::size_t i = kept; i < all.size(); ++i) fs::remove(all[i], error);  // one too many harms nobody
+    const auto now = static_cast<std::size_t>(std::ranges::find(all, path) - all.begin());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (i < now || i >= now + kept) fs::remove(all[i], error);  // one too many harms nobody
+}
+
+/// What a run has left that was killed while it wrote.
+void CheckpointFolder::remove_unfinished() const {
+    std::error_code error;
+    std::vector<fs::path> unfinished;
+    for (fs::directory_iterator entry(directory_, error), end; !error && entry != end; entry.increment(error))
+        if (entry->path().extension() == ".partial") unfinished.push_back(entry->path());
+    for (const fs::path& path : unfinished) fs::remove(path, error);
 }
 
 void CheckpointFolder::add_text(const std::string& name, const std::string& text) const {
@@ -77,6 +90,7 @@ std::string CheckpointFolder::text(const std::string& name) const {
 }
 
 void CheckpointFolder::remove(const std::vector<std::string>& texts) const {
+    remove_unfinished();
     std::vector<fs::path> all = files();
     for (const std::string& name : texts) all.push_back(directory_ / name);
     for (const fs::path& path : all) {

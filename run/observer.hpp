@@ -26,10 +26,7 @@ public:
     // Runs that survive: docs/checkpoints.md
 
     /// Asked after each step, last of all: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
-    [[nodiscard]] virtual bool wants_checkpoint(std::int64_t step, bool stops) const {
-        static_cast<void>(step), static_cast<void>(stops);
-        return false;
-    }
+    [[nodiscard]] virtual bool wants_checkpoint(std::int64_t /*step*/, bool /*stops*/) const { return false; }
     virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
     /// What `resume` needs, for a checkpoint.
     virtual void save(StateWriter&) {}

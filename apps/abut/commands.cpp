@@ -17,8 +17,8 @@
 #include "apps/abut/asked.hpp"
 #include "apps/abut/build_info.hpp"
 #include "apps/abut/restart.hpp"
-#include "apps/detect/detect.hpp"
 #include "apps/abut/sweep.hpp"
+#include "apps/detect/detect.hpp"
 #include "apps/support/preset.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
@@ -179,7 +179,7 @@ int run_abut(int argc, char** argv) {
     return run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
         if (line.run->parsed() && !line.sweep.empty()) {
-            run_sweep(line.scene, overrides(argc, argv, line), read_sweeps(line.sweep),
+            run_sweep(line.scene, overrides(argc, argv, line), read_sweeps(line.sweep), program.messages,
                       [&](const input::SceneFile& file) { run_file(program, file, nullptr); });
         } else if (line.run->parsed()) {
             const Restart restart{fs::absolute(line.scene), {argv, argv + argc}};

@@ -148,12 +148,14 @@ Outcome outcome_of(const fs::path& scene, const input::Overrides& overrides, con
     return outcome;
 }
 
-void report(const std::vector<Outcome>& outcomes, std::size_t n_runs, const std::vector<Sweep>& sweeps,
-            const fs::path& table) {
+void print_table(const std::vector<Outcome>& outcomes, const std::vector<Sweep>& sweeps, const fs::path& table) {
     fmt::print("Sweep\n");
     for (const Outcome& outcome : outcomes)
         fmt::print("  {}  {}  {}\n", outcome.folder, fmt::join(settings_of(outcome.values, sweeps), " "), outcome.state);
     fmt::print("  table  {}\n", table.string());
+}
+
+void require_held(const std::vector<Outcome>& outcomes, std::size_t n_runs, const fs::path& table) {
     if (noted_signal() != 0) return;
     const auto n_bad = std::ranges::count_if(outcomes, [](const Outcome& outcome) { return outcome.state != "held"; });
     if (n_bad > 0)
@@ -173,8 +175,9 @@ std::vector<Sweep> read_sweeps(const std::vector<std::string>& texts) {
     return sweeps;
 }
 
-void run_sweep(const fs::path& scene, const input::Overrides& overrides, const std::vector<Sweep>& sweeps,
+void run_sweep(const fs::path& scene, const input::Overrides& overrides, const std::vector<Sweep>& sweeps, Messages messages,
                const std::function<void(const input::SceneFile&)>& run_one) {
+    set_log(messages);
     std::size_t n_runs = 1;
     for (const Sweep& sweep : sweeps) n_runs *= sweep.values.size();
     const auto width = static_cast<int>(std::to_string(n_runs).size());
@@ -191,7 +194,8 @@ void run_sweep(const fs::path& scene, const input::Overrides& overrides, const s
         fs::create_directories(out);
         write_table(out / "sweep.csv", outcomes, sweeps);
     }
-    report(outcomes, n_runs, sweeps, out / "sweep.csv");
+    if (messages == Messages::normal) print_table(outcomes, sweeps, out / "sweep.csv");
+    require_held(outcomes, n_runs, out / "sweep.csv");
 }
 
 }  // namespace abut::apps

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abut/input/scene_file.hpp"
+#include "apps/support/messages.hpp"
 
 namespace abut::apps {
 
@@ -19,11 +20,11 @@ struct Sweep {
 [[nodiscard]] std::vector<Sweep> read_sweeps(const std::vector<std::string>& texts);
 
 /// Runs a scene with each value, or with all combinations of several keys, the last one varying fastest. Each run has a
-/// folder of its own in RunOptions::out, run_1 and so on, and a row in sweep.csv there, which is written anew after each:
+/// folder of its own in RunOptions::out, run_1 and so on, and a row in sweep.csv there, which is rewritten after each:
 /// values, state, main figures, and the message of a run that did not end. States are held (it ended), stopped (by a signal,
 /// which ends the sweep as well), refused (BadInput), diverged (Diverged, TooDeep) and failed (all else). `run_one` runs a
-/// scene into its folder. Throws BadInput at the end if a run did not end well.
+/// scene into its folder. A table is printed where messages are normal. Throws BadInput at the end if a run did not end well.
 void run_sweep(const std::filesystem::path& scene, const input::Overrides& overrides, const std::vector<Sweep>& sweeps,
-               const std::function<void(const input::SceneFile&)>& run_one);
+               Messages messages, const std::function<void(const input::SceneFile&)>& run_one);
 
 }  // namespace abut::apps

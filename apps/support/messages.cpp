@@ -1,6 +1,12 @@
 #include "apps/support/messages.hpp"
 
+#include <spdlog/spdlog.h>
+
 namespace abut::apps {
+
+void set_log(Messages messages) {
+    spdlog::set_level(messages == Messages::normal ? spdlog::level::info : spdlog::level::off);
+}
 
 void add_message_options(CLI::App& app, Messages& messages) {
     const auto add = [&](const char* name, Messages meant, const char* help) {

@@ -10,6 +10,9 @@ enum class Messages {
     json,    ///< lines of JSON: JsonLines
 };
 
+/// The log is off unless messages are normal.
+void set_log(Messages messages);
+
 /// --quiet and --json, of which one at most is taken.
 void add_message_options(CLI::App& app, Messages& messages);
 

@@ -71,7 +71,7 @@ run::Scene<Dim> timed_scene(const std::function<run::Scene<Dim>()>& make_scene, 
 
 template <int Dim>
 void run_scene(const Program& program, const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
-    if (program.messages != Messages::normal) spdlog::set_level(spdlog::level::off);
+    set_log(program.messages);
     std::optional<global_control> threads;  // for the mesh, too
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));

@@ -80,7 +80,7 @@ ABUT_API int abut_solid_set_traction(abut_solid* solid, const char* group, abut_
 
 enum {
     ABUT_KEEP = 0,   /* momenta stay: for slow and smooth changes of dt; H~ is exact */
-    ABUT_RESTART = 1 /* momenta are made anew: for abrupt ones; what that changes in H~ is in `restart_jumps` */
+    ABUT_RESTART = 1 /* momenta are rebuilt: for abrupt ones; what that changes in H~ is in `restart_jumps` */
 };
 ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, abut_error* error);
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */

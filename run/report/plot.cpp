@@ -100,7 +100,7 @@ Markup axes(const Plot& plot, const Frame& frame) {
                    plot.y_label);
 }
 
-/// "M1,2L3,4": a gap begins anew.
+/// "M1,2L3,4": after a gap it begins again.
 std::string path(const Plot& plot, const Curve& curve, const Frame& frame) {
     std::string result;
     bool open = false;

@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds between_looks{2};
 
 }  // namespace
 
-Child::Child(const std::string& program, std::vector<std::string> arguments) {
+Child::Child(const std::string& program, std::vector<std::string> arguments, const std::filesystem::path& out) {
     const std::string path = std::string(ABUT_PROGRAM_FOLDER) + "/" + program;
     arguments.insert(arguments.begin(), path);
     std::vector<char*> words;
@@ -33,8 +33,8 @@ Child::Child(const std::string& program, std::vector<std::string> arguments) {
 
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawnattr_t attributes;  // signals mean what they mean by default, whoever runs the test
     posix_spawnattr_init(&attributes);
     sigset_t all, none;

@@ -8,11 +8,11 @@
 
 namespace abut::test::programs {
 
-/// A program that runs beside the test, its words thrown away; killed with the object if it has not ended.
+/// A program that runs beside the test; killed with the object if it has not ended.
 class Child {
 public:
-    /// Throws std::runtime_error if it cannot be started.
-    Child(const std::string& program, std::vector<std::string> arguments);
+    /// Its standard output goes to the file, its errors are thrown away. Throws std::runtime_error if it cannot be started.
+    Child(const std::string& program, std::vector<std::string> arguments, const std::filesystem::path& out = "/dev/null");
     ~Child();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;

@@ -28,6 +28,12 @@ std::vector<json> lines_of(const std::string& text) {
     return lines;
 }
 
+/// Of a file that is being written: without its last line.
+std::vector<json> whole_lines_of(const std::filesystem::path& path) {
+    const std::string text = std::filesystem::exists(path) ? read_text(path) : "";
+    return lines_of(text.substr(0, text.rfind('\n') + 1));
+}
+
 std::vector<json> of_event(const std::vector<json>& lines, const std::string& event) {
     std::vector<json> some;
     for (const json& line : lines)
@@ -100,10 +106,16 @@ TEST_CASE("with --json a program tells of warnings, and of the code with which a
               return line["severity"] == "warning" && line["value"] == 10.0 && line["threshold"] == 10.0;
           }) == 1);
 
-    const auto stopped =
-        run_program("slipping_cylinders", "--size 0.25 --steps 100000000 --interval 1000000 --frames 0 --json", "stopped",
-                    "timeout -s TERM 2");
-    const auto lines = lines_of(stopped.out);
+    const Folder folder("stopped");
+    std::filesystem::create_directories(folder.path());
+    const auto said = folder.path() / "said.jsonl";
+    std::vector<std::string> arguments = long_run(folder.path() / "results");
+    arguments.push_back("--json");
+    Child child("slipping_cylinders", arguments, said);
+    child.wait_until([&] { return of_event(whole_lines_of(said), "progress").size() >= 2; });
+    child.send(SIGTERM);
+    CHECK(child.wait() == 143);
+    const auto lines = lines_of(read_text(said));
     CHECK(lines.back()["event"] == "end");
     CHECK(lines.back()["complete"] == false);
     CHECK(lines.back()["exit_code"] == 143);
@@ -124,6 +136,9 @@ TEST_CASE("abut has --quiet and --json, for faults of a scene as well", "[progra
     const auto good = run_well("abut", scene + " --json", "abut_lines");
     CHECK(lines_of(good.out).front()["program"] == "slipping_cylinders");
     CHECK(run_well("abut", scene + " --quiet", "abut_quiet").out.empty());
+    const std::string sweep = scene + " --sweep run.cfl=0.5,0.9";
+    CHECK(run_well("abut", sweep + " --quiet", "sweep_quiet").out.empty());
+    CHECK(of_event(lines_of(run_well("abut", sweep + " --json", "sweep_lines").out), "end").size() == 2);
     const auto bad = run_program("abut", scene + " --json --set bodies.left.yuong=1", "abut_lines");
     CHECK(bad.exit_code == 1);
     const auto lines = lines_of(bad.out);

@@ -56,7 +56,7 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
         std::string text = test::read_text(entry.path());
         if (name.ends_with(".vtu"))
             text.erase(0, text.find("<AppendedData"));  // in front VTK notes which arrays it has seen
-        if (name.ends_with(".vtp")) text.clear();  // gaps of faces that nothing is near depend on the last search
+        if (name.ends_with(".vtp")) text.clear();       // gaps of faces that nothing is near depend on the last search
         contents[name] = text;
     }
     auto summary = nlohmann::json::parse(contents.at("summary.json"));
@@ -138,11 +138,29 @@ TEST_CASE("a damaged checkpoint is refused, and the one before it is taken", "[r
     }
     const auto found = run::CheckpointFolder(checkpoints).last();
     CHECK(found.path == before);
+    run::CheckpointFolder(checkpoints).add(found.checkpoint);  // by a run that has gone on from there
+    CHECK_FALSE(fs::exists(last));
+    CHECK(fs::exists(before));
     REQUIRE(found.refused.size() == 1);
     CHECK_THAT(found.refused[0], Catch::Contains("step_000000000030.h5") && Catch::Contains("damaged"));
     test::write_text(before, "nothing");
     CHECK_THROWS_WITH(run::CheckpointFolder(checkpoints).last(),
                       Catch::Contains("step_000000000028.h5") && Catch::Contains("no checkpoint of Abut"));
+}
+
+TEST_CASE("what was being written when a run was killed goes with the next checkpoint, and at the end",
+          "[run][checkpoint]") {
+    const Folder folder;
+    const fs::path checkpoints = folder.path() / "checkpoints", half = checkpoints / "step_000000000012.h5.partial";
+    run::RunOptions options{.steps = 40, .out = folder.path(), .frames = 0};
+    static_cast<void>(run_block(options, 10));
+    test::write_text(half, "half");
+    options.resume = true;
+    static_cast<void>(run_block(options, 20));
+    CHECK_FALSE(fs::exists(half));
+    test::write_text(half, "half");
+    CHECK(run_block(options).complete);
+    CHECK_FALSE(fs::exists(checkpoints));
 }
 
 TEST_CASE("checkpoints of another format, version or run are refused by name", "[run][checkpoint][errors]") {
@@ -186,7 +204,7 @@ TEST_CASE("HDF5 opens a checkpoint, and finds the positions in it", "[run][check
     CHECK(q == run::read_checkpoint(path).motion.q);
 }
 
-TEST_CASE("checkpoints cost nothing where none is asked for", "[run][checkpoint]") {
+TEST_CASE("no checkpoint is kept where none is asked for", "[run][checkpoint]") {
     const Folder folder;
     static_cast<void>(run_block({.steps = 40, .out = folder.path(), .frames = 0, .checkpoint = 0.0}, 30));
     CHECK_FALSE(fs::exists(folder.path() / "checkpoints"));
