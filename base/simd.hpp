@@ -42,6 +42,9 @@ inline void store_lanes(Lanes lanes, double* values) { std::memcpy(values, &lane
     return std::bit_cast<Lanes>(std::bit_cast<LaneMask>(a) & INT64_C(0x7fffffffffffffff));
 }
 
+/// a where the mask says yes, else 0. GCC takes some selections between constants apart bit by bit; not this.
+[[nodiscard]] inline Lanes where(LaneMask mask, Lanes a) { return std::bit_cast<Lanes>(std::bit_cast<LaneMask>(a) & mask); }
+
 /// Rounded correctly for every number of lanes: Eigen's of eight is not, it is an estimate improved twice. A loop over
 /// std::sqrt would ask for errno.
 [[nodiscard]] inline Lanes square_root(Lanes a) {
@@ -57,17 +60,42 @@ inline void store_lanes(Lanes lanes, double* values) { std::memcpy(values, &lane
 #endif
 }
 
+/// What rounding takes off a - b: a - b is the rounded difference and this, exactly (Knuth).
+[[nodiscard]] inline Lanes difference_error(Lanes a, Lanes b) {
+    const Lanes difference = a - b, of_b = a - difference;
+    return (a - (difference + of_b)) + (of_b - b);
+}
+
+/// What rounding takes off a b, exactly where neither overflows nor underflows: the same bits with fused multiply-add as
+/// without, where the factors are cut in halves whose products are doubles (Dekker).
+[[nodiscard]] inline Lanes product_error(Lanes a, Lanes b) {
+#if defined(__AVX512F__)
+    return _mm512_fmsub_pd(a, b, a * b);
+#elif defined(__FMA__) && defined(__AVX__)
+    return _mm256_fmsub_pd(a, b, a * b);
+#else
+    constexpr double cut = 0x1p27 + 1.0;
+    const Lanes high_a = cut * a - (cut * a - a), high_b = cut * b - (cut * b - b);
+    const Lanes low_a = a - high_a, low_b = b - high_b;
+    return ((high_a * high_b - a * b) + high_a * low_b + low_a * high_b) + low_a * low_b;
+#endif
+}
+
 /// Bit k is set where lane k says yes.
 [[nodiscard]] inline std::uint32_t bits_of(LaneMask mask) {
+#if defined(__AVX512F__)
+    return _mm512_cmplt_epi64_mask(std::bit_cast<__m512i>(mask), _mm512_setzero_si512());
+#elif defined(__AVX__)
+    return static_cast<std::uint32_t>(_mm256_movemask_pd(std::bit_cast<__m256d>(mask)));
+#elif defined(__SSE2__)
+    return static_cast<std::uint32_t>(_mm_movemask_pd(std::bit_cast<__m128d>(mask)));
+#else
     std::uint32_t bits = 0;
     for (int k = 0; k < lane_count; ++k) bits |= mask[k] != 0 ? 1u << k : 0u;
     return bits;
+#endif
 }
 
-[[nodiscard]] inline bool any(LaneMask mask) {
-    std::int64_t together = 0;
-    for (int k = 0; k < lane_count; ++k) together |= mask[k];
-    return together != 0;
-}
+[[nodiscard]] inline bool any(LaneMask mask) { return bits_of(mask) != 0; }
 
 }  // namespace abut

@@ -7,48 +7,28 @@
 #include "abut/base/error.hpp"
 #include "abut/base/simd.hpp"
 #include "abut/geometry/overlap/kernels.hpp"
+#include "abut/geometry/overlap/lane_heights.hpp"
 
 namespace abut::geometry {
 namespace {
 
 // A height is cross(edge, arm) of coordinates of size E. What was rounded before (three times 2^-53 E, where a is shifted),
 // the differences, the products and their difference make it uncertain by less than 80 * 2^-53 E^2 = 9e-15 E^2. The limit
-// is larger because edges that coincide within the tolerance are not for this kernel: their heights are at most
-// tolerance * (face size <= 2 E) * (edge length <= 2.9 E).
+// is larger so that edges which coincide within the tolerance are within it, too, where `Close` sees to them: their heights
+// are at most tolerance * (face size <= 2 E) * (edge length <= 2.9 E).
 constexpr double least_certain_height = 8.0 * coincidence_tolerance;
 
-// Of coordinates: what is multiplied here, three of them at most, is then neither too large nor too small for a double.
-constexpr double least_extent = 1e-90, largest_extent = 1e90;
-
-struct PlaneLanes {
-    Lanes x, y;
-    friend PlaneLanes operator+(PlaneLanes a, PlaneLanes b) { return {a.x + b.x, a.y + b.y}; }
-    friend PlaneLanes operator-(PlaneLanes a, PlaneLanes b) { return {a.x - b.x, a.y - b.y}; }
-    friend PlaneLanes operator*(Lanes s, PlaneLanes a) { return {s * a.x, s * a.y}; }
-};
-
-Lanes cross(PlaneLanes a, PlaneLanes b) { return a.x * b.y - a.y * b.x; }
-Lanes dot(PlaneLanes a, PlaneLanes b) { return a.x * b.x + a.y * b.y; }
-
-constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
-
-struct Triangle {
-    PlaneLanes corner[3], edge[3];
-
-    Triangle(const std::array<TriangleBatch::Row, 3>& x, const std::array<TriangleBatch::Row, 3>& y, int first) {
-        for (int i = 0; i < 3; ++i) corner[i] = {load_lanes(&x[i][first]), load_lanes(&y[i][first])};
-        for (int i = 0; i < 3; ++i) edge[i] = corner[next(i)] - corner[i];
-    }
-};
+// Of coordinates: what is multiplied here, four of them at most, is then neither too large nor too small for a double.
+constexpr double least_extent = 1e-60, largest_extent = 1e70;
 
 struct LanePair {
-    Triangle a, b;
+    TriangleLanes a, b;
     PlaneLanes a_from_b[3];  // corners of a seen from corner 0 of b
     Lanes limit;             // least certain height
     LaneMask is_proper;      // neither triangle is too thin, too small or too large
     LaneMask is_given;       // coordinates are those to decide on
 
-    LaneMask is_proper_face(const Triangle& t) const {
+    LaneMask is_proper_face(const TriangleLanes& t) const {
         const Lanes twice_area = cross(t.edge[0], t.edge[1]);
         return (twice_area > limit) &
                (twice_area > thin_face * larger(dot(t.edge[0], t.edge[0]), dot(t.edge[1], t.edge[1])));
@@ -70,59 +50,11 @@ struct LanePair {
     }
 };
 
-// Of every corner of one triangle over the lines of the edges of the other, times the length of the edge; > 0 inside.
-struct Heights {
-    Lanes of[3][3];  // [edge][corner]
-
-    Heights(const Triangle& line, const Triangle& point) {
-        for (int j = 0; j < 3; ++j)
-            for (int i = 0; i < 3; ++i) of[j][i] = cross(line.edge[j], point.corner[i] - line.corner[j]);
-    }
-    LaneMask beyond(int j, Lanes limit) const { return larger(larger(of[j][0], of[j][1]), of[j][2]) < -limit; }
-    LaneMask separate(Lanes limit) const { return beyond(0, limit) | beyond(1, limit) | beyond(2, limit); }
-    Lanes least() const {
-        Lanes smallest = absolute(of[0][0]);
-        for (int j = 0; j < 3; ++j)
-            for (int i = 0; i < 3; ++i) {
-                const Lanes height = absolute(of[j][i]);
-                smallest = height < smallest ? height : smallest;
-            }
-        return smallest;
-    }
-};
-
-// Where corner i lies on the line of edge j as sure as the coordinates are what they are.
-LaneMask is_on_line(const Triangle& line, int j, const Triangle& point, int i) {
-    const PlaneLanes p = point.corner[i], start = line.corner[j], end = line.corner[next(j)];
-    const LaneMask at_x = p.x == start.x, at_y = p.y == start.y;
-    return (at_x & at_y) | ((p.x == end.x) & (p.y == end.y)) | (at_x & (start.x == end.x)) | (at_y & (start.y == end.y));
-}
-
-struct Certainty {
-    LaneMask is_separated, is_known;
-};
-
-// What heights tell where some are within the limit: those are zero for sure, or unknown.
-Certainty certainty_with_zeros(const Heights& heights, const Triangle& line, const Triangle& point, const LanePair& pair) {
-    Certainty result{LaneMask{}, ~LaneMask{}};
-    for (int j = 0; j < 3; ++j) {
-        LaneMask is_beyond = ~LaneMask{};
-        for (int i = 0; i < 3; ++i) {
-            const LaneMask is_zero = pair.is_given & is_on_line(line, j, point, i);
-            const Lanes height = heights.of[j][i];
-            is_beyond &= is_zero | (height < -pair.limit);
-            result.is_known &= is_zero | (absolute(height) > pair.limit);
-        }
-        result.is_separated |= is_beyond;
-    }
-    return result;
-}
-
 // Whether a step by (e, e^2), with e > 0 as small as one likes, goes to the left of the direction.
 LaneMask leans_left(PlaneLanes direction) { return (direction.y < 0.0) | ((direction.y == 0.0) & (direction.x > 0.0)); }
 
-// Which corners are inside the edges of the other triangle. Zero heights are decided as if b were moved by (e, e^2), or by
-// the opposite: every choice is then that of triangles in general position, whose area differs by less than any number.
+// Which corners are inside the edges of the other triangle. Heights that are zero are decided as if b were moved by
+// (e, e^2): this is a choice of triangles in general position, whose area differs by less than any number.
 struct Sides {
     LaneMask a[3][3], b[3][3];  // corner i of a, of b inside edge j of the other: [j][i]
 
@@ -133,38 +65,76 @@ struct Sides {
                 b[j][i] = b_over_a.of[j][i] > 0.0;
             }
     }
-    Sides(const Heights& a_over_b, const Heights& b_over_a, const LanePair& pair, bool backward)
-        : Sides(a_over_b, b_over_a) {
+    void include_zeros(const Heights& a_over_b, const Heights& b_over_a, const LanePair& pair) {
         for (int j = 0; j < 3; ++j) {
-            const LaneMask turned = backward ? ~LaneMask{} : LaneMask{};
-            const LaneMask a_ties = ~leans_left(pair.b.edge[j]) ^ turned, b_ties = leans_left(pair.a.edge[j]) ^ turned;
+            const LaneMask a_inside = ~leans_left(pair.b.edge[j]), b_inside = leans_left(pair.a.edge[j]);
             for (int i = 0; i < 3; ++i) {
-                a[j][i] |= (a_over_b.of[j][i] == 0.0) & a_ties;
-                b[j][i] |= (b_over_a.of[j][i] == 0.0) & b_ties;
+                a[j][i] |= (a_over_b.of[j][i] == 0.0) & a_inside;
+                b[j][i] |= (b_over_a.of[j][i] == 0.0) & b_inside;
             }
         }
     }
+    LaneMask cross(int i, int j) const { return (a[j][i] ^ a[j][next(i)]) & (b[i][j] ^ b[i][next(j)]); }
     // 1 where edge i of a enters b through edge j, -1 where it leaves, else 0.
     Lanes crossing(int i, int j) const {
-        const LaneMask cross = (a[j][i] ^ a[j][next(i)]) & (b[i][j] ^ b[i][next(j)]);
-        const Lanes one = Lanes{} + 1.0, zero{};
-        return cross ? (a[j][next(i)] ? one : -one) : zero;
+        const Lanes one = Lanes{} + 1.0;
+        const LaneMask crosses = cross(i, j);
+        return where(crosses & a[j][next(i)], one) - where(crosses & ~a[j][next(i)], one);
     }
-    Lanes contains_a(int i) const { return a[0][i] & a[1][i] & a[2][i] ? Lanes{} + 1.0 : Lanes{}; }
-    Lanes contains_b(int j) const { return b[0][j] & b[1][j] & b[2][j] ? Lanes{} + 1.0 : Lanes{}; }
+    Lanes contains_a(int i) const { return where(a[0][i] & a[1][i] & a[2][i], Lanes{} + 1.0); }
+    Lanes contains_b(int j) const { return where(b[0][j] & b[1][j] & b[2][j], Lanes{} + 1.0); }
 };
 
-// Both choices for zeros, each with the weight 1/2: edges that coincide then count half.
-struct MeanSides {
-    Sides forward, backward;
-    Lanes crossing(int i, int j) const { return 0.5 * (forward.crossing(i, j) + backward.crossing(i, j)); }
-    Lanes contains_a(int i) const { return 0.5 * (forward.contains_a(i) + backward.contains_a(i)); }
-    Lanes contains_b(int j) const { return 0.5 * (forward.contains_b(j) + backward.contains_b(j)); }
+// How much of a piece of the boundary of the overlap counts in dA/ds: all that is of b.
+struct WeightsApart {
+    static constexpr bool vary = false;
+    static double at_crossing(int, int) { return 1.0; }
+};
+
+// The same where edges may coincide, the rule of `overlap_area`: both ends of either within the tolerance of the other's
+// line. The piece that they share is of one or of the other, as rounding has it; either counts half. If they run opposite
+// ways the triangles lie side by side, and it does not count.
+struct WeightsOfCoinciding {
+    static constexpr bool vary = true;
+    std::array<Lanes, 3> a, b;  // of each edge
+
+    WeightsOfCoinciding(const LanePair& pair, const Heights& a_over_b, const Heights& b_over_a) {
+        const Lanes distance = coincidence_tolerance * larger(size_of(pair.a), size_of(pair.b));
+        Lanes limit_a[3], limit_b[3];
+        LaneMask halved_a[3]{}, halved_b[3]{}, lost_b[3]{};
+        for (int i = 0; i < 3; ++i) {
+            limit_a[i] = distance * distance * dot(pair.a.edge[i], pair.a.edge[i]);
+            limit_b[i] = distance * distance * dot(pair.b.edge[i], pair.b.edge[i]);
+        }
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                const LaneMask coincide = lies_on(b_over_a.of[i], j, limit_a[i]) | lies_on(a_over_b.of[j], i, limit_b[j]);
+                const LaneMask is_parallel = dot(pair.a.edge[i], pair.b.edge[j]) > 0.0;
+                halved_a[i] |= coincide & is_parallel;
+                halved_b[j] |= coincide & is_parallel;
+                lost_b[j] |= coincide & ~is_parallel;
+            }
+        const Lanes half = Lanes{} + 0.5, one = Lanes{} + 1.0;
+        for (int i = 0; i < 3; ++i) {
+            a[i] = where(halved_a[i], half);
+            b[i] = one - (where(halved_b[i], half) + where(lost_b[i], one));
+        }
+    }
+    Lanes at_crossing(int i, int j) const { return b[j] - a[i]; }
+
+private:
+    static Lanes size_of(const TriangleLanes& t) {
+        return larger(larger(absolute(t.edge[0].x), absolute(t.edge[0].y)),
+                      larger(absolute(t.edge[2].x), absolute(t.edge[2].y)));
+    }
+    static LaneMask lies_on(const Lanes (&heights)[3], int start, Lanes limit) {  // of the square
+        return larger(heights[start] * heights[start], heights[next(start)] * heights[next(start)]) <= limit;
+    }
 };
 
 struct AreaLanes {
     Lanes twice_area;
-    PlaneLanes along_b;  // sum of the pieces of the edges of b inside a
+    PlaneLanes along;  // sum of the pieces of the boundary of the overlap, each times its weight
 };
 
 // The boundary of the overlap goes along edges of a and of b in turn. A piece from p to q of an edge through a point m adds
@@ -172,9 +142,9 @@ struct AreaLanes {
 // through b_j adds -+cross(m - b_j, X), less where a enters b; a corner of a inside b adds cross(m_before - m, a_i), of b
 // inside a cross(b_j-1, b_j). X is one point for both edges: an error along nearly parallel edges cancels. The origin is
 // b_0, and m is the point of the line that is nearest to it: a larger a brings no larger numbers.
-template <class AllSides>
-AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const AllSides& sides) {
-    const Triangle &a = pair.a, &b = pair.b;
+template <class Weights>
+AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const Sides& sides, const Weights& weights) {
+    const TriangleLanes &a = pair.a, &b = pair.b;
     const PlaneLanes b_corner[3] = {PlaneLanes{}, b.edge[0], PlaneLanes{} - b.edge[2]};
     PlaneLanes nearest[3];
     for (int i = 0; i < 3; ++i) {
@@ -183,16 +153,21 @@ AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const AllSides&
     }
     AreaLanes sum{sides.contains_b(2) * cross(b_corner[1], b_corner[2]), {}};
     for (int i = 0; i < 3; ++i) {
-        const PlaneLanes between = nearest[i == 0 ? 2 : i - 1] - nearest[i];
+        const PlaneLanes between = nearest[previous(i)] - nearest[i];
         sum.twice_area += sides.contains_a(i) * cross(between, pair.a_from_b[i]);
     }
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             const Lanes weight = sides.crossing(i, j), start = b_over_a.of[i][j], end = b_over_a.of[i][next(j)];
-            const Lanes fall = weight != 0.0 ? start - end : Lanes{} + 1.0;
+            const Lanes fall = sides.cross(i, j) ? start - end : Lanes{} + 1.0;
             const PlaneLanes crossing = b_corner[j] + (start / fall) * b.edge[j];
             sum.twice_area -= weight * cross(nearest[i] - b_corner[j], crossing);
-            sum.along_b = sum.along_b + weight * crossing;
+            sum.along = sum.along + (weight * weights.at_crossing(i, j)) * crossing;
+        }
+    if constexpr (Weights::vary)  // where they are equal the ends of two edges at a corner cancel
+        for (int i = 0; i < 3; ++i) {
+            sum.along = sum.along + (sides.contains_a(i) * (weights.a[previous(i)] - weights.a[i])) * pair.a_from_b[i];
+            sum.along = sum.along + (sides.contains_b(i) * (weights.b[previous(i)] - weights.b[i])) * b_corner[i];
         }
     return sum;
 }
@@ -200,9 +175,30 @@ AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const AllSides&
 void store(const AreaLanes& sum, LaneMask is_separated, AreaBatch& result, int first) {
     const Lanes zero{}, smallest = Lanes{} + std::numeric_limits<double>::min();
     store_lanes(is_separated ? zero : larger(0.5 * sum.twice_area, smallest), &result.area[first]);
-    store_lanes(is_separated ? zero : sum.along_b.y, &result.area_gradient[0][first]);
-    store_lanes(is_separated ? zero : -sum.along_b.x, &result.area_gradient[1][first]);
+    store_lanes(is_separated ? zero : sum.along.y, &result.area_gradient[0][first]);
+    store_lanes(is_separated ? zero : -sum.along.x, &result.area_gradient[1][first]);
 }
+
+// A register where some heights are within the limit: their signs are found with more care, and coinciding edges count as
+// `WeightsOfCoinciding` has it. The columns without such a height give what they give elsewhere, to the last bit.
+struct Close {
+    Heights a_over_b, b_over_a;
+    LaneMask is_separated, is_known;
+
+    template <class HeightOf>
+    Close(const LanePair& pair, const Heights& of_a, const Heights& of_b, HeightOf height_of)
+        : a_over_b(of_a), b_over_a(of_b) {
+        const Certainty certain_of_a = sharpen(pair.b, pair.a, pair.limit, pair.is_given, height_of, a_over_b),
+                        certain_of_b = sharpen(pair.a, pair.b, pair.limit, pair.is_given, height_of, b_over_a);
+        is_separated = certain_of_a.is_separated | certain_of_b.is_separated;
+        is_known = is_separated | (certain_of_a.is_known & certain_of_b.is_known);
+    }
+    [[nodiscard]] AreaLanes area(const LanePair& pair) const {
+        Sides sides(a_over_b, b_over_a);
+        sides.include_zeros(a_over_b, b_over_a, pair);
+        return area_of(pair, b_over_a, sides, WeightsOfCoinciding(pair, a_over_b, b_over_a));
+    }
+};
 
 // The columns from `first` on that fit in one register.
 void share(const TriangleBatch& batch, int first, AreaBatch& result) {
@@ -211,14 +207,14 @@ void share(const TriangleBatch& batch, int first, AreaBatch& result) {
     LaneMask is_separated = a_over_b.separate(pair.limit) | b_over_a.separate(pair.limit);
     LaneMask is_known = is_separated | ((a_over_b.least() > pair.limit) & (b_over_a.least() > pair.limit));
     if (!any(~is_known)) {
-        store(area_of(pair, b_over_a, Sides(a_over_b, b_over_a)), is_separated, result, first);
+        store(area_of(pair, b_over_a, Sides(a_over_b, b_over_a), WeightsApart{}), is_separated, result, first);
     } else {
-        const Certainty of_a = certainty_with_zeros(a_over_b, pair.b, pair.a, pair),
-                        of_b = certainty_with_zeros(b_over_a, pair.a, pair.b, pair);
-        is_separated = of_a.is_separated | of_b.is_separated;
-        is_known = is_separated | (of_a.is_known & of_b.is_known);
-        const MeanSides sides{{a_over_b, b_over_a, pair, false}, {a_over_b, b_over_a, pair, true}};
-        store(area_of(pair, b_over_a, sides), is_separated, result, first);
+        Close close(pair, a_over_b, b_over_a, HeightInDoubles{});
+        if (any(pair.is_given & pair.is_proper & ~close.is_known))
+            close = Close(pair, a_over_b, b_over_a, HeightInTwiceTheDigits{});
+        is_separated = close.is_separated;
+        is_known = close.is_known;
+        store(any(~is_separated) ? close.area(pair) : AreaLanes{}, is_separated, result, first);
     }
     result.undecided |= bits_of(~(is_known & pair.is_proper)) << first;
 }

@@ -64,11 +64,17 @@ std::optional<int> sign_of_difference(double a, double b, double c, double d) {
     return (difference > 0.0) - (difference < 0.0);
 }
 
+double sum_of_components(const PlaneVector<3>& v) { return std::abs(v.x()) + std::abs(v.y()); }
+
 // The side of the line from a to b on which c + shift lies, as `exact_side`: at once where doubles can tell, and with little
-// more work where the differences of the coordinates are doubles, as on meshes that match.
+// more work where the differences of the coordinates are doubles, as on meshes that match. Seen from the nearer end: where
+// corners coincide except for rounding their difference is a double, and doubles tell mostly.
 int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>& c, const PlaneVector<3>& shift,
          Arithmetic& used) {
-    const PlaneVector<3> along = b - a, arm_before = c - a, arm = arm_before + shift;
+    const PlaneVector<3> along = b - a, from_a = c - a, from_b = c - b;
+    const bool at_b = sum_of_components(from_b + shift) < sum_of_components(from_a + shift);
+    const PlaneVector<3>&end = at_b ? b : a, &arm_before = at_b ? from_b : from_a;
+    const PlaneVector<3> arm = arm_before + shift;
     const double left = along.x() * arm.y(), right = along.y() * arm.x();
     const double error =
         4 * epsilon *
@@ -77,7 +83,7 @@ int side(const PlaneVector<3>& a, const PlaneVector<3>& b, const PlaneVector<3>&
     if (std::abs(left - right) > error) return left > right ? 1 : -1;
     bool is_rounded = false;
     for (int i = 0; i < 2; ++i)
-        is_rounded = is_rounded || sum_error(b[i], -a[i]) != 0.0 || sum_error(c[i], -a[i]) != 0.0 ||
+        is_rounded = is_rounded || sum_error(b[i], -a[i]) != 0.0 || sum_error(c[i], -end[i]) != 0.0 ||
                      sum_error(arm_before[i], shift[i]) != 0.0;
     if (!is_rounded)
         if (const auto sign = sign_of_difference(along.x(), arm.y(), along.y(), arm.x())) return *sign;

@@ -55,7 +55,7 @@ struct TrianglePair {
 
 /// What it took to decide on pairs; the three add up to their number.
 struct DecisionCounts {
-    std::int64_t by_doubles = 0;           ///< many at once: no corner near a line, or evidently on it
+    std::int64_t by_doubles = 0;           ///< many at once: signs are sure with doubles, or with twice their digits
     std::int64_t by_scalar_path = 0;       ///< one by one, doubles still enough
     std::int64_t by_exact_arithmetic = 0;  ///< one by one, numbers of any length asked
 

@@ -1,40 +1,12 @@
-#include <array>
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <limits>
 
-#include "polygons.hpp"
+#include "triangle_pairs.hpp"
 
 using namespace abut;
 using namespace abut::test;
-using geometry::DecisionCounts;
-using geometry::TrianglePair;
 
 namespace {
-
-using Corners = std::array<Point, 3>;
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
-struct Batch {
-    std::vector<OverlapArea<3>> areas;
-    DecisionCounts counts;
-};
-
-Batch many(const std::vector<TrianglePair>& pairs) {
-    Batch batch{std::vector<OverlapArea<3>>(pairs.size()), {}};
-    batch.counts = geometry::overlap_areas(pairs, batch.areas);
-    return batch;
-}
-
-OverlapArea<3> alone(const TrianglePair& pair, AreaMethod method = AreaMethod::fast) {
-    return geometry::overlap_area<3>(pair.face_1, pair.face_2, pair.shift, method);
-}
-
-double twice_area(const Corners& c) {
-    const Point a = c[1] - c[0], b = c[2] - c[0];
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 Corners counter_clockwise(Corners corners) {
     if (twice_area(corners) < 0.0) std::swap(corners[1], corners[2]);
@@ -56,28 +28,6 @@ Corners grid_triangle(std::mt19937& random, int n, double h) {
     corners = counter_clockwise(corners);
     for (Point& corner : corners) corner *= h;
     return corners;
-}
-
-double extent_of(const TrianglePair& pair) {
-    double size = pair.shift.cwiseAbs().maxCoeff();
-    for (const Corners& face : {pair.face_1, pair.face_2})
-        for (const Point& corner : face) size = std::max(size, (corner - pair.face_1[0]).cwiseAbs().maxCoeff());
-    return size;
-}
-
-// Decision and area are those of exact arithmetic; areas below the smallest normal number are rounded up to that.
-void check_against_exact(const std::vector<TrianglePair>& pairs) {
-    const Batch batch = many(pairs);
-    CHECK(batch.counts.total() == static_cast<std::int64_t>(pairs.size()));
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        const OverlapArea<3> exact = alone(pairs[k], AreaMethod::exact), &got = batch.areas[k];
-        const double size = extent_of(pairs[k]), limit = 8 * epsilon * size * size + std::numeric_limits<double>::min();
-        const bool is_right = (got.area > 0.0) == (exact.area > 0.0) && std::abs(got.area - exact.area) <= limit;
-        if (is_right) continue;
-        CAPTURE(k, got.area, exact.area, size);
-        CHECK((got.area > 0.0) == (exact.area > 0.0));
-        CHECK(std::abs(got.area - exact.area) <= limit);
-    }
 }
 
 bool same_bits(const OverlapArea<3>& a, const OverlapArea<3>& b) { return std::memcmp(&a, &b, sizeof a) == 0; }

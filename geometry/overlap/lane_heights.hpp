@@ -1,0 +1,159 @@
+#pragma once
+// Private to the overlap sources; not installed.
+#include <array>
+#include <limits>
+
+#include "abut/base/simd.hpp"
+#include "abut/geometry/overlap/batch.hpp"
+
+namespace abut::geometry {
+
+/// Vectors in the plane, one per lane.
+struct PlaneLanes {
+    Lanes x, y;
+    friend PlaneLanes operator+(PlaneLanes a, PlaneLanes b) { return {a.x + b.x, a.y + b.y}; }
+    friend PlaneLanes operator-(PlaneLanes a, PlaneLanes b) { return {a.x - b.x, a.y - b.y}; }
+    friend PlaneLanes operator*(Lanes s, PlaneLanes a) { return {s * a.x, s * a.y}; }
+};
+
+inline Lanes cross(PlaneLanes a, PlaneLanes b) { return a.x * b.y - a.y * b.x; }
+inline PlaneLanes choose(LaneMask mask, PlaneLanes a, PlaneLanes b) { return {mask ? a.x : b.x, mask ? a.y : b.y}; }
+inline Lanes dot(PlaneLanes a, PlaneLanes b) { return a.x * b.x + a.y * b.y; }
+
+constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
+constexpr int previous(int i) { return i == 0 ? 2 : i - 1; }
+
+/// Triangles, one per lane; edge i goes from corner i to the next.
+struct TriangleLanes {
+    std::array<PlaneLanes, 3> corner, edge;
+
+    TriangleLanes(const std::array<TriangleBatch::Row, 3>& x, const std::array<TriangleBatch::Row, 3>& y, int first) {
+        for (int i = 0; i < 3; ++i) corner[i] = {load_lanes(&x[i][first]), load_lanes(&y[i][first])};
+        for (int i = 0; i < 3; ++i) edge[i] = corner[next(i)] - corner[i];
+    }
+};
+
+/// A height over the line of an edge, times the length of the edge [m^2]. Where its sign is not sure, it means nothing.
+struct SignedHeight {
+    Lanes value;
+    LaneMask is_sure;
+};
+
+/// An edge and a point, seen from the end that is nearer to the point. The difference of two corners that coincide except
+/// for rounding is exact, and its products with the edge are as good as those of given numbers: doubles tell on which side
+/// of the line the point is.
+struct EdgeAndPoint {
+    PlaneLanes start, end, nearer, point;
+    PlaneLanes edge, arm;  ///< end - start, point - nearer: rounded
+};
+
+/// Where the point lies on the line of an edge as sure as the coordinates are what they are.
+inline LaneMask is_on_line(PlaneLanes edge, PlaneLanes arm) {
+    const LaneMask at_x = arm.x == 0.0, at_y = arm.y == 0.0;
+    return (at_x & (at_y | (edge.x == 0.0))) | (at_y & (edge.y == 0.0));
+}
+
+/// The height as doubles have it. Edge and arm are rounded once, so are the products and their difference: 2^-51 of the
+/// products at most, and half of what is allowed here.
+struct HeightInDoubles {
+    SignedHeight operator()(const EdgeAndPoint& at) const {
+        const Lanes left = at.edge.x * at.arm.y, right = at.edge.y * at.arm.x, height = left - right;
+        const Lanes error = 4 * std::numeric_limits<double>::epsilon() * (absolute(left) + absolute(right)) +
+                            std::numeric_limits<double>::min();
+        return {height, absolute(height) > error};
+    }
+};
+
+/// The same with twice the digits where doubles are not sure: left and right are then equal except for the last digits, and
+/// their difference is exact. What rounding took off the products and off the differences of the coordinates is added. Of
+/// six terms of 2^-53 of the products at most each is rounded a few times: together by less than 2^-102 of them, and half of
+/// what is allowed here.
+struct HeightInTwiceTheDigits {
+    SignedHeight operator()(const EdgeAndPoint& at) const {
+        const SignedHeight in_doubles = HeightInDoubles{}(at);
+        const PlaneLanes off_edge = difference_error(at.end, at.start), off_arm = difference_error(at.point, at.nearer);
+        const Lanes left = at.edge.x * at.arm.y, right = at.edge.y * at.arm.x;
+        const Lanes off_products = product_error(at.edge.x, at.arm.y) - product_error(at.edge.y, at.arm.x);
+        const Lanes height = (left - right) + (off_products + (cross(at.edge, off_arm) + cross(off_edge, at.arm)));
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        const Lanes error = 8 * epsilon * epsilon * (absolute(left) + absolute(right)) + std::numeric_limits<double>::min();
+        return {in_doubles.is_sure ? in_doubles.value : height, in_doubles.is_sure | (absolute(height) > error)};
+    }
+    static PlaneLanes difference_error(PlaneLanes a, PlaneLanes b) {
+        return {abut::difference_error(a.x, b.x), abut::difference_error(a.y, b.y)};
+    }
+};
+
+/// From every corner of one triangle to every corner of another, and how far apart they are in the sum of components.
+struct CornerArms {
+    PlaneLanes arm[3][3];  // [corner of line][corner of point]
+    Lanes length[3][3];
+
+    CornerArms(const TriangleLanes& line, const TriangleLanes& point) {
+        for (int k = 0; k < 3; ++k)
+            for (int i = 0; i < 3; ++i) {
+                arm[k][i] = point.corner[i] - line.corner[k];
+                length[k][i] = absolute(arm[k][i].x) + absolute(arm[k][i].y);
+            }
+    }
+    /// Edge j and corner i.
+    [[nodiscard]] EdgeAndPoint at(const TriangleLanes& line, int j, const TriangleLanes& point, int i) const {
+        const int k = next(j);
+        const LaneMask at_end = length[k][i] < length[j][i];
+        return {line.corner[j],  line.corner[k], choose(at_end, line.corner[k], line.corner[j]),
+                point.corner[i], line.edge[j],   choose(at_end, arm[k][i], arm[j][i])};
+    }
+};
+
+/// Of every corner of one triangle over the lines of the edges of the other, times the length of the edge; > 0 inside.
+struct Heights {
+    Lanes of[3][3];  // [edge][corner]
+
+    Heights(const TriangleLanes& line, const TriangleLanes& point) {
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) of[j][i] = cross(line.edge[j], point.corner[i] - line.corner[j]);
+    }
+    [[nodiscard]] LaneMask beyond(int j, Lanes limit) const { return larger(larger(of[j][0], of[j][1]), of[j][2]) < -limit; }
+    [[nodiscard]] LaneMask separate(Lanes limit) const { return beyond(0, limit) | beyond(1, limit) | beyond(2, limit); }
+    [[nodiscard]] Lanes least() const {
+        Lanes smallest = absolute(of[0][0]);
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) {
+                const Lanes height = absolute(of[j][i]);
+                smallest = height < smallest ? height : smallest;
+            }
+        return smallest;
+    }
+};
+
+/// What heights tell of two triangles.
+struct Certainty {
+    LaneMask is_separated;  ///< a line has all of the other triangle on it or beyond
+    LaneMask is_known;      ///< all signs are those of the given coordinates
+};
+
+/// Gives the heights within `limit` the signs that the coordinates have, as far as `height_of` tells. `is_given`: the
+/// coordinates are those to decide on.
+template <class HeightOf>
+Certainty sharpen(const TriangleLanes& line, const TriangleLanes& point, Lanes limit, LaneMask is_given, HeightOf height_of,
+                  Heights& heights) {
+    const CornerArms arms(line, point);
+    const Lanes zero{};
+    Certainty result{LaneMask{}, ~LaneMask{}};
+    for (int j = 0; j < 3; ++j) {
+        LaneMask is_beyond = ~LaneMask{};
+        for (int i = 0; i < 3; ++i) {
+            const EdgeAndPoint at = arms.at(line, j, point, i);
+            const LaneMask is_clear = absolute(heights.of[j][i]) > limit, is_zero = is_on_line(at.edge, at.arm);
+            const SignedHeight height = height_of(at);
+            const LaneMask is_sure = is_clear | (is_given & (is_zero | height.is_sure));
+            heights.of[j][i] = is_clear ? heights.of[j][i] : (is_zero ? zero : height.value);
+            is_beyond &= is_sure & (heights.of[j][i] <= 0.0);
+            result.is_known &= is_sure;
+        }
+        result.is_separated |= is_beyond;
+    }
+    return result;
+}
+
+}  // namespace abut::geometry
