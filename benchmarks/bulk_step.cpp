@@ -2,13 +2,15 @@
 //
 // Mesh: Gmsh's cylinder (tetrahedra, numbered in layers one cell thick), free, one material, no contact. Step: position
 // update, force at the midpoint, momentum update of MEMM. Rival: y = K x alone, K in 3 x 3 blocks in compressed rows;
-// Eigen's scalar RowMajor matrix beside it. STREAM's triad in the same rounds says what the memory gives. One thread,
+// Eigen's scalar RowMajor matrix beside it; STREAM's triad in the same rounds says what the memory gives. One thread,
 // processor time. Expected: the answers agree to 1e-12; the step is several times faster than the product, below
-// 150 ns per cell.
+// 90 ns per cell. The product of the form for cells of any shape (CellForm::general) is timed beside that of simplices.
+// Other shapes, `--shape`: steps and products alone, hexahedra and squares of structured boxes, triangles of Gmsh's disc.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -26,6 +28,7 @@ struct Choices {
     std::vector<double> sizes{0.05};
     int repetitions = 15;
     int threads = 1;
+    std::string shape = "tetrahedra";
     std::string json;
 };
 
@@ -53,43 +56,54 @@ double product_bytes(const benchmark::AssembledMatrix& matrix) {
     return static_cast<double>(matrix.bytes() + matrix.n_rows() * 2 * 24) / static_cast<double>(matrix.n_rows());
 }
 
-/// Bytes a cell that a step touches, from the sizes of the arrays of solid/ccg/sweeps.hpp, ccg_arrays.hpp and memm.hpp.
+/// Bytes a cell that a step touches, from the sizes of the arrays of solid/ccg/sweeps.hpp, arrays.hpp, simplices.hpp and
+/// memm.hpp, for a body of simplices.
 struct Traffic {
     double touched;  ///< every array counted once in each sweep that reads or writes it
     double memory;   ///< what cannot stay in cache from one sweep to the next: constant data and the state, once each way
 };
 
+/// Weights of R in rows that the sweeps use: of cells with several boundary faces.
+std::size_t n_row_weights(const mesh::Mesh<3>& mesh, const solid::BoundaryReconstruction<3>& boundary) {
+    std::vector<int> n_boundary(mesh.cell_measure.size(), 0);
+    for (const std::int32_t f : mesh.boundary_faces) ++n_boundary[mesh.face_cells[f][0]];
+    std::size_t n = 0;
+    for (std::size_t b = 0; b < mesh.boundary_faces.size(); ++b)
+        if (n_boundary[mesh.face_cells[mesh.boundary_faces[b]][0]] > 1)
+            n += static_cast<std::size_t>(boundary.offsets[b + 1] - boundary.offsets[b]);
+    return n;
+}
+
 Traffic step_traffic(const mesh::Mesh<3>& mesh, const solid::BoundaryReconstruction<3>& boundary) {
     const auto per_cell = [&](std::size_t n) { return static_cast<double>(n) / mesh.n_cells(); };
     constexpr double vector = 24, lane = 32, tensor = 3 * lane, id = 4, number = 8;
     const double faces = per_cell(static_cast<std::size_t>(mesh.n_faces()));
-    const double slots = per_cell(mesh.cell_faces.values.size()), on_boundary = per_cell(mesh.boundary_faces.size());
+    const double on_boundary = per_cell(mesh.boundary_faces.size());
     // Constant
     const double sides = faces * 2 * id, stencils = faces * 4 * (id + number), face_geometry = faces * 4 * number;
-    const double slot_table = id + slots * 3 * id, arms = slots * vector, cell_geometry = 3 * number;
+    const double simplex = 8 * id, cell_geometry = 3 * number;
     const double transposed = id + (faces - on_boundary) * 4 * (id + number);
-    const double boundary_rows = per_cell(boundary.weights.size()) * (id + tensor);  // R, and R^T once more
+    const double boundary_rows = per_cell(n_row_weights(mesh, boundary)) * (id + tensor);  // R, and R^T once more
     // Work
-    const double displacement = lane, of_faces = faces * lane, traces = slots * lane, corrections = on_boundary * lane;
+    const double displacement = lane, of_faces = faces * lane, corrections = on_boundary * lane;
 
-    const double load = vector + displacement;
-    const double reconstruction = sides + stencils + displacement + boundary_rows + corrections + of_faces;
-    const double gradients = slot_table + of_faces + displacement + face_geometry + arms + cell_geometry + tensor + traces;
-    const double stresses = slot_table + face_geometry + traces + arms + cell_geometry + tensor + tensor + lane;
-    const double face_forces = sides + tensor + face_geometry + corrections + of_faces;
+    const double load = 2 * vector + displacement;
+    const double reconstruction = sides + stencils + displacement + boundary_rows + of_faces;
+    const double stresses = simplex + cell_geometry + of_faces + displacement + face_geometry + corrections + tensor + lane;
+    const double jumps = simplex + face_geometry + lane + lane;
+    const double face_forces = sides + tensor + lane + face_geometry + corrections + of_faces;
     const double cell_gradients = transposed + of_faces + lane + boundary_rows + vector;
-    const double state = 4 * vector + 3 * vector     // q^{n+1} from q, p, 1/m; midpoint from both q
+    const double state = 4 * vector                  // q^{n+1} from q, p, 1/m
                          + 2 * vector + 3 * vector;  // sign of the force; momentum from p and F
-    const double constant =
-        sides + stencils + face_geometry + slot_table + arms + cell_geometry + transposed + 2 * boundary_rows;
-    return {load + reconstruction + gradients + stresses + face_forces + cell_gradients + state,
-            constant + 2 * vector + state};
+    const double constant = sides + stencils + face_geometry + simplex + cell_geometry + transposed + 2 * boundary_rows;
+    return {load + reconstruction + stresses + jumps + face_forces + cell_gradients + state,
+            constant + 2 * vector + vector + state};
 }
 
 struct Result {
     std::int32_t cells;
     double blocks_a_row, matrix_bytes, difference;
-    benchmark::Samples step, stiffness, product, eigen, triad;
+    benchmark::Samples step, stiffness, general, product, eigen, triad;
     double product_bytes, triad_bytes;
     Traffic traffic;
 };
@@ -114,13 +128,15 @@ Result measure(double size, const Choices& choices) {
     const double difference =
         std::max(relative_difference(ours, theirs), relative_difference(ours, {y_eigen.data(), x.size()}));
     benchmark::require_small("stiffness product, matrix-free against assembled", difference, 1e-12);
+    solid::Ccg<3> general(mesh, options.materials, {}, {}, solid::CellForm::general);
 
     dynamics::Memm<solid::Solid<3>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
     benchmark::Triad triad;
     auto samples = benchmark::time_in_turn(
         choices.repetitions, benchmark::clock_for(choices.threads),
-        {[&] { integrator.step(); }, [&] { solid.stiffness_product(x, ours); }, [&] { matrix.multiply(x_rows, y_rows); },
-         [&] { y_eigen.noalias() = scalar * x_eigen; }, [&] { triad.run(); }});
+        {[&] { integrator.step(); }, [&] { solid.stiffness_product(x, ours); },
+         [&] { general.gradient(x_rows, {}, {}, as_vectors<3>(std::span<double>(ours))); },
+         [&] { matrix.multiply(x_rows, y_rows); }, [&] { y_eigen.noalias() = scalar * x_eigen; }, [&] { triad.run(); }});
     const double rows = mesh.n_cells();
     return {mesh.n_cells(),
             static_cast<double>(matrix.n_blocks()) / rows,
@@ -131,6 +147,7 @@ Result measure(double size, const Choices& choices) {
             std::move(samples[2]),
             std::move(samples[3]),
             std::move(samples[4]),
+            std::move(samples[5]),
             product_bytes(matrix),
             triad.bytes(),
             step_traffic(mesh, solid.ccg().boundary())};
@@ -152,6 +169,7 @@ nlohmann::json to_json(const Result& r) {
         {"ns_a_cell",
          {{"step", nanoseconds_a_cell(r.step)},
           {"stiffness_product", nanoseconds_a_cell(r.stiffness)},
+          {"general_form", nanoseconds_a_cell(r.general)},
           {"block_product", nanoseconds_a_cell(r.product)},
           {"eigen_product", nanoseconds_a_cell(r.eigen)}}},
         {"product_over_step",
@@ -169,7 +187,7 @@ void print(const nlohmann::json& r) {
     const auto number = [&](const char* pointer) { return r.at(nlohmann::json::json_pointer(pointer)).get<double>(); };
     fmt::print("{} cells, {:.1f} blocks a row, matrix {:.0f} MB, largest relative difference of the answers {:.1e}\n",
                r.at("cells").get<int>(), number("/blocks_a_row"), 1e-6 * number("/matrix_bytes"), number("/difference"));
-    for (const char* name : {"step", "stiffness_product", "block_product", "eigen_product"})
+    for (const char* name : {"step", "stiffness_product", "general_form", "block_product", "eigen_product"})
         fmt::print("  {:<18} {:8.1f} ns per cell (median {:.1f})\n", name,
                    number(fmt::format("/ns_a_cell/{}/least", name).c_str()),
                    number(fmt::format("/ns_a_cell/{}/median", name).c_str()));
@@ -182,6 +200,49 @@ void print(const nlohmann::json& r) {
                number("/bytes_a_cell/block_product"), number("/GB_a_second/block_product"), number("/GB_a_second/triad"));
 }
 
+/// Steps and products alone, checked against the form for cells of any shape.
+template <int Dim>
+nlohmann::json measure_shape(const mesh::Mesh<Dim>& mesh, double size, const Choices& choices) {
+    solid::SolidOptions<Dim> options;
+    options.materials = {material};
+    solid::Solid<Dim> solid(mesh, options);
+    solid::Ccg<Dim> general(mesh, options.materials, {}, {}, solid::CellForm::general);
+    const std::vector<double> x = random_field(solid.size());
+    std::vector<double> ours(x.size()), theirs(x.size());
+    const auto multiply = [&] { solid.stiffness_product(x, ours); };
+    const auto multiply_general = [&] {
+        general.gradient(as_vectors<Dim>(std::span<const double>(x)), {}, {}, as_vectors<Dim>(std::span<double>(theirs)));
+    };
+    multiply();
+    multiply_general();
+    const double difference = relative_difference(ours, theirs);
+    benchmark::require_small("stiffness product, against the form for any cells", difference, 1e-12);
+    dynamics::Memm<solid::Solid<Dim>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
+    const auto samples = benchmark::time_in_turn(choices.repetitions, benchmark::clock_for(choices.threads),
+                                                 {[&] { integrator.step(); }, multiply, multiply_general});
+    nlohmann::json result{{"cells", mesh.n_cells()}, {"shape", choices.shape}, {"difference", difference}};
+    fmt::print("{} {}, largest relative difference of the answers {:.1e}\n", mesh.n_cells(), choices.shape, difference);
+    const std::array names{"step", "stiffness_product", "general_form"};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double least = 1e9 * samples[i].least() / mesh.n_cells(), median = 1e9 * samples[i].median() / mesh.n_cells();
+        result["ns_a_cell"][names[i]] = {{"least", least}, {"median", median}};
+        fmt::print("  {:<18} {:8.1f} ns per cell (median {:.1f})\n", names[i], least, median);
+    }
+    return result;
+}
+
+nlohmann::json measure_other(double size, const Choices& choices) {
+    const int n = static_cast<int>(std::lround(1.0 / size));
+    if (choices.shape == "hexahedra")
+        return measure_shape(
+            mesh::structured_box<3>({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}, {n, n, n}, mesh::CellShape::hexahedron), size,
+            choices);
+    if (choices.shape == "squares")
+        return measure_shape(mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {n, n}, mesh::CellShape::quadrangle), size,
+                             choices);
+    return measure_shape(mesh::disc({.radius = 1.0, .size = size}), size, choices);
+}
+
 int run(int argc, char** argv) {
     Choices choices;
     CLI::App app{"Matrix-free bulk step against the product with the assembled matrix."};
@@ -191,6 +252,8 @@ int run(int argc, char** argv) {
     app.add_option("--repetitions", choices.repetitions, "rounds; the least and the median are shown")
         ->check(CLI::PositiveNumber);
     app.add_option("--threads", choices.threads, "of the matrix-free step; the product has one")->check(CLI::PositiveNumber);
+    app.add_option("--shape", choices.shape, "tetrahedra: with all rivals; others: steps and products alone")
+        ->check(CLI::IsMember({"tetrahedra", "hexahedra", "triangles", "squares"}));
     app.add_option("--json", choices.json, "file for the result");
     CLI11_PARSE(app, argc, argv);
 
@@ -198,6 +261,10 @@ int run(int argc, char** argv) {
                                               static_cast<std::size_t>(choices.threads));
     nlohmann::json result = benchmark::circumstances(argc, argv);
     for (const double size : choices.sizes) {
+        if (choices.shape != "tetrahedra") {
+            result["results"].push_back(measure_other(size, choices));
+            continue;
+        }
         result["results"].push_back(to_json(measure(size, choices)));
         print(result["results"].back());
     }

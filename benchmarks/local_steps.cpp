@@ -158,7 +158,7 @@ int run_benchmark(int argc, char** argv) {
         ->check(CLI::Range(1.0, 1000.0));
     app.add_option("--refine-over", cylinders.refine_over, "part of the radius over which they grow from there")
         ->check(CLI::Range(0.01, 2.0));
-    app.add_option("--time", choices.time, "to run [s]; 0: as long as rebounding_cylinders does")
+    app.add_option("--time", choices.time, "to run [s]; 0: as long as slipping_cylinders does")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--cfl", choices.cfl, "step over the stable step")->check(CLI::Range(0.01, 1.0));
     app.add_option("--contact-levels", choices.contact_levels, "levels that cells in contact are finer than all others")

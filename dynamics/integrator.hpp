@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/dynamics/ranks.hpp"
 #include "abut/dynamics/system.hpp"
 
 namespace abut::dynamics {
@@ -128,6 +129,8 @@ public:
         if constexpr (requires(Scheme & s) { s.momenta_changed(); }) scheme().momenta_changed();
     }
 
+    /// Those of the system; null where it runs on one rank.
+    [[nodiscard]] const Ranks* ranks() const { return ranks_of(system_); }
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] double dt() const { return dt_; }
     [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -170,7 +173,7 @@ protected:
         detail::check_step(dt_);
         if constexpr (ConstrainedSystem<S> && !Scheme::takes_constraints)
             if (system_.has_constraints()) detail::refuse_constraints();
-        detail::check_start(system_.size(), q_, p);
+        agreed(ranks(), [&] { detail::check_start(system_.size(), q_, p); });
         for (auto* array : {&p_before_, &p_after_, &q_next_, &force_, &scratch_}) array->resize(q_.size());
         scheme().start(p);
     }
@@ -189,6 +192,8 @@ protected:
     }
     /// a . M^-1 b
     [[nodiscard]] double mass_product(std::span<const double> a, std::span<const double> b) const {
+        if constexpr (requires { system_.ranks(); })
+            if (const Ranks* ranks = system_.ranks()) return mass_product_over(*ranks, a, system_.inverse_mass(), b);
         return dynamics::mass_product(a, system_.inverse_mass(), b);
     }
 

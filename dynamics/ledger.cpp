@@ -35,6 +35,13 @@ void for_each_value(Entry& entry, const Visit& visit) {
     visit_vector(entry.pseudo_angular_momentum);
 }
 
+/// Sum of term(i) over all points of a run.
+template <int Dim, class Value, class Term>
+Value sum_of_points(const RunView<Dim>& run, const Value& zero, const Term& term) {
+    const auto n = static_cast<std::ptrdiff_t>(run.q.size()) / Dim;
+    return run.ranks ? sum_over(*run.ranks, {}, n, zero, term) : ordered_sum(n, zero, term);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -72,11 +79,11 @@ template <int Dim>
 AngularMomentum<Dim> pseudo_angular_momentum(const RunView<Dim>& run, double dt, std::span<const Vector<Dim>> rest_position,
                                              std::span<const double> mass) {
     const auto u = as_vectors<Dim>(run.q), before = as_vectors<Dim>(run.p_before), after = as_vectors<Dim>(run.p_after);
-    return ordered_sum(static_cast<std::ptrdiff_t>(u.size()), AngularMomentum<Dim>(AngularMomentum<Dim>::Zero()),
-                       [&](std::ptrdiff_t i) -> AngularMomentum<Dim> {
-                           const Vector<Dim> arm = rest_position[i] + u[i];
-                           return moment<Dim>(arm, run.momentum(i)) - 0.25 * dt / mass[i] * moment<Dim>(before[i], after[i]);
-                       });
+    return sum_of_points(
+        run, AngularMomentum<Dim>(AngularMomentum<Dim>::Zero()), [&](std::ptrdiff_t i) -> AngularMomentum<Dim> {
+            const Vector<Dim> arm = rest_position[i] + u[i];
+            return moment<Dim>(arm, run.momentum(i)) - 0.25 * dt / mass[i] * moment<Dim>(before[i], after[i]);
+        });
 }
 
 template <int Dim>
@@ -85,16 +92,16 @@ void detail::add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::s
     entry.step = run.steps;
     entry.time = run.time;
     const auto u = as_vectors<Dim>(run.q);
-    const auto n = static_cast<std::ptrdiff_t>(u.size());
     entry.linear_momentum =
-        ordered_sum(n, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) { return run.momentum(i); });
+        sum_of_points(run, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) { return run.momentum(i); });
     const AngularMomentum<Dim> zero = AngularMomentum<Dim>::Zero();
     entry.angular_momentum =
-        ordered_sum(n, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i] + u[i], run.momentum(i)); });
+        sum_of_points(run, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i] + u[i], run.momentum(i)); });
     entry.rest_angular_momentum =
-        ordered_sum(n, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i], run.momentum(i)); });
+        sum_of_points(run, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i], run.momentum(i)); });
     const auto e_i = as_vectors<Dim>(e);
-    entry.parasitic = largest(n, [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; });
+    entry.parasitic = largest(std::ssize(u), [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; });
+    if (run.ranks) entry.parasitic = run.ranks->largest(entry.parasitic);
 }
 
 double detail::largest_angle(std::span<const double> angles) {

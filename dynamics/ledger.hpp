@@ -69,13 +69,15 @@ public:
           time(integrator.time()),
           q(integrator.q()),
           p_before(integrator.p_before()),
-          p_after(integrator.p_after()) {}
+          p_after(integrator.p_after()),
+          ranks(integrator.ranks()) {}
 
     std::int64_t steps;
     double time;                       ///< [s]
     std::span<const double> q;         ///< (n, Dim) [m]
     std::span<const double> p_before;  ///< p^{n-1/2} [kg m/s]
     std::span<const double> p_after;   ///< p^{n+1/2}
+    const Ranks* ranks;                ///< whose points these are a part of; null: all points are here
     /// p^n = (p^{n-1/2} + p^{n+1/2})/2 of a point [kg m/s]
     [[nodiscard]] Vector<Dim> momentum(std::ptrdiff_t i) const {
         return 0.5 * (as_vectors<Dim>(p_before)[i] + as_vectors<Dim>(p_after)[i]);

@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/dynamics/ranks.hpp"
 #include "abut/dynamics/sparse.hpp"
 
 namespace abut::dynamics {
@@ -102,6 +103,25 @@ void add_scaled(std::span<const double> a, double s, std::span<const double> v, 
 
 double dot_product(std::span<const double> a, std::span<const double> b) {
     return ordered_sum(static_cast<std::ptrdiff_t>(a.size()), 0.0, [&](std::ptrdiff_t i) { return a[i] * b[i]; });
+}
+
+namespace {
+
+/// Sum of term(i) over the values of the points of all ranks.
+template <class Term>
+double sum_of_values(const Ranks& ranks, std::size_t n, const Term& term) {
+    return sum_over(ranks, {.per_point = ranks.dimension()}, static_cast<std::ptrdiff_t>(n), 0.0, term);
+}
+
+}  // namespace
+
+double mass_product_over(const Ranks& ranks, std::span<const double> a, std::span<const double> inverse_mass,
+                         std::span<const double> b) {
+    return sum_of_values(ranks, a.size(), [&](std::ptrdiff_t i) { return a[i] * inverse_mass[i] * b[i]; });
+}
+
+double dot_product_over(const Ranks& ranks, std::span<const double> a, std::span<const double> b) {
+    return sum_of_values(ranks, a.size(), [&](std::ptrdiff_t i) { return a[i] * b[i]; });
 }
 
 }  // namespace abut::dynamics

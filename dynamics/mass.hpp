@@ -7,6 +7,8 @@
 
 namespace abut::dynamics {
 
+class Ranks;
+
 /// An entry of a sparse matrix; entries with the same row and column add up.
 struct MatrixEntry {
     std::int32_t row;
@@ -46,6 +48,9 @@ void add_scaled_velocity(std::span<const double> a, double s, const InverseMass&
 [[nodiscard]] double mass_product(std::span<const double> a, std::span<const double> inverse_mass,
                                   std::span<const double> b);
 [[nodiscard]] double mass_product(std::span<const double> a, const InverseMass& inverse_mass, std::span<const double> b);
+/// The same over the values of all ranks, the arrays being those of this one (n_owned, dimension).
+[[nodiscard]] double mass_product_over(const Ranks& ranks, std::span<const double> a, std::span<const double> inverse_mass,
+                                       std::span<const double> b);
 
 /// The entries of M for both kinds.
 [[nodiscard]] std::vector<MatrixEntry> mass_entries(std::span<const double> inverse_mass);
@@ -55,5 +60,7 @@ void add_scaled_velocity(std::span<const double> a, double s, const InverseMass&
 void add_scaled(std::span<const double> a, double s, std::span<const double> v, std::span<double> result);
 /// a . b, summed in a fixed order for any number of threads.
 [[nodiscard]] double dot_product(std::span<const double> a, std::span<const double> b);
+/// The same over the values of all ranks, the arrays being those of this one (n_owned, dimension).
+[[nodiscard]] double dot_product_over(const Ranks& ranks, std::span<const double> a, std::span<const double> b);
 
 }  // namespace abut::dynamics

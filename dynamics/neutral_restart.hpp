@@ -75,6 +75,7 @@ public:
           force_(system.size()),
           report_(options.report_before) {
         detail::check_restart(options);
+        refuse_ranks(ranks_of(system), "neutral restart");
     }
 
     /// To be called after each step, and after a filter (Integrator::set_node_restart).

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "abut/dynamics/ranks.hpp"
+
 namespace abut::dynamics {
 
 /// A system with a diagonal mass that knows the linear part K q of its restoring force.
@@ -36,6 +38,7 @@ struct PowerIterationOptions {
     int least_beyond = 10;                                    ///< iterations before `enough` ends it
     double enough = std::numeric_limits<double>::infinity();  ///< quotient beyond which it need not settle [1/s^2]
     std::span<const double> mask = {};                        ///< 1 for a degree of freedom that may move, 0; empty: all may
+    const Ranks* ranks = nullptr;                             ///< whose values these are a part of; null: all are here
 };
 
 /// Iterations from a fixed start until the quotient has settled or is beyond `enough`, at most 2,000. `stiffness` sets
@@ -47,7 +50,8 @@ struct PowerIterationOptions {
 
 /// The same of a system.
 template <StiffnessProductSystem S>
-[[nodiscard]] HighestMode highest_mode(S& system, const PowerIterationOptions& options = {}) {
+[[nodiscard]] HighestMode highest_mode(S& system, PowerIterationOptions options = {}) {
+    options.ranks = ranks_of(system);
     return highest_mode(
         system.inverse_mass(),
         [&](std::span<const double> x, std::span<double> product) { system.stiffness_product(x, product); }, options);

@@ -83,8 +83,13 @@ public:
     [[nodiscard]] virtual ContactField field() const = 0;
     /// Pairs that touch in the state that was evaluated last, or are open by at most `gap` [m].
     [[nodiscard]] virtual std::vector<TouchingPair<Dim>> touching_pairs(double gap) const = 0;
+    /// Of the state that was evaluated last, with pairs that have no force.
+    [[nodiscard]] virtual std::span<const contact::PairStep<Dim>> pairs() const = 0;
     /// Of the last step.
     [[nodiscard]] virtual std::vector<dynamics::ContactPatch<Dim>> patches() const = 0;
+
+    /// Of a face as errors of contact number it; `no_face` of an obstacle, and where there is none of that number.
+    [[nodiscard]] virtual BoundaryFace mesh_boundary(contact::SurfaceFace face) const = 0;
 
     [[nodiscard]] virtual contact::ContactReport report() const = 0;
     [[nodiscard]] virtual double skin() const = 0;  ///< of the candidate list [m]

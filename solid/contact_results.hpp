@@ -16,6 +16,18 @@ struct TouchingPair {
     double gap;          ///< [m]
 };
 
+/// What two faces do to each other in a state; `no_face` is one of an obstacle.
+template <int Dim>
+struct ActingPair {
+    BoundaryFace face_1;
+    BoundaryFace face_2;
+    Vector<Dim> normal;   ///< from the body of face 1 into that of face 2
+    double gap;           ///< [m], < 0 pressed in
+    double area;          ///< that they share [m^(Dim-1)]
+    double normal_force;  ///< [N], > 0 in compression
+    Vector<Dim> force;    ///< on face 2 [N]; face 1 feels the opposite
+};
+
 /// What two bodies have done to each other by contact since the first step. Obstacles count as bodies behind those of the
 /// mesh, in their order.
 template <int Dim>

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/dynamics/power_iteration.hpp"
+#include "abut/dynamics/mode_search.hpp"
 
 namespace abut::solid {
 namespace {
 
-inline constexpr int probes = 3;              // random fields that the frequencies are estimated from
-inline constexpr int products = 3;            // with M^-1 K, of each
-inline constexpr double carries_mode = 0.01;  // of the largest kinetic energy of a cell in a mode: this cell carries it, too
+inline constexpr int probes = 3;             // random fields that the frequencies are estimated from
+inline constexpr int products = 3;           // with M^-1 K, of each
+inline constexpr double carries_mode = 0.1;  // of the largest kinetic energy of a cell in a mode: this cell carries it, too
 inline constexpr double worth_a_level = 0.02;  // of all cells
 // A coarse step must be stable for the motions of its cells, and these reach so many layers into their neighbours.
 inline constexpr int stable_layers = 2;
@@ -26,6 +27,9 @@ inline constexpr int stable_layers = 2;
 // grows from rounding with one layer above and three here, and does not within 10,000 steps with two and five.
 inline constexpr int resonance_layers = 5;
 inline constexpr double resonance = std::numbers::sqrt2;
+// Of the search for modes that are not allowed: before the first of them are looked at, before what is left of them is, and
+// before it may count as settled.
+inline constexpr int first_iterations = 10, further_iterations = 4, least_iterations = 20, most_iterations = 1000;
 
 /// Level of each cell.
 using Levels = std::vector<std::int32_t>;
@@ -83,65 +87,116 @@ Levels levels_of(const mesh::Mesh<Dim>& mesh, const std::vector<double>& growth,
     return level;
 }
 
-/// The highest mode of some cells with the others held. `enough` is a frequency beyond which it need not settle [rad/s].
+/// In units of the finest step, the step that each cell must be stable for: the longest of those within `stable_layers`, and
+/// of those within `resonance_layers` over sqrt(2). A motion of cells with these steps, (s_c/2)^2 M^-1 K x = lambda x, that
+/// has lambda <= 1 is stable on every level and resonates with none: on the cells about one level, s_c is that of the level
+/// at least.
 template <int Dim>
-dynamics::HighestMode highest_mode_of(Solid<Dim>& solid, const std::vector<char>& chosen, double enough,
-                                      std::int32_t level) {
-    std::vector<double> mask;
-    for (const char c : chosen) mask.insert(mask.end(), Dim, c ? 1.0 : 0.0);
-    dynamics::HighestMode mode =
-        dynamics::highest_mode(solid, {.enough = std::pow(enough / dynamics::lower_bound_margin, 2), .mask = mask});
-    if (!(mode.quotient > 0.0) || (dynamics::bound_of(mode) <= enough && !(mode.change <= dynamics::settled_change)))
-        throw BadInput("local steps: the power iteration of level " + std::to_string(level) + " has not settled after " +
-                       std::to_string(mode.iterations) +
-                       " iterations. Check the mesh for slivers and the material for extreme values.");
-    return mode;
+std::vector<double> steps_to_bear(const mesh::Mesh<Dim>& mesh, const Levels& level, std::int32_t finest) {
+    std::vector<double> stable, resonant;
+    for (const std::int32_t l : level) stable.push_back(std::ldexp(1.0, finest - l));
+    spread_largest(mesh, stable_layers, stable);
+    resonant = stable;
+    spread_largest(mesh, resonance_layers - stable_layers, resonant);
+    for (std::size_t c = 0; c < stable.size(); ++c) stable[c] = std::max(stable[c], resonant[c] / resonance);
+    return stable;
 }
 
-/// Cells that carry a mode.
+/// The value of each cell and of the cells behind its faces together.
 template <int Dim>
-std::vector<char> carriers(const Solid<Dim>& solid, const dynamics::HighestMode& mode) {
-    const auto x = as_vectors<Dim>(std::span<const double>(mode.x));
-    const auto share = [&](std::size_t c) { return solid.masses()[c] * x[c].squaredNorm(); };
-    double largest = 0.0;
-    for (std::size_t c = 0; c < x.size(); ++c) largest = std::max(largest, share(c));
-    std::vector<char> carries(x.size());
-    for (std::size_t c = 0; c < x.size(); ++c) carries[c] = share(c) >= carries_mode * largest;
+std::vector<double> sums_with_neighbours(const mesh::Mesh<Dim>& mesh, const std::vector<double>& value) {
+    std::vector<double> sum = value;
+    for (const auto& [c, d] : mesh.face_cells) {
+        if (d < 0) continue;
+        sum[c] += value[d];
+        sum[d] += value[c];
+    }
+    return sum;
+}
+
+/// Cells that carry a mode of those steps that is not allowed, of the whole or of a place: where the Rayleigh quotient of
+/// what is near exceeds `enough`, those that move most there.
+template <int Dim>
+std::vector<char> carriers(const Solid<Dim>& solid, const dynamics::ModeSearch& search, const std::vector<double>& steps,
+                           double enough) {
+    const auto n = steps.size();
+    std::vector<double> share(n), energy(n);
+    parallel_each(static_cast<std::ptrdiff_t>(n), [&](std::ptrdiff_t c) {
+        const double mass = solid.masses()[c] / (steps[c] * steps[c]);
+        for (std::size_t i = static_cast<std::size_t>(c) * Dim; i < static_cast<std::size_t>(c + 1) * Dim; ++i) {
+            share[c] += mass * search.x()[i] * search.x()[i];
+            energy[c] += mass * search.x()[i] * search.image(i);
+        }
+    });
+    const std::vector<double> shares = sums_with_neighbours(solid.mesh(), share),
+                              energies = sums_with_neighbours(solid.mesh(), energy);
+    std::vector<double> nearby = share;
+    spread_largest(solid.mesh(), resonance_layers, nearby);
+    const double largest = *std::ranges::max_element(share);
+    std::vector<char> carries(n);
+    for (std::size_t c = 0; c < n; ++c)
+        carries[c] = share[c] >= carries_mode * largest ||
+                     (energies[c] > enough * shares[c] && share[c] > 0.0 && share[c] >= carries_mode * nearby[c]);
     return carries;
 }
 
-/// Until no mode of the cells of level l and coarser, and of some layers about them, is above `limit` [rad/s]: those that
-/// carry it, and as many layers about them, go to the next finer level. The highest frequency there is then; 0 without a
-/// cell.
+/// Moves to the next finer level the cells whose steps a carrier has to bear.
 template <int Dim>
-double refine_until_below(Solid<Dim>& solid, double limit, int layers, std::int32_t l, Levels& level) {
-    for (;;) {
-        std::vector<char> nearby;
-        for (const std::int32_t other : level) nearby.push_back(other <= l);
-        if (std::ranges::none_of(nearby, std::identity{})) return 0.0;
-        spread_largest(solid.mesh(), layers, nearby);
-        const dynamics::HighestMode mode = highest_mode_of(solid, nearby, limit, l);
-        if (dynamics::bound_of(mode) <= limit) return dynamics::bound_of(mode);
-        std::vector<char> carrying = carriers(solid, mode);
-        spread_largest(solid.mesh(), layers, carrying);
-        for (std::size_t c = 0; c < level.size(); ++c)
-            if (carrying[c] && level[c] <= l) level[c] = l + 1;
+void refine_about(const mesh::Mesh<Dim>& mesh, const std::vector<char>& carries, const std::vector<double>& steps,
+                  std::int32_t finest, Levels& level) {
+    // The negative of the shortest step that a carrier near each cell has to bear; none: below all.
+    std::vector<double> stable(level.size());
+    for (std::size_t c = 0; c < level.size(); ++c)
+        stable[c] = carries[c] ? -steps[c] : -std::numeric_limits<double>::infinity();
+    spread_largest(mesh, stable_layers, stable);
+    std::vector<double> resonant = stable;
+    spread_largest(mesh, resonance_layers - stable_layers, resonant);
+    for (std::size_t c = 0; c < level.size(); ++c) {
+        const double step = std::ldexp(1.0, finest - level[c]);
+        if (level[c] < finest && (step >= -stable[c] || step / resonance >= -resonant[c])) ++level[c];
     }
 }
 
-/// Moves cells to finer levels until the coarser ones are stable and away from what resonates with their step. omega_max of
-/// all levels but the finest.
+/// 0 for cells that bear the finest step alone, which is stable for all.
 template <int Dim>
-std::vector<double> make_stable(Solid<Dim>& solid, double finest_step, Levels& level) {
-    const std::int32_t finest = *std::max_element(level.begin(), level.end());
-    std::vector<double> omega_max;
-    for (std::int32_t l = 0; l < finest; ++l) {
-        const double allowed = dynamics::stable_step_of(solid, 1.0) / (finest_step * std::pow(2.0, finest - l));  // of omega
-        omega_max.push_back(refine_until_below(solid, allowed, stable_layers, l, level));
-        // It only takes cells away, so that the level stays stable.
-        refine_until_below(solid, resonance * allowed, resonance_layers, l, level);
+std::vector<double> weights_of(const Solid<Dim>& solid, const std::vector<double>& steps, double finest_step) {
+    std::vector<double> weights(solid.size(), 0.0);
+    for (std::size_t i = 0; i < steps.size() * Dim; ++i) {
+        const double half_step = 0.5 * finest_step * steps[i / Dim];
+        if (steps[i / Dim] > 1.0) weights[i] = half_step * half_step * solid.inverse_mass()[i];
     }
-    return omega_max;
+    return weights;
+}
+
+/// Whether the search has an answer: it goes on until the quotient has settled, or is beyond `enough`.
+bool is_done(const dynamics::ModeSearch& search, double enough, int least_beyond) {
+    if (search.quotient() > enough) return search.iterations() >= least_beyond;
+    if (search.iterations() >= most_iterations)
+        throw BadInput("local steps: the search for the highest mode has not settled after " +
+                       std::to_string(search.iterations()) +
+                       " iterations. Check the mesh for slivers and the material for extreme values.");
+    return search.iterations() >= least_iterations && search.change() <= dynamics::settled_change;
+}
+
+/// Moves cells to finer levels until the coarser ones are stable and away from what resonates with their steps. All levels
+/// are looked at together, each cell with the longest step that it has to bear. The part of the allowed frequencies that is
+/// reached then, 0 if all cells are on the finest level.
+template <int Dim>
+double make_stable(Solid<Dim>& solid, double finest_step, Levels& level) {
+    const std::int32_t finest = *std::max_element(level.begin(), level.end());
+    const double margin = dynamics::step_margin(solid);
+    const double enough = std::pow(margin / dynamics::lower_bound_margin, 2);
+    dynamics::ModeSearch search(
+        solid.size(), [&](std::span<const double> x, std::span<double> product) { solid.stiffness_product(x, product); });
+    for (int least_beyond = first_iterations;; least_beyond = further_iterations) {
+        if (std::ranges::all_of(level, [&](std::int32_t l) { return l == finest; })) return 0.0;
+        const std::vector<double> steps = steps_to_bear(solid.mesh(), level, finest);
+        search.set_weights(weights_of(solid, steps, finest_step));
+        do search.iterate();
+        while (!is_done(search, enough, least_beyond));
+        if (search.quotient() <= enough) return dynamics::lower_bound_margin * std::sqrt(search.quotient()) / margin;
+        refine_about(solid.mesh(), carriers(solid, search, steps, enough), steps, finest, level);
+    }
 }
 
 /// The coarsest levels, as long as they hold fewer than `worth_a_level` of all cells together, go into the next finer one.
@@ -181,7 +236,10 @@ SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stabl
     const std::vector<std::int32_t> in_contact = solid.contact() ? contact_cells(solid) : std::vector<std::int32_t>{};
     for (const std::int32_t c : in_contact) level[c] = std::min(finest, level[c] + contact_margin);
     SolidLocalSteps local;
-    local.omega_max = make_stable(solid, stable.dt, level);
+    const double reached = make_stable(solid, stable.dt, level);
+    for (std::int32_t l = 0; l < finest; ++l)
+        local.omega_max.push_back(reached * dynamics::stable_step_of(solid, 1.0) /
+                                  (stable.dt * std::ldexp(1.0, finest - l)));
     local.omega_max.push_back(stable.omega_max);
     if (!in_contact.empty() && contact_levels > 0) {
         for (const std::int32_t c : in_contact) level[c] = finest + contact_levels;

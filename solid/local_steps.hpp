@@ -19,18 +19,21 @@ struct SolidLocalSteps {
     dynamics::LocalSteps steps;
     double dt;                        ///< of level 0, stable as `StableStep::dt` is [s]
     std::vector<std::int64_t> cells;  ///< of each level
-    std::vector<double> omega_max;  ///< bound of the frequencies of this level, all coarser ones and two layers more [rad/s]
+    /// Of each level [rad/s]: a bound of the frequencies of its cells, all coarser ones and two layers more, and, over
+    /// sqrt(2), of those of five layers more; the same part of what the step of each level allows, for it is shown for all
+    /// together. Of the finest that of the whole.
+    std::vector<double> omega_max;
 };
 
 /// Sorts the cells into levels by what each could take alone: its own frequency is estimated from a few products with
-/// M^-1 K. A power iteration then shows each level (and all that are coarser) stable with its step, and that no motion
-/// near its cells resonates with that step; cells that carry an unstable mode, or lie near one that resonates, go to the
-/// next finer level, until none is left. A coarsest level with hardly a cell is given up: cells of about one size have one
-/// level. Without a margin for cells that contact may reach, contact between cells of different steps can feed the parasitic
-/// mode. docs/integrators.md, Local steps.
+/// M^-1 K. One search for the highest mode, every cell with the longest step that it has to bear, then shows all levels
+/// stable with their steps, and that no motion near their cells resonates with a step; cells about a place where a mode is
+/// not allowed go to the next finer level, until none is left. A coarsest level with hardly a cell is given up: cells of
+/// about one size have one level. Without a margin for cells that contact may reach, contact between cells of different
+/// steps can feed the parasitic mode. docs/integrators.md, Local steps.
 ///
 /// Throws BadInput for options out of range (1 to 20 levels, a margin of 0 or more, 0 to 10 levels for contact), and where
-/// the power iteration does not settle.
+/// the search does not settle.
 template <int Dim>
 [[nodiscard]] SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stable,
                                           const LocalStepOptions& options = {});

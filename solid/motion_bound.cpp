@@ -29,7 +29,7 @@ double norm_bound(const Matrix<Dim>& m) {
 }  // namespace
 
 template <int Dim>
-MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), cells_(arrays.boundary_cells) {
+MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), cells_(arrays.boundary.cells) {
     for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(BoundaryFace{b}));
     sort_unique(cells_);
     const auto position = [&](std::int32_t cell) {

@@ -45,7 +45,7 @@ private:
     std::vector<double> norms_;            // |W_j|, by weight; 0 for the face's own cell
     std::vector<double> norm_sum_;         // of a row (n_boundary)
     double amplification_ = 0.0;
-    std::vector<double> moved_;  // du of cells_, registers
+    LargeArray<double> moved_;  // du of cells_, registers
 };
 
 }  // namespace abut::solid

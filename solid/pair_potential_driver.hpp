@@ -48,11 +48,15 @@ public:
     [[nodiscard]] double compression() const override { return contact_.last().report.compression; }
     [[nodiscard]] ContactField field() const override;
     [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(double gap) const override;
+    [[nodiscard]] std::span<const contact::PairStep<Dim>> pairs() const override { return contact_.last().pairs; }
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
 
     [[nodiscard]] const contact::NodalContact<Dim>& contact() const { return contact_; }
     [[nodiscard]] contact::ContactReport report() const override { return contact_.report(); }
     [[nodiscard]] double skin() const override { return contact_.skin(); }
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const override {
+        return corners_.mesh_boundary(face);
+    }
     [[nodiscard]] std::int64_t faces_left_out() const override { return corners_.faces_left_out(); }
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override { return {}; }
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override { return contact_.unseen_edges(); }

@@ -99,7 +99,7 @@ void ReconstructionDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::sp
     contact_->search(u_0, u_1, [&](std::span<const contact::SurfaceFace> faces) {
         boundary_of_listed_.clear();
         for (const contact::SurfaceFace face : faces)
-            if (const BoundaryFace b = boundary_face(face); b != no_face) boundary_of_listed_.push_back(b);
+            if (const BoundaryFace b = mesh_boundary(face); b != no_face) boundary_of_listed_.push_back(b);
         region_ = ccg_.region_of_faces(boundary_of_listed_);
         contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
         coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
@@ -177,7 +177,7 @@ template <int Dim>
 void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
     for (const contact::PairStep<Dim>& pair : step.pairs) {
-        const BoundaryFace face_1 = boundary_face(pair.face_1), face_2 = boundary_face(pair.face_2);
+        const BoundaryFace face_1 = mesh_boundary(pair.face_1), face_2 = mesh_boundary(pair.face_2);
         const auto points = [&](BoundaryFace face) {
             return face == no_face ? std::span<const std::int32_t>{} : ccg_.cells_of(face);
         };
@@ -261,7 +261,7 @@ ContactField ReconstructionDriver<Dim>::field() const {
         }
     for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
         for (const contact::SurfaceFace face : {overlap.face_1, overlap.face_2})
-            if (const BoundaryFace b = boundary_face(face); b != no_face)
+            if (const BoundaryFace b = mesh_boundary(face); b != no_face)
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], overlap.gap);
     return field;
 }
@@ -271,7 +271,7 @@ std::vector<TouchingPair<Dim>> ReconstructionDriver<Dim>::touching_pairs(double 
     std::vector<TouchingPair<Dim>> touching;
     for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
         if (overlap.gap <= gap)
-            touching.push_back({boundary_face(overlap.face_1), boundary_face(overlap.face_2), overlap.normal, overlap.gap});
+            touching.push_back({mesh_boundary(overlap.face_1), mesh_boundary(overlap.face_2), overlap.normal, overlap.gap});
     return touching;
 }
 

@@ -68,10 +68,15 @@ public:
     [[nodiscard]] double compression() const override;
     [[nodiscard]] ContactField field() const override;
     [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(double gap) const override;
+    [[nodiscard]] std::span<const contact::PairStep<Dim>> pairs() const override { return contact_->last().pairs; }
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
 
     [[nodiscard]] const contact::Contact<Dim>& contact() const { return *contact_; }
     [[nodiscard]] contact::ContactReport report() const override;
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const override {
+        const auto i = static_cast<std::size_t>(face);
+        return i < boundary_of_surface_.size() ? boundary_of_surface_[i] : no_face;
+    }
     [[nodiscard]] double skin() const override { return contact_->skin(); }
     [[nodiscard]] std::int64_t faces_left_out() const override { return faces_left_out_; }
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override;
@@ -86,9 +91,6 @@ private:
                                                                 const BoundaryLoad<Dim>& load, double time);
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
-    [[nodiscard]] BoundaryFace boundary_face(contact::SurfaceFace face) const {
-        return surface_.view().is_rigid(number_of(face)) ? no_face : boundary_of_surface_[static_cast<std::size_t>(face)];
-    }
     [[nodiscard]] std::size_t obstacle_of(contact::SurfaceFace face) const {
         return static_cast<std::size_t>(surface_.body[static_cast<std::size_t>(face)] - mesh_.n_bodies());
     }

@@ -12,9 +12,9 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_rotation.hpp"
+#include "abut/solid/largest_motion.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
-#include "abut/solid/midpoint.hpp"
 #include "abut/solid/outside_loads.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
@@ -206,7 +206,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const auto u_1 = as_vectors<Dim>(q_1);
     follow_loads(u_0, time, dt);
     bodies_->rigid().follow(u_0, u_1);
-    const double motion = take_midpoint(of_cells(u_0), of_cells(u_1));
+    const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
     if (contact_) {
         contact_->follow(u_0, u_1, motion, time, dt);
         contact_->integrate();
@@ -217,9 +217,9 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1)};
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         if (frames_->any_turns())
-            ccg_.gradient_of_packed(packed_midpoint_, load, corrections(), gradient, ends);
+            ccg_.gradient_of_packed(midpoint_, load, corrections(), gradient, ends);
         else
-            ccg_.gradient(midpoint_, load, corrections(), gradient, ends);
+            ccg_.mean_gradient(ends, load, corrections(), gradient);
     };
     if (loads_->vary())
         take_gradient(loads_->mean());
@@ -244,10 +244,8 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const auto gradient = as_vectors<Dim>(force);
     follow_loads(u_0, time, dt);
     bodies_->rigid().follow(u_0, u_1);
-    if (contact_)
-        contact_->follow(u_0, u_1, take_midpoint(of_cells(u_0), of_cells(u_1)), time, dt);
-    else
-        frames_->follow(of_cells(u_0), of_cells(u_1));
+    const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
+    if (contact_) contact_->follow(u_0, u_1, motion, time, dt);
     if (!is_autonomous()) {  // the work is shared between the forces at both ends
         frames_->stand_at_start();
         if (contact_) contact_->take_start();
@@ -302,21 +300,15 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
     if (contact_) contact_->jumped(q_0, time);
 }
 
-/// Fills midpoint_ or packed_midpoint_. No cell moves farther in its frame than what is returned [m]; without contact nobody
-/// asks, and it is 0.
+/// Fills midpoint_ where a body turns. No cell moves farther in its frame than what is returned [m]; without contact nobody
+/// asks where none turns, and it is 0.
 template <int Dim>
-double Solid<Dim>::take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
+double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     const Stopwatch watch(times_.bulk);
-    if (frames_->any_turns()) {
-        frames_->follow(q_0, q_1);
-        packed_midpoint_.resize(lane_width<Dim> * q_0.size());
-        return frames_->take_midpoints(q_0, q_1, packed_midpoint_);
-    }
-    midpoint_.resize(q_0.size());
-    if (contact_) return take_midpoints<Dim>(q_0, q_1, midpoint_);
-    parallel_each(static_cast<std::ptrdiff_t>(q_0.size()),
-                  [&](std::ptrdiff_t c) { midpoint_[c] = 0.5 * (q_0[c] + q_1[c]); });
-    return 0.0;
+    if (!frames_->any_turns()) return contact_ ? largest_motion<Dim>(q_0, q_1) : 0.0;
+    frames_->follow(q_0, q_1);
+    midpoint_.resize(lane_width<Dim> * q_0.size());
+    return frames_->take_midpoints(q_0, q_1, midpoint_);
 }
 
 /// `share` of the work from outside in the step that the present gradients of the boundary faces would do.

@@ -47,8 +47,8 @@ class ReconstructionDriver;
 ///
 /// Faces with a prescribed displacement (whole or in part) take no part in contact; `contact_faces_left_out` counts them.
 ///
-/// `force`, `potential`, `contact_field` and `touching_pairs` take any state before the first step, and later the last state
-/// or one that no face has left by more than half the skin since the last search; they throw Misuse for others.
+/// `force`, `potential`, `contact_field`, `touching_pairs` and `acting_pairs` take any state before the first step, and later
+/// the last state or one that no face has left by more than half the skin since the last search; they throw Misuse for others.
 template <int Dim>
 class Solid {
 public:
@@ -120,6 +120,8 @@ public:
     [[nodiscard]] ContactField contact_field(std::span<const double> q);
     /// Admitted pairs of state q that share area and are open by at most `gap` [m].
     [[nodiscard]] std::vector<TouchingPair<Dim>> touching_pairs(std::span<const double> q, double gap);
+    /// Pairs that push each other in state q.
+    [[nodiscard]] std::vector<ActingPair<Dim>> acting_pairs(std::span<const double> q);
 
     /// All that the next steps depend on beside q and p: loads, work, dashpots, rigid bodies, what pairs remember. Bytes,
     /// versioned, with a checksum.
@@ -173,6 +175,8 @@ public:
     [[nodiscard]] double skin() const;  ///< of the last candidate list; 0 without contact [m]
     /// Boundary faces that take no part in contact, since their displacement is prescribed; 0 without contact.
     [[nodiscard]] std::int64_t contact_faces_left_out() const;
+    /// Cell of the mesh that has a face which an error of contact names (ErrorFacts::face_1, face_2); -1: none has.
+    [[nodiscard]] std::int32_t cell_of_contact_face(std::int64_t face) const;
     /// Corners that are too sharp for contact to see them coming, their positions at rest [m]; empty without contact.
     /// contact/blind_corners.hpp.
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
@@ -217,7 +221,7 @@ private:
     [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body) const;
     void require_start(double time, double dt) const;
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
-    [[nodiscard]] double take_midpoint(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
+    [[nodiscard]] double follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     [[nodiscard]] std::span<const Vector<Dim>> in_frames(std::span<const Vector<Dim>> q,
                                                          std::span<const std::int32_t> cells);
     void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
@@ -245,8 +249,7 @@ private:
     std::unique_ptr<ContactDriver<Dim>> contact_;          // null without contact
     ReconstructionDriver<Dim>* reconstruction_ = nullptr;  // the same, under that law
     std::unique_ptr<LocalLevels<Dim>> levels_;             // null without local steps
-    std::vector<Vector<Dim>> midpoint_;                    // where no body turns, else
-    std::vector<double> packed_midpoint_;                  // in the frames, as the operators take it
+    LargeArray<double> midpoint_;                          // in the frames, packed; empty where no body turns
     std::vector<Vector<Dim>> in_frames_;
     std::vector<std::int32_t> all_cells_;   // that deform
     std::vector<Vector<Dim>> rigid_force_;  // on the points of rigid bodies, constant; by point

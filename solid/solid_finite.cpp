@@ -26,9 +26,9 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
     for (const Vector<Dim>& of_cell : u) largest = larger(largest, of_cell.cwiseAbs().maxCoeff());
     const double size = std::pow(std::ranges::min(part.cell_measure), 1.0 / Dim);
     const double scale = largest > 0.0 ? std::exp2(std::floor(std::log2(tiny_displacement * size / largest))) : 1.0;
-    midpoint_.resize(u.size());
-    for (std::size_t c = 0; c < u.size(); ++c) midpoint_[c] = scale * u[c];
-    ccg_.gradient(midpoint_, ccg_.load_free(), {}, result);
+    in_frames_.resize(u.size());
+    for (std::size_t c = 0; c < u.size(); ++c) in_frames_[c] = scale * u[c];
+    ccg_.gradient(in_frames_, ccg_.load_free(), {}, result);
     for (std::size_t c = 0; c < u.size(); ++c) result[c] /= scale;
 }
 

@@ -52,6 +52,19 @@ std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double
 }
 
 template <int Dim>
+std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q) {
+    if (!contact_) return {};
+    frames_->stand_at(of_cells(as_vectors<Dim>(q)));
+    contact_->evaluate(as_vectors<Dim>(q), time_);
+    std::vector<ActingPair<Dim>> acting;
+    for (const contact::PairStep<Dim>& pair : contact_->pairs())
+        if (pair.force != Vector<Dim>::Zero())
+            acting.push_back({contact_->mesh_boundary(pair.face_1), contact_->mesh_boundary(pair.face_2), pair.normal,
+                              pair.gap_1, pair.area, pair.normal_force, pair.force});
+    return acting;
+}
+
+template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const {
     return contact_ ? contact_->patches() : std::vector<dynamics::ContactPatch<Dim>>{};
 }
@@ -104,6 +117,13 @@ dynamics::ContactCounts Solid<Dim>::contact_counts() const {
 template <int Dim>
 std::int64_t Solid<Dim>::contact_faces_left_out() const {
     return contact_ ? contact_->faces_left_out() : 0;
+}
+
+template <int Dim>
+std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t face) const {
+    if (!contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return -1;
+    const BoundaryFace boundary = contact_->mesh_boundary(contact::SurfaceFace{static_cast<std::int32_t>(face)});
+    return boundary == no_face ? -1 : cell_of(mesh_, boundary);
 }
 
 template <int Dim>
@@ -239,6 +259,7 @@ double Solid<Dim>::step_margin() const {
 #define ABUT_INSTANTIATE(Dim)                                                                                      \
     template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                    \
     template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);     \
+    template std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q);                     \
     template std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const;                         \
     template double Solid<Dim>::compression() const;                                                               \
     template Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const;                                   \
@@ -249,6 +270,7 @@ double Solid<Dim>::step_margin() const {
     template double Solid<Dim>::skin() const;                                                                      \
     template contact::ContactReport Solid<Dim>::contact_report() const;                                            \
     template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                           \
+    template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                    \
     template std::int64_t Solid<Dim>::contact_faces_left_out() const;                                              \
     template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                           \
     template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                               \

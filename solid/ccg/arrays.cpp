@@ -37,16 +37,17 @@ std::array<double, Dim> to_array(const Vector<Dim>& v) {
 template <int Dim>
 CcgArrays<Dim>::CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                           const FaceConditions<Dim>& conditions, FreeFaceRule rule, CornerRule corner_rule,
-                          std::span<const Kinematics> kinematics) {
+                          std::span<const Kinematics> kinematics, CellForm form) {
     set_faces(mesh, materials);
     set_cells(mesh, materials);
+    if (form == CellForm::automatic) simplices = Simplices<Dim>(mesh, conditions, rule, kinematics);
     set_boundary(mesh, materials, conditions, rule, corner_rule, kinematics);
 }
 
 template <int Dim>
 void CcgArrays<Dim>::set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials) {
     const auto n = static_cast<std::size_t>(mesh.n_faces());
-    face_cells = mesh.face_cells;
+    face_cells.assign(mesh.face_cells.begin(), mesh.face_cells.end());
     stencils.resize(n);
     boundary_index.assign(n, no_face);
     std::vector<std::int32_t> interior;
@@ -76,6 +77,7 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
     half_face_offsets = mesh.cell_faces.offsets;
     std::vector<std::int32_t> first_half_face(face_cells.size(), -1);
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        if (c == 0 || mesh.cell_body[c] != mesh.cell_body[c - 1]) body_begin.push_back(c);
         const Material& material = materials[mesh.cell_body[c]];
         cells.push_back({1.0 / mesh.cell_measure[c], material.lambda(), material.mu()});
         for (const std::int32_t f : mesh.cell_faces[c]) {
@@ -91,6 +93,7 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
             lever_arms.push_back(to_array<Dim>(mesh.face_centroid[f] - mesh.cell_centroid[c]));
         }
     }
+    body_begin.push_back(n_cells());
     of_cell = occurrences<std::int32_t, double>(cells.size(), [&](const auto& visit) {
         for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
             if (boundary_index[f] == no_face)
@@ -104,15 +107,20 @@ void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const M
                                   std::span<const Kinematics> kinematics) {
     boundary = reconstruct_boundary<Dim>(mesh, stencils, materials, conditions, rule, corner_rule, kinematics);
     for (const Matrix<Dim>& weight : boundary.weights) boundary_weights.push_back(load_packed<Dim>(weight));
-    boundary_cells = boundary.cells;
+    for (const BoundaryFace b : all_ids<BoundaryFace>(n_boundary())) {
+        if (simplices.condensed_face(cell_of(b)) == b) continue;
+        row_faces.push_back(b);
+        boundary_cells.insert(boundary_cells.end(), boundary.cells.begin() + boundary.offsets[number_of(b)],
+                              boundary.cells.begin() + boundary.offsets[number_of(b) + 1]);
+    }
     sort_unique(boundary_cells);
     boundary_cell_position.assign(cells.size(), -1);
     for (std::size_t i = 0; i < boundary_cells.size(); ++i)
         boundary_cell_position[boundary_cells[i]] = static_cast<std::int32_t>(i);
     of_boundary_cell = occurrences<BoundaryFace, LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
-        for (std::int32_t b = 0; b < boundary.size(); ++b)
-            for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-                visit(boundary_cell_position[boundary.cells[i]], BoundaryFace{b},
+        for (const BoundaryFace b : row_faces)
+            for (std::int32_t i = boundary.offsets[number_of(b)]; i < boundary.offsets[number_of(b) + 1]; ++i)
+                visit(boundary_cell_position[boundary.cells[i]], b,
                       load_packed<Dim>(Matrix<Dim>(boundary.weights[i].transpose())));
     });
 }

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
+#include "abut/solid/ccg/cell_form.hpp"
 #include "abut/solid/ccg/lanes.hpp"
+#include "abut/solid/ccg/simplices.hpp"
 
 namespace abut::solid {
 
@@ -35,16 +37,17 @@ struct CellGeometry {
 /// matrix.
 template <class Row, class Weight>
 struct Occurrences {
-    std::vector<std::int32_t> offsets;
-    std::vector<Row> rows;
-    std::vector<Weight> weights;
+    LargeArray<std::int32_t> offsets;
+    LargeArray<Row> rows;
+    LargeArray<Weight> weights;
 };
 
 /// What the operators of a mesh are made of, in the order in which they run over it.
 template <int Dim>
 struct CcgArrays {
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
-              FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics = {});
+              FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics = {},
+              CellForm form = CellForm::automatic);
 
     [[nodiscard]] std::int32_t n_cells() const { return static_cast<std::int32_t>(cells.size()); }
     [[nodiscard]] std::int32_t n_faces() const { return static_cast<std::int32_t>(face_cells.size()); }
@@ -63,25 +66,27 @@ struct CcgArrays {
     }
 
     // Faces. A boundary face has its one cell on both sides, no stiffness and an empty stencil: the sweeps need no branch.
-    std::vector<std::array<std::int32_t, 2>> face_cells;
-    std::vector<FaceStencil<Dim>> stencils;
-    std::vector<FaceGeometry<Dim>> faces;
+    LargeArray<std::array<std::int32_t, 2>> face_cells;
+    LargeArray<FaceStencil<Dim>> stencils;
+    LargeArray<FaceGeometry<Dim>> faces;
     StencilReport report;
     // Cells and their half-faces, cell by cell.
-    std::vector<CellGeometry<Dim>> cells;
+    LargeArray<CellGeometry<Dim>> cells;
     std::vector<std::int32_t> half_face_offsets;  // (n_cells + 1)
     std::vector<HalfFace> half_faces;
     std::vector<std::array<double, Dim>> lever_arms;  // x_f - x_c, by half-face
     Occurrences<std::int32_t, double> of_cell;        // interior stencils that use a cell
+    std::vector<std::int32_t> body_begin;             // first cell of each body, one more at the end
+    Simplices<Dim> simplices;
     // Boundary faces.
     std::vector<std::int32_t> boundary_faces;
     std::vector<BoundaryFace> boundary_index;  // of a face; none inside
     BoundaryReconstruction<Dim> boundary;
     std::vector<LaneTensor<Dim>> boundary_weights;     // as boundary.weights
-    std::vector<std::int32_t> boundary_cells;          // cells that some boundary face depends on
+    std::vector<BoundaryFace> row_faces;               // those that the sweeps reconstruct by rows of R: not condensed
+    std::vector<std::int32_t> boundary_cells;          // cells that one of them depends on
     std::vector<std::int32_t> boundary_cell_position;  // of a cell, -1 elsewhere
-    Occurrences<BoundaryFace, LaneTensor<Dim>>
-        of_boundary_cell;  // rows of `boundary` by position in boundary_cells, transposed
+    Occurrences<BoundaryFace, LaneTensor<Dim>> of_boundary_cell;  // these rows by position in boundary_cells, transposed
 
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);

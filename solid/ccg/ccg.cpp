@@ -43,15 +43,17 @@ struct Ccg<Dim>::Impl {
     bool varies = false;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-         const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics);
+         const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form);
 };
 
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-                     const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics)
+                     const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics,
+                     CellForm form)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
-      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics),
+      arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
+             form),
       finite(mesh, face_conditions, kinematics),
       sweeps(arrays, finite),
       motion_bound(arrays) {
@@ -69,8 +71,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 
 template <int Dim>
 Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
-              std::span<const Kinematics> kinematics)
-    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics)) {}
+              std::span<const Kinematics> kinematics, CellForm form)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form)) {}
 
 template <int Dim>
 Ccg<Dim>::~Ccg() = default;
@@ -191,7 +193,13 @@ void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>&
 }
 
 template <int Dim>
-void Ccg<Dim>::gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load,
+void Ccg<Dim>::mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load,
+                             const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->sweeps.mean_gradient(ends, load, corrections, result);
+}
+
+template <int Dim>
+void Ccg<Dim>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
                                   const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
                                   const StepEnds<Dim>& ends) {
     impl_->sweeps.gradient_of_packed(u, load, corrections, result, ends);
@@ -199,7 +207,7 @@ void Ccg<Dim>::gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim
 
 template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
-    return impl_->sweeps.face_gradient(impl_->arrays.face_of(face));
+    return impl_->sweeps.face_gradient(face);
 }
 
 template <int Dim>
@@ -208,7 +216,7 @@ double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Di
     const double stored = impl_->sweeps.stored_energy(u, load, corrections);
     double work = 0.0;
     for (std::size_t b = 0; b < load.traction.size(); ++b)
-        work += load.traction[b].dot(impl_->sweeps.face_displacement(impl_->arrays.boundary_faces[b]));
+        work += load.traction[b].dot(impl_->sweeps.face_displacement(static_cast<BoundaryFace>(b)));
     return stored - work;
 }
 

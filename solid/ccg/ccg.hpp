@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/large_array.hpp"
 #include "abut/contact/step.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
+#include "abut/solid/ccg/cell_form.hpp"
 
 namespace abut::solid {
 
@@ -75,7 +77,7 @@ public:
     /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as all are
     /// where none are given.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
-        std::span<const Kinematics> kinematics = {});
+        std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic);
     ~Ccg();
     Ccg(Ccg&&) noexcept;
     Ccg& operator=(Ccg&&) noexcept;
@@ -110,9 +112,12 @@ public:
     /// of Kinematics::finite with `ends` the discrete gradient: its work along the step is the change of V.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
+    /// The same of the mean of both ends: the mean of the gradient along the step.
+    void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                       std::span<Vector<Dim>> result);
     /// The same of u as the sweeps read it: packed, lane_width numbers per cell. They keep the array and give back another one
     /// of its size.
-    void gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+    void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient`; `evaluate_cells`
     /// since then has set those of its region.
@@ -150,8 +155,9 @@ public:
     /// The same of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid that tilts with the cell behind.
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
-    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`; `evaluate_faces` and `evaluate_cells`
-    /// since then have set those of their region.
+    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`. Where `evaluate_faces`,
+    /// `evaluate_tilted_faces` or `evaluate_cells` were called since then, those of their region are of that state, and of
+    /// cells beside it they are not to be used unless it was the same.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 

@@ -40,8 +40,10 @@ LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t c, const LaneTensor
 
 template <int Dim>
 void CcgSweeps<Dim>::set_finite_displacement_gradient(std::ptrdiff_t c) {
-    const LaneTensor<Dim> g = gradient_of(u_, relative_, c);
-    const LaneTensor<Dim> change = has_change_ ? gradient_of(u_change_, relative_change_, c) : LaneTensor<Dim>{};
+    const LaneTensor<Dim> g = gradient_of(u_, c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
+    LaneTensor<Dim> change{};
+    if (has_change_)
+        change = gradient_of(u_change_, c, [&](std::int32_t f) { return load_packed<Dim>(relative_change_, f); });
     store_tensor(g, g_, c);
     store_tensor(change, g_change_, c);
     const FreeCell<Dim>* free = finite_.condensed(c);
@@ -63,22 +65,6 @@ void CcgSweeps<Dim>::set_finite_stress(std::ptrdiff_t c) {
     store_tensor(sum, s_, c);
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::set_any_displacement_gradient(std::ptrdiff_t c) {
-    if (finite_.contains(c))
-        set_finite_displacement_gradient(c);
-    else
-        set_displacement_gradient(c);
-}
-
-template <int Dim>
-void CcgSweeps<Dim>::set_any_stress(std::ptrdiff_t c) {
-    if (finite_.contains(c))
-        set_finite_stress(c);
-    else
-        set_stress(c);
-}
-
 /// What contact adds: of a cell whose gradient is F_cond a moment on that, less what moves the free face from where the affine
 /// one is.
 template <int Dim>
@@ -98,8 +84,8 @@ void CcgSweeps<Dim>::add_moments(std::int32_t begin, std::int32_t end) {
 /// û_f and G_c of a boundary face and the cell behind it, as contact sees them.
 template <int Dim>
 std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace face) const {
-    const std::int32_t f = arrays_.face_of(face), c = arrays_.cell_of(face);
-    const Vector<Dim> affine = face_displacement(f);
+    const std::int32_t c = arrays_.cell_of(face);
+    const Vector<Dim> affine = face_displacement(face);
     const Matrix<Dim> g = displacement_gradient(c);
     const FreeCell<Dim>* free = finite_.condensed(c);
     if (!free) return {affine, g};
@@ -154,8 +140,8 @@ Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t c) const {
     template void CcgSweeps<Dim>::load_change(const StepEnds<Dim>&);                                      \
     template Lanes<Dim> CcgSweeps<Dim>::boundary_change(BoundaryFace) const;                              \
     template LaneTensor<Dim> CcgSweeps<Dim>::finite_stress(std::ptrdiff_t, const LaneTensor<Dim>&) const; \
-    template void CcgSweeps<Dim>::set_any_displacement_gradient(std::ptrdiff_t);                          \
-    template void CcgSweeps<Dim>::set_any_stress(std::ptrdiff_t);                                         \
+    template void CcgSweeps<Dim>::set_finite_displacement_gradient(std::ptrdiff_t);                       \
+    template void CcgSweeps<Dim>::set_finite_stress(std::ptrdiff_t);                                      \
     template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                \
     template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
     template FiniteExtremes CcgSweeps<Dim>::finite_extremes() const;                                      \

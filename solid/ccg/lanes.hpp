@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "abut/base/large_array.hpp"
 #include "abut/base/vector.hpp"
 
 // Passing 32-byte vectors by value has no fixed ABI without AVX; everything here is inlined within one source file.
@@ -50,14 +51,14 @@ template <int Dim>
 inline constexpr std::size_t lane_width = Dim == 2 ? 2 : 4;
 
 template <int Dim>
-[[nodiscard]] inline Lanes<Dim> load_packed(const std::vector<double>& packed, std::ptrdiff_t i) {
+[[nodiscard]] inline Lanes<Dim> load_packed(const LargeArray<double>& packed, std::ptrdiff_t i) {
     Lanes<Dim> a;
     std::memcpy(&a.r, packed.data() + lane_width<Dim> * i, sizeof a.r);
     return a;
 }
 
 template <int Dim>
-inline void store(Lanes<Dim> a, std::vector<double>& packed, std::ptrdiff_t i) {
+inline void store(Lanes<Dim> a, LargeArray<double>& packed, std::ptrdiff_t i) {
     std::memcpy(packed.data() + lane_width<Dim> * i, &a.r, sizeof a.r);
 }
 
@@ -113,14 +114,14 @@ struct LaneTensor {
 
 /// Element i of a packed array of tensors, by columns: shape (n, Dim, Dim).
 template <int Dim>
-[[nodiscard]] inline LaneTensor<Dim> load_tensor(const std::vector<double>& packed, std::ptrdiff_t i) {
+[[nodiscard]] inline LaneTensor<Dim> load_tensor(const LargeArray<double>& packed, std::ptrdiff_t i) {
     LaneTensor<Dim> t;
     for (int j = 0; j < Dim; ++j) t.col[j] = load_packed<Dim>(packed, Dim * i + j);
     return t;
 }
 
 template <int Dim>
-inline void store_tensor(const LaneTensor<Dim>& t, std::vector<double>& packed, std::ptrdiff_t i) {
+inline void store_tensor(const LaneTensor<Dim>& t, LargeArray<double>& packed, std::ptrdiff_t i) {
     for (int j = 0; j < Dim; ++j) store(t.col[j], packed, Dim * i + j);
 }
 

@@ -34,6 +34,7 @@ void complete_gradients(const CcgArrays<Dim>& arrays, Region<Dim>& region) {
     for (const std::int32_t f : faces_of(arrays, region.displacement_gradient_cells)) {
         append_face_cells(arrays, f, region.input_cells);
         if (const BoundaryFace b = arrays.boundary_index[f]; b != no_face) {
+            if (arrays.simplices.condensed_face(arrays.cell_of(b)) == b) continue;
             const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
             region.reconstructed_boundary.push_back(b);
             region.input_cells.insert(region.input_cells.end(), boundary.cells.begin() + boundary.offsets[number_of(b)],

@@ -60,29 +60,64 @@ public:
     /// The nearest `wanted` cells of a body, or all if it has fewer, by distance, then number. Distances are whole multiples
     /// of `resolution` times the least one: which of two equal ones rounding made the smaller does not count, so that a mesh
     /// has the same stencils in any unit of length and anywhere.
-    [[nodiscard]] std::vector<Near> find(std::int32_t body, const Vector<Dim>& point, std::size_t wanted) const {
+    /// `guess` holds cells that may be near, of the query before: it saves time and changes nothing.
+    [[nodiscard]] std::vector<Near> find(std::int32_t body, const Vector<Dim>& point, std::size_t wanted,
+                                         std::vector<std::int32_t>& guess) const {
         const BodyTree& tree = *bodies_[body];
-        const std::size_t with_ties = 2 * wanted;
-        std::vector<std::uint32_t> index(with_ties);
-        std::vector<double> squared(with_ties);
-        const std::size_t n = tree.index.knnSearch(point.data(), with_ties, index.data(), squared.data());
-        const double unit = n > 0 && squared[0] > 0.0 ? resolution * std::sqrt(squared[0]) : 1.0;
-        std::vector<Near> near;
-        near.reserve(n);
-        for (std::size_t i = 0; i < n; ++i)
-            near.push_back(
-                {std::round(std::sqrt(squared[i]) / unit), tree.centroids.first_cell + static_cast<std::int32_t>(index[i])});
-        std::sort(near.begin(), near.end(),
-                  [](const Near& a, const Near& b) { return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell); });
-        near.resize(std::min(n, wanted));
+        auto near = tree.find(point, wanted + with_ties, guess);
+        // Of cells at one distance the tree found some: look at all of them.
+        if (near.size() == wanted + with_ties && near[wanted - 1].distance == near.back().distance)
+            near = tree.find(point, 2 * wanted, guess);
+        near.resize(std::min(near.size(), wanted));
         return near;
     }
 
 private:
     using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, BodyCentroids<Dim>>,
                                                      BodyCentroids<Dim>, Dim, std::uint32_t>;
+    static constexpr std::size_t with_ties = 3;
+
     struct BodyTree {
         explicit BodyTree(BodyCentroids<Dim> c) : centroids(c), index(Dim, centroids) { index.buildIndex(); }
+
+        /// The nearest `count` cells, or all if there are fewer, by distance, then number.
+        [[nodiscard]] std::vector<Near> find(const Vector<Dim>& point, std::size_t count,
+                                             std::vector<std::int32_t>& guess) const {
+            std::vector<std::uint32_t> place(count);
+            std::vector<double> squared(count);
+            nanoflann::KNNResultSet<double, std::uint32_t> found(count);
+            found.init(place.data(), squared.data());
+            squared.back() = bound_of(point, count, guess);
+            index.findNeighbors(found, point.data(), nanoflann::SearchParams());
+            const std::size_t n = found.size();
+            const double unit = n > 0 && squared[0] > 0.0 ? resolution * std::sqrt(squared[0]) : 1.0;
+            std::vector<Near> near;
+            near.reserve(n);
+            guess.clear();
+            for (std::size_t i = 0; i < n; ++i) {
+                guess.push_back(centroids.first_cell + static_cast<std::int32_t>(place[i]));
+                near.push_back({std::round(std::sqrt(squared[i]) / unit), guess.back()});
+            }
+            std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) {
+                return std::tie(a.distance, a.cell) < std::tie(b.distance, b.cell);
+            });
+            return near;
+        }
+        /// A squared distance within which there are `count` cells for sure: the tree need not look beyond.
+        [[nodiscard]] double bound_of(const Vector<Dim>& point, std::size_t count,
+                                      std::span<const std::int32_t> guess) const {
+            const auto n = static_cast<std::int32_t>(centroids.points.size());
+            double farthest = 0.0;
+            std::size_t n_known = 0;
+            for (const std::int32_t cell : guess) {
+                const std::int32_t i = cell - centroids.first_cell;
+                if (i < 0 || i >= n || n_known == count) continue;
+                farthest = std::max(farthest, (centroids.points[i] - point).squaredNorm());
+                ++n_known;
+            }
+            return n_known == count && farthest > 0.0 ? (1.0 + resolution) * farthest : std::numeric_limits<double>::max();
+        }
+
         BodyCentroids<Dim> centroids;
         Tree index;
     };
@@ -151,11 +186,12 @@ private:
 };
 
 template <int Dim>
-FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face, int& halvings) {
+FaceStencil<Dim> select(const mesh::Mesh<Dim>& mesh, const NearestCells<Dim>& nearest, std::int32_t face,
+                        std::vector<std::int32_t>& guess, int& halvings) {
     const std::int32_t cell = mesh.face_cells[face][0];
     // Regular layers may put the nearest centroids all in one plane: then look further.
     for (std::size_t wanted = n_nearest<Dim>; wanted <= 4 * n_nearest<Dim>; wanted *= 2) {
-        const auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted);
+        const auto near = nearest.find(mesh.cell_body[cell], mesh.face_centroid[face], wanted, guess);
         double smallest_volume = volume_floor * mesh.cell_measure[cell];
         for (halvings = 0; halvings <= max_floor_halvings; ++halvings, smallest_volume *= 0.5)
             if (auto found = SimplexSearch<Dim>(mesh, mesh.face_centroid[face], near, smallest_volume).best()) return *found;
@@ -176,8 +212,10 @@ std::vector<FaceStencil<Dim>> select_stencils(const mesh::Mesh<Dim>& mesh, std::
     const NearestCells<Dim> nearest(mesh);
     std::vector<FaceStencil<Dim>> stencils(faces.size());
     std::vector<int> halvings(faces.size(), 0);
-    parallel_each(static_cast<std::ptrdiff_t>(faces.size()),
-                  [&](std::ptrdiff_t i) { stencils[i] = select(mesh, nearest, faces[i], halvings[i]); });
+    parallel_ranges(static_cast<std::ptrdiff_t>(faces.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
+        std::vector<std::int32_t> guess;
+        for (std::ptrdiff_t i = begin; i < end; ++i) stencils[i] = select(mesh, nearest, faces[i], guess, halvings[i]);
+    });
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const double lowest = *std::min_element(stencils[i].weights.begin(), stencils[i].weights.end());
         ++report.faces;

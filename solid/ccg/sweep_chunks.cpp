@@ -22,24 +22,39 @@ inline constexpr std::size_t one_chunk = 1024;
 template <int Dim>
 void CcgSweeps<Dim>::set_chunks() {
     const CcgArrays<Dim>& a = arrays_;
-    const std::int32_t n_chunks = std::max(1, (a.n_cells() + chunk_size - 1) / chunk_size);
-    const auto position = [](const auto& sorted, std::int32_t value) {
+    const auto position = [](const auto& sorted, auto value) {
         return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
     };
-    for (std::int32_t k = 0; k <= n_chunks; ++k) {
-        const std::int32_t cell = std::min(k * chunk_size, a.n_cells());
+    const auto begin_chunk = [&](std::int32_t cell, std::int32_t end) {
         const auto face = static_cast<std::int32_t>(std::partition_point(a.face_cells.begin(), a.face_cells.end(),
                                                                          [&](const auto& side) { return side[0] < cell; }) -
                                                     a.face_cells.begin());
-        chunks_.push_back({cell, face, BoundaryFace{position(a.boundary_faces, face)}, position(a.boundary_cells, cell),
-                           finite_.any_in(cell, std::min(cell + chunk_size, a.n_cells()))});
-    }
+        const std::int32_t boundary = position(a.boundary_faces, face);
+        const auto condensed = std::ranges::lower_bound(a.simplices.condensed(), cell, {}, &CondensedCell::cell);
+        chunks_.push_back({.cell = cell,
+                           .face = face,
+                           .boundary = boundary,
+                           .row_face = position(a.row_faces, BoundaryFace{boundary}),
+                           .boundary_cell = position(a.boundary_cells, cell),
+                           .condensed = static_cast<std::int32_t>(condensed - a.simplices.condensed().begin()),
+                           .simplices = cell < end && a.simplices.contains(cell),
+                           .has_finite = finite_.any_in(cell, end)});
+    };
+    std::vector<std::int32_t> chunk_of(a.cells.size());
+    for (std::size_t body = 0; body + 1 < a.body_begin.size(); ++body)
+        for (std::int32_t cell = a.body_begin[body]; cell < a.body_begin[body + 1]; cell += chunk_size) {
+            const std::int32_t end = std::min(cell + chunk_size, a.body_begin[body + 1]);
+            std::fill(chunk_of.begin() + cell, chunk_of.begin() + end, static_cast<std::int32_t>(chunks_.size()));
+            begin_chunk(cell, end);
+        }
+    const auto n_chunks = static_cast<std::int32_t>(chunks_.size());
+    begin_chunk(a.n_cells(), a.n_cells());
 
     std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
     for (auto& stage : needs) stage.resize(static_cast<std::size_t>(n_chunks));
     const auto need = [&](Stage stage, std::int32_t cell, std::int32_t of_cell) {
-        auto& row = needs[stage - 1][cell / chunk_size];
-        if (const std::int32_t chunk = of_cell / chunk_size; row.empty() || row.back() != chunk) row.push_back(chunk);
+        auto& row = needs[stage - 1][chunk_of[cell]];
+        if (const std::int32_t chunk = chunk_of[of_cell]; row.empty() || row.back() != chunk) row.push_back(chunk);
     };
     for (const auto& [first, second] : a.face_cells) {
         need(displacement_gradients, second, first);  // a face's displacement is made with its first side
@@ -47,8 +62,15 @@ void CcgSweeps<Dim>::set_chunks() {
         need(stresses, second, first);
         need(face_gradients, first, second);
     }
+    for (std::int32_t f = 0; f < a.n_faces(); ++f)
+        if (a.boundary_index[f] == no_face)
+            for (const std::int32_t c : a.stencils[f].cells) need(reconstruction, a.face_cells[f][0], c);
+    for (const BoundaryFace b : a.row_faces)
+        for (std::int32_t i = a.boundary.offsets[number_of(b)]; i < a.boundary.offsets[number_of(b) + 1]; ++i)
+            need(reconstruction, a.cell_of(b), a.boundary.cells[i]);
     for (std::int32_t c = 0; c < a.n_cells(); ++c) {
-        for (const Stage stage : {displacement_gradients, stresses, face_gradients, cell_gradients}) need(stage, c, c);
+        for (const Stage stage : {reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients})
+            need(stage, c, c);
         for (std::int32_t i = a.of_cell.offsets[c]; i < a.of_cell.offsets[c + 1]; ++i)
             need(cell_gradients, c, a.face_cells[a.of_cell.rows[i]][0]);
         if (const std::int32_t p = a.boundary_cell_position[c]; p >= 0)
@@ -70,18 +92,18 @@ void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
                           n(region.displacement_gradient_cells), n(region.stress_cells), n(region.energy_gradient_faces)}};
         return;
     }
-    for (const Chunk& chunk : chunks_) {
-        const auto position = [](const auto& list, auto first) {
-            return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
-        };
-        region.chunks.push_back({.face = position(region.faces, chunk.boundary),
-                                 .cell = position(region.cells, chunk.cell),
-                                 .reconstructed = position(region.reconstructed, chunk.face),
-                                 .reconstructed_boundary = position(region.reconstructed_boundary, chunk.boundary),
-                                 .displacement_gradient_cell = position(region.displacement_gradient_cells, chunk.cell),
-                                 .stress_cell = position(region.stress_cells, chunk.cell),
-                                 .energy_gradient_face = position(region.energy_gradient_faces, chunk.face)});
-    }
+    const auto position = [](const auto& list, auto first) {
+        return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
+    };
+    for (const Chunk& chunk : chunks_)
+        region.chunks.push_back(
+            {.face = position(region.faces, BoundaryFace{chunk.boundary}),
+             .cell = position(region.cells, chunk.cell),
+             .reconstructed = position(region.reconstructed, chunk.face),
+             .reconstructed_boundary = position(region.reconstructed_boundary, BoundaryFace{chunk.boundary}),
+             .displacement_gradient_cell = position(region.displacement_gradient_cells, chunk.cell),
+             .stress_cell = position(region.stress_cells, chunk.cell),
+             .energy_gradient_face = position(region.energy_gradient_faces, chunk.face)});
 }
 
 #define ABUT_INSTANTIATE(Dim)                   \

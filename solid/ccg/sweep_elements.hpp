@@ -14,32 +14,39 @@ template <int Dim>
     for (int j = 0; j < Dim; ++j) trace += g.col[j][j];
     LaneTensor<Dim> sigma;
     for (int j = 0; j < Dim; ++j) {
-        sigma.col[j] = cell.mu * (g.col[j] + transposed.col[j]);
-        sigma.col[j].r[j] += cell.lambda * trace;
+        Lanes<Dim> unit;
+        unit.r[j] = 1.0;
+        sigma.col[j] = cell.mu * (g.col[j] + transposed.col[j]) + (cell.lambda * trace) * unit;
     }
     return sigma;
 }
 
+// Displacements enter by their differences to that of a cell nearby: a translation of the body costs no accuracy.
+
+/// Of a face of a simplex in the mean of all of them.
 template <int Dim>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(const std::vector<double>& u,
-                                                                       std::ptrdiff_t f) const {
+inline constexpr double simplex_share = 1.0 / (Dim + 1);
+
+template <int Dim>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(const LargeArray<double>& u, std::ptrdiff_t f) const {
     const FaceStencil<Dim>& stencil = arrays_.stencils[f];
-    const Lanes<Dim> origin = load_packed<Dim>(u, arrays_.face_cells[f][0]);
-    Lanes<Dim> sum;
-    for (int j = 0; j <= Dim; ++j) sum += stencil.weights[j] * (load_packed<Dim>(u, stencil.cells[j]) - origin);
+    const Lanes<Dim> u_0 = load_packed<Dim>(u, stencil.cells[0]);
+    Lanes<Dim> sum = u_0 - load_packed<Dim>(u, arrays_.face_cells[f][0]);
+    for (int j = 1; j <= Dim; ++j) sum += stencil.weights[j] * (load_packed<Dim>(u, stencil.cells[j]) - u_0);
     return sum;
 }
 
+/// relative(f): u_f less that of its first side.
 template <int Dim>
-[[gnu::always_inline]] inline LaneTensor<Dim> CcgSweeps<Dim>::gradient_of(const std::vector<double>& u,
-                                                                          const std::vector<double>& relative,
-                                                                          std::ptrdiff_t c) const {
+template <class Relative>
+[[gnu::always_inline]] inline LaneTensor<Dim> CcgSweeps<Dim>::gradient_of(const LargeArray<double>& u, std::ptrdiff_t c,
+                                                                          const Relative& relative) const {
     const Lanes<Dim> u_c = load_packed<Dim>(u, c);
     LaneTensor<Dim> g{};
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];
         const double sign = half_face.first == c ? 1.0 : -1.0;
-        g.add_outer(sign * (load_packed<Dim>(relative, half_face.face) + (load_packed<Dim>(u, half_face.first) - u_c)),
+        g.add_outer(sign * (relative(half_face.face) + (load_packed<Dim>(u, half_face.first) - u_c)),
                     arrays_.faces[half_face.face].area_vector);
     }
     for (Lanes<Dim>& column : g.col) column = arrays_.cells[c].inverse_measure * column;
@@ -55,7 +62,7 @@ template <int Dim>
 
 template <int Dim>
 [[gnu::always_inline]] inline void CcgSweeps<Dim>::set_displacement_gradient(std::ptrdiff_t c) {
-    const LaneTensor<Dim> g = gradient_of(u_, relative_, c);
+    const LaneTensor<Dim> g = gradient_of(u_, c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
     store_tensor(g, g_, c);
     set_traces(c, g);
 }
@@ -83,6 +90,54 @@ template <int Dim>
     const LaneTensor<Dim> sigma = elastic_stress(arrays_.cells[c], load_tensor<Dim>(g_, c));
     for (int j = 0; j < Dim; ++j) sum.col[j] = sigma.col[j] + sum.col[j];
     store_tensor(sum, s_, c);
+}
+
+template <int Dim>
+inline Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(const LargeArray<double>& u, BoundaryFace face,
+                                                         const BoundaryLoad<Dim>& boundary_load) const {
+    const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
+    const Lanes<Dim> origin = load_packed<Dim>(u, arrays_.cell_of(face));
+    const std::int32_t b = number_of(face);
+    Lanes<Dim> sum;
+    for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
+        sum += arrays_.boundary_weights[i] * (load_packed<Dim>(u, boundary.cells[i]) - origin);
+    sum += load_packed<Dim>(correction_, b);
+    if (boundary_load.displacement.empty()) return sum;
+    return sum + load_packed<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::interior_gradient(std::ptrdiff_t f) const {
+    const auto [a, b] = arrays_.face_cells[f];
+    LaneTensor<Dim> difference = load_tensor<Dim>(s_, a);
+    const LaneTensor<Dim> other = load_tensor<Dim>(s_, b);
+    for (int j = 0; j < Dim; ++j) difference.col[j] -= other.col[j];
+    return difference.times(arrays_.faces[f].area_vector);
+}
+
+template <int Dim>
+inline Lanes<Dim> CcgSweeps<Dim>::boundary_gradient(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
+    const std::int32_t f = arrays_.face_of(face), b = number_of(face), c = arrays_.face_cells[f][0];
+    Lanes<Dim> gradient = load_tensor<Dim>(s_, c).times(arrays_.faces[f].area_vector) + load_packed<Dim>(pair_gradient_, b);
+    if (arrays_.simplices.contains(c)) gradient -= simplex_share<Dim> * load_packed<Dim>(direct_, c);
+    return boundary_load.traction.empty() ? gradient : gradient - load_packed<Dim>(boundary_load.traction[b]);
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::cell_gradient(std::ptrdiff_t c) const {
+    const auto& [offsets, rows, weights] = arrays_.of_cell;
+    Lanes<Dim> sum = load_packed<Dim>(direct_, c);
+    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i) sum += weights[i] * load_packed<Dim>(of_face_, rows[i]);
+    return sum;
+}
+
+template <int Dim>
+inline Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t position) const {
+    const auto& [offsets, rows, weights] = arrays_.of_boundary_cell;
+    Lanes<Dim> sum;
+    for (std::int32_t i = offsets[position]; i < offsets[position + 1]; ++i)
+        sum += weights[i] * load_packed<Dim>(boundary_y_, number_of(rows[i]));
+    return sum;
 }
 
 }  // namespace abut::solid

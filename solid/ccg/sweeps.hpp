@@ -14,6 +14,13 @@
 
 namespace abut::solid {
 
+/// sigma of a simplex, and the sum of u_f - u_c over its faces.
+template <int Dim>
+struct SimplexState {
+    LaneTensor<Dim> stress;
+    Lanes<Dim> sum;
+};
+
 /// The operators of CcgArrays applied to a displacement, element by element, in five sweeps:
 ///
 ///     faces   û_f or u_f by the stencils
@@ -22,7 +29,14 @@ namespace abut::solid {
 ///     faces   y_f = (S_1 - S_2) |f| n_f
 ///     cells   dV/du_c = sum of k [u] + R^T y
 ///
-/// A sweep writes each of its elements once and reads what the sweep before has written.
+/// A sweep writes each of its elements once and reads what the sweep before has written. Bodies of simplices take less:
+///
+///     cells   sigma_c, and d_c = u_c less the mean of u_f: [u] = d_1 - d_2, as G_c (x_f - x_c) = u_f less that mean
+///     cells   D_c = sum of k (d_c - d of the neighbour) = sum of k [u]
+///     faces   y_f = (sigma_1 - sigma_2) |f| n_f - (D_1 + D_2)/(Dim + 1)
+///
+/// and in a condensed cell the free face follows from the others: û_b - u_c = -A_bb^-1 sigma' |b| n_b, sigma' without it; with
+/// z = A_bb^-1 y_b, R^T y_b is what the stress -C:(z (x) |b| n_b)/|c| does on the faces of the cell.
 template <int Dim>
 class CcgSweeps {
 public:
@@ -33,8 +47,11 @@ public:
 
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
-    /// The same; the arrays of displacements are exchanged.
-    void gradient_of_packed(std::vector<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+    /// The same of the mean of both ends.
+    void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                       std::span<Vector<Dim>> result);
+    /// The same of u; the arrays of displacements are exchanged.
+    void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
     /// V without the work of the loads [J].
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
@@ -53,30 +70,33 @@ public:
     /// See Ccg.
     [[nodiscard]] FiniteExtremes finite_extremes() const;
 
-    // Of the last call.
-    [[nodiscard]] Vector<Dim> face_displacement(std::int32_t f) const {
-        return unload<Dim>(load_packed<Dim>(relative_, f) + load_packed<Dim>(u_, arrays_.face_cells[f][0]));
+    // Of the last call; displacement gradients and stresses of simplices are made from face and cell displacements.
+    [[nodiscard]] Vector<Dim> face_displacement(BoundaryFace b) const {
+        return unload<Dim>(load_packed<Dim>(of_face_, arrays_.face_of(b)) + load_packed<Dim>(u_, arrays_.cell_of(b)));
     }
-    [[nodiscard]] Vector<Dim> face_gradient(std::int32_t f) const { return unload<Dim>(load_packed<Dim>(y_, f)); }
-    [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(load_tensor<Dim>(g_, c)); }
+    [[nodiscard]] Vector<Dim> face_gradient(BoundaryFace b) const {
+        return unload<Dim>(load_packed<Dim>(boundary_y_, number_of(b)));
+    }
+    [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(present_gradient(c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
 
 private:
     class PlacedCorrections;
-    enum Stage { reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
-    struct Chunk {  // where it begins among the cells, faces, boundary faces and boundary_cells
-        std::int32_t cell, face;
-        BoundaryFace boundary;
-        std::int32_t boundary_cell;
-        bool has_finite = false;  // it holds cells of FiniteCells
+    enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
+    /// Of one body. Where it begins among the cells, faces, boundary faces, row_faces, boundary_cells and condensed cells.
+    struct Chunk {
+        std::int32_t cell, face, boundary, row_face, boundary_cell, condensed;
+        bool simplices;   // its cells are of Simplices
+        bool has_finite;  // its cells are of FiniteCells
     };
 
     // One element
     [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load_packed<Dim>(u_, c); }
-    [[nodiscard]] Lanes<Dim> reconstructed(const std::vector<double>& u, std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> reconstructed_boundary(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
-    [[nodiscard]] LaneTensor<Dim> gradient_of(const std::vector<double>& u, const std::vector<double>& relative,
-                                              std::ptrdiff_t c) const;
+    [[nodiscard]] Lanes<Dim> reconstructed(const LargeArray<double>& u, std::ptrdiff_t f) const;
+    [[nodiscard]] Lanes<Dim> reconstructed_boundary(const LargeArray<double>& u, BoundaryFace b,
+                                                    const BoundaryLoad<Dim>& boundary_load) const;
+    template <class Relative>
+    [[nodiscard]] LaneTensor<Dim> gradient_of(const LargeArray<double>& u, std::ptrdiff_t c, const Relative& relative) const;
     void set_traces(std::ptrdiff_t c, const LaneTensor<Dim>& g);
     void set_displacement_gradient(std::ptrdiff_t c);
     [[nodiscard]] LaneTensor<Dim> sum_jumps(std::ptrdiff_t c);
@@ -85,32 +105,57 @@ private:
     [[nodiscard]] Lanes<Dim> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
+    [[nodiscard]] LaneTensor<Dim> present_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
 
-    // One element of a finite body, or of any
+    // One element of a body of simplices
+    template <class Relative>
+    [[nodiscard]] SimplexState<Dim> simplex_state(const LargeArray<double>& u, std::int32_t c,
+                                                  const Relative& relative) const;
+    [[nodiscard]] Lanes<Dim> condensed_face(const CondensedCell& condensed, const LaneTensor<Dim>& stress,
+                                            const BoundaryLoad<Dim>& boundary_load) const;
+    void add_condensed_face(const CondensedCell& condensed, const BoundaryLoad<Dim>& boundary_load);
+    void set_simplex_stress(std::int32_t c);
+    void set_simplex_jumps(std::int32_t c);
+    [[nodiscard]] Lanes<Dim> interior_gradient_of_simplices(std::ptrdiff_t f) const;
+    void condense(const CondensedCell& condensed, const BoundaryLoad<Dim>& boundary_load);
+
+    // One element of any body
+    [[nodiscard]] Lanes<Dim> any_boundary_displacement(const LargeArray<double>& u, BoundaryFace b,
+                                                       const BoundaryLoad<Dim>& boundary_load) const;
+    void set_any_displacement_gradient(std::int32_t c, const BoundaryLoad<Dim>& boundary_load);
+    void set_any_stress(std::int32_t c);
+    void answer_to_corrections(std::int32_t c, const BoundaryLoad<Dim>& boundary_load);
+    void set_any_face_gradient(std::int32_t f);
+
+    // One element of a finite body
     [[nodiscard]] LaneTensor<Dim> finite_stress(std::ptrdiff_t c, const LaneTensor<Dim>& strain) const;
     [[nodiscard]] CellStretch end_stretch(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::ptrdiff_t c);
     void set_finite_stress(std::ptrdiff_t c);
-    void set_any_displacement_gradient(std::ptrdiff_t c);
-    void set_any_stress(std::ptrdiff_t c);
     void load_change(const StepEnds<Dim>& ends);
     void add_moments(std::int32_t begin, std::int32_t end);
     [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace b) const;
     [[nodiscard]] Matrix<Dim> cauchy_stress(std::int32_t c) const;
 
-    void run_sweeps(const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
+    template <class LoadCell>
+    void run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
+                    std::span<Vector<Dim>> result);
 
     // One chunk
     void set_chunks();
-    [[nodiscard]] auto boundary_of_chunk(std::int32_t k) const {
-        return id_range(chunks_[k].boundary, chunks_[k + 1].boundary);
+    template <class T>
+    [[nodiscard]] auto of_chunk(std::int32_t k, const T& list, std::int32_t Chunk::*begin) const {
+        return std::span(list).subspan(static_cast<std::size_t>(chunks_[k].*begin),
+                                       static_cast<std::size_t>(chunks_[k + 1].*begin - chunks_[k].*begin));
     }
+    template <class Body>
+    void for_interior_faces(std::int32_t k, const Body& body) const;
     void load_displacement(std::span<const Vector<Dim>> u);
     void reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
-    void displacement_gradients_of_chunk(std::int32_t k);
-    void stresses_of_chunk(std::int32_t k);
+    void displacement_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
+    void stresses_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
     void face_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
 
@@ -123,20 +168,21 @@ private:
     const CcgArrays<Dim>& arrays_;
     const FiniteCells<Dim>& finite_;
     // Work arrays of registers.
-    std::vector<double> u_;              // displacement, by cell
-    std::vector<double> relative_;       // u_f - u_c of the first side, by face
-    std::vector<double> g_;              // displacement gradient, by cell
-    std::vector<double> trace_;          // I_c(x_f) - u_c of the first side, by half-face
-    std::vector<double> s_;              // S_c, by cell
-    std::vector<double> direct_;         // sum of k [u], by cell
-    std::vector<double> y_;              // dV/dũ_f, by face
-    std::vector<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
-    std::vector<double> pair_gradient_;  // by boundary face; zero but during a call
-    CellMoments<Dim> moments_;           // empty except during a call
+    LargeArray<double> u_;              // displacement, by cell
+    LargeArray<double> of_face_;        // u_f - u_c of the first side, later y of interior faces, by face
+    LargeArray<double> g_;              // displacement gradient, by cell
+    LargeArray<double> trace_;          // I_c(x_f) - u_c of the first side, by half-face
+    LargeArray<double> s_;              // S_c, by cell
+    LargeArray<double> deviation_;      // d_c, by cell of simplices
+    LargeArray<double> direct_;         // sum of k [u], by cell
+    LargeArray<double> boundary_y_;     // dV/dũ_f, by boundary face
+    LargeArray<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
+    LargeArray<double> pair_gradient_;  // by boundary face; zero but during a call
+    CellMoments<Dim> moments_;          // empty except during a call
     // Of finite bodies, changes from the start of a step to its end; empty without any.
-    std::vector<double> u_change_;
-    std::vector<double> relative_change_;
-    std::vector<double> g_change_;
+    LargeArray<double> u_change_;
+    LargeArray<double> relative_change_;
+    LargeArray<double> g_change_;
     std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
     bool has_change_ = false;
     std::vector<Chunk> chunks_;  // one more at the end

@@ -28,7 +28,7 @@ void require_width(const Matrix<Dim>& second_moment, const std::string& name) {
                    "choose Kinematics::small or Kinematics::rigid for it.");
 }
 
-Register4 load_four(const std::vector<double>& values, std::ptrdiff_t i) {
+Register4 load_four(const LargeArray<double>& values, std::ptrdiff_t i) {
     Register4 four;
     std::memcpy(&four, values.data() + 4 * i, sizeof four);
     return four;
@@ -211,7 +211,7 @@ void BodyFrames<Dim>::displacement(std::span<const std::int32_t> points, std::sp
 
 template <int Dim>
 double BodyFrames<Dim>::take_midpoints(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                                       std::vector<double>& packed) const {
+                                       LargeArray<double>& packed) const {
     double farthest = 0.0;
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         const IntoFrame from(*this, body, start()[body]), to(*this, body, end()[body]);

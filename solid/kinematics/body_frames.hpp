@@ -63,7 +63,7 @@ public:
     /// The mean of u at both ends, packed: lane_width numbers per point [m]. No point moves farther in its frame than what is
     /// returned [m]; NaN if one does not move by a number.
     double take_midpoints(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
-                          std::vector<double>& packed) const;
+                          LargeArray<double>& packed) const;
     /// `force` less dV/dx, from dV/du (all n_points) and the pushes on each body [N]; without pushes or force: none. The
     /// result takes the place of the gradient. Remembers what makes up for missing moments.
     void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<const BodyPush<Dim>> pushes,
@@ -78,13 +78,13 @@ private:
     [[nodiscard]] Lanes<Dim> rest_arm(std::ptrdiff_t point) const { return load_packed<Dim>(arm_, point); }
     class IntoFrame;
 
-    std::vector<double> arm_;           // X', packed, by point
-    std::vector<double> weighted_arm_;  // (m X', m), four numbers per point
+    LargeArray<double> arm_;           // X', packed, by point
+    LargeArray<double> weighted_arm_;  // (m X', m), four numbers per point
     std::vector<std::int32_t> begin_;
     std::vector<bool> turns_;
     bool any_turns_ = false;
     std::vector<BodyFrame<Dim>> rest_;
-    std::vector<double> mass_;        // of each body [kg]
+    LargeArray<double> mass_;         // of each body [kg]
     std::vector<std::int32_t> body_;  // of each point
     std::vector<BodyFrame<Dim>> start_, end_, state_;
     std::vector<FrameStep<Dim>> steps_;

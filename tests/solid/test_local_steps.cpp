@@ -149,18 +149,22 @@ TEST_CASE("local steps: levels are stable by themselves, away from resonances, a
     REQUIRE(local.cells.size() >= 3);
     CHECK(local.dt == stable.dt * local.steps.parts.back());
     const Eigen::MatrixXd k = dense_stiffness(solid);
+    double nearest_to_bound = 0.0;
     for (std::size_t l = 0; l < local.cells.size(); ++l) {
         CHECK(local.cells[l] > 0);
         const double allowed = 0.85 * 2.0 / (local.dt / local.steps.parts[l]);  // 0.85: the margin for contact
         const double omega = highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 2));
         CHECK(omega < allowed);
         CHECK(local.omega_max[l] >= omega);
-        CHECK(local.omega_max[l] < 1.1 * omega);
+        CHECK(local.omega_max[l] <= allowed * (1.0 + 1e-14));
+        nearest_to_bound = std::max(nearest_to_bound, omega / local.omega_max[l]);
         // Two steps of the next level in one of this: what resonates with it has sqrt(2) times its frequency.
-        if (l + 1 < local.cells.size())
-            CHECK(highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 5)) <
-                  std::sqrt(2.0) * allowed);
+        if (l + 1 == local.cells.size()) continue;
+        const double resonant = highest_frequency(solid, k, cells_near(mesh, local, static_cast<std::int32_t>(l), 5));
+        CHECK(resonant < std::sqrt(2.0) * allowed);
+        CHECK(resonant <= std::sqrt(2.0) * local.omega_max[l]);
     }
+    CHECK(nearest_to_bound > 1.0 / 1.1);  // of one level at least: the bound is shown for all of them together
     const auto cell_level = [&](std::int32_t c) { return local.steps.level[static_cast<std::size_t>(c) * 2]; };
     const auto at = [&](const Vector<2>& x) {
         std::int32_t nearest = 0;

@@ -1,0 +1,51 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace abut::dynamics {
+
+/// Search for the highest mode of W K x = lambda x, with W diagonal: the inverse mass, or that times squares of steps. Each
+/// iteration takes one product with K, and the largest Rayleigh quotient over x, its residual and the last direction: the
+/// locally optimal conjugate gradients of A. V. Knyazev, SIAM J. Sci. Comput. 23 (2001) 517-541, with one vector. It is
+/// where a power iteration is after several times as many products, and goes on from where it is when W changes. The bits
+/// do not depend on the number of threads.
+class ModeSearch {
+public:
+    using Product = std::function<void(std::span<const double> x, std::span<double> product)>;
+
+    /// From a fixed random start. `stiffness` sets product = K x, n numbers each.
+    ModeSearch(std::size_t n, Product stiffness);
+
+    /// Gives W (n) [1/kg, or times s^2]; 0 holds a degree of freedom. To be called before `iterate`, and whenever W changes:
+    /// the count begins again then. Throws BadInput if nothing is free.
+    void set_weights(std::span<const double> weights);
+    void iterate();
+
+    [[nodiscard]] double quotient() const { return quotient_; }  ///< Rayleigh quotient of x, a lower bound of lambda
+    [[nodiscard]] double change() const { return change_; }      ///< relative, in the last iteration
+    [[nodiscard]] int iterations() const { return iterations_; }
+    [[nodiscard]] std::span<const double> x() const { return x_.vector; }                    ///< x . W^-1 x = 1
+    [[nodiscard]] double image(std::size_t i) const { return weights_[i] * x_.product[i]; }  ///< (W K x)_i
+
+private:
+    struct Direction {
+        std::vector<double> vector, product;  ///< of K with it
+    };
+    void set_residual();
+    void step_to_largest();
+    void combine(const Eigen::Vector3d& c, const Eigen::Vector3d& d);
+
+    Product stiffness_;
+    std::vector<double> weights_, masses_;  ///< 1/W, 0 where held
+    Direction x_, residual_, last_;
+    double quotient_ = 0.0, change_ = 0.0;
+    int iterations_ = 0;
+    Eigen::Matrix3d stiffness_of_ = Eigen::Matrix3d::Zero();  ///< products u_i . K u_j of x, residual and last direction
+    Eigen::Matrix3d mass_of_ = Eigen::Matrix3d::Identity();   ///< the same with W^-1
+    bool has_last_ = false;
+};
+
+}  // namespace abut::dynamics

@@ -1,0 +1,97 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace abut::dynamics {
+
+/// Terms of a sum over points: those whose number is in [first, last), each with `per_point` values of `width` components.
+struct Summands {
+    std::int32_t per_point = 1;
+    std::int32_t width = 1;
+    std::int32_t first = 0;
+    std::int32_t last = std::numeric_limits<std::int32_t>::max();
+};
+
+/// The ranks that the points of a system are shared out to, as one of them sees them; a system on one rank has none of this
+/// (a null pointer). The points of a rank are numbered in the order of their numbers among all points.
+///
+/// Every function but the first four is a call of all ranks together: each waits until the others call the same.
+class Ranks {
+public:
+    virtual ~Ranks() = default;
+
+    [[nodiscard]] virtual int rank() const = 0;  ///< this one, from 0
+    /// Of this rank's points among all, increasing (n_owned).
+    [[nodiscard]] virtual std::span<const std::int32_t> numbers() const = 0;
+    [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
+    [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
+
+    /// Fills what this rank copies of others: values by cell of its part of the mesh (n_cells, width).
+    virtual void fill(std::span<double> values, int width) const = 0;
+    /// Sums of the terms of all ranks by component (width), with the bits that one rank gets which adds all of them up in
+    /// blocks of 1,024 values (base/parallel.hpp). `terms` are those of this rank's points in the range (n, per_point, width).
+    virtual void sum(const Summands& summands, std::span<const double> terms, std::span<double> total) const = 0;
+    /// start + the terms of all ranks, one after the other by number. `numbers`: of this rank's terms, increasing.
+    [[nodiscard]] virtual double fold(double start, std::span<const std::int32_t> numbers,
+                                      std::span<const double> terms) const = 0;
+    /// The largest of all ranks; NaN if one is.
+    [[nodiscard]] virtual double largest(double value) const = 0;
+    /// Returns where no rank brings an error. Else it throws on all ranks: the rank's own error, or that of the first rank
+    /// that has one, as an error of the same type with the rank in front.
+    virtual void agree(const std::exception_ptr& error) const = 0;
+};
+
+/// Calls body() and agrees on how it ended. `body` must not call what all ranks call together. Null: it is called.
+template <class Body>
+void agreed(const Ranks* ranks, const Body& body) {
+    if (!ranks) return body();
+    std::exception_ptr error;
+    try {
+        body();
+    } catch (...) {
+        error = std::current_exception();
+    }
+    ranks->agree(error);
+}
+
+/// Sum of term(i) over the values of a system, i being numbered on this rank: `ordered_sum` over those of all ranks.
+/// `Value` is a double or a vector.
+template <class Value, class Term>
+[[nodiscard]] Value sum_over(const Ranks& ranks, Summands summands, std::ptrdiff_t n, const Value& zero, const Term& term) {
+    const auto as_numbers = [](auto& value) {
+        if constexpr (std::is_same_v<Value, double>)
+            return std::span(&value, 1);
+        else
+            return std::span(value.data(), static_cast<std::size_t>(value.size()));
+    };
+    Value total = zero;
+    summands.width = static_cast<std::int32_t>(as_numbers(total).size());
+    std::vector<double> terms;
+    terms.reserve(static_cast<std::size_t>(n * summands.width));
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        const Value value = term(i);
+        const auto numbers = as_numbers(value);
+        terms.insert(terms.end(), numbers.begin(), numbers.end());
+    }
+    ranks.sum(summands, terms, as_numbers(total));
+    return total;
+}
+
+/// The ranks of a system that says so; null for all others.
+template <class S>
+[[nodiscard]] const Ranks* ranks_of(const S& system) {
+    if constexpr (requires { system.ranks(); })
+        return system.ranks();
+    else
+        return nullptr;
+}
+
+/// Throws BadInput, saying that `what` is not made for several ranks, where there are ranks.
+void refuse_ranks(const Ranks* ranks, const char* what);
+
+}  // namespace abut::dynamics

@@ -1,0 +1,126 @@
+// The search for highest modes against dense eigenvalues.
+#include <oneapi/tbb/global_control.h>
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/dynamics/mode_search.hpp"
+#include "abut/dynamics/power_iteration.hpp"
+
+using namespace abut;
+using dynamics::ModeSearch;
+
+namespace {
+
+/// A chain of springs of random stiffness between walls.
+struct Chain {
+    std::vector<double> stiffness;  ///< of spring i before mass i; one more than masses
+    std::vector<double> weights;    ///< 1/m
+
+    explicit Chain(std::size_t n, unsigned seed = 1) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> value(0.5, 2.0);
+        for (std::size_t i = 0; i <= n; ++i) stiffness.push_back(value(random));
+        for (std::size_t i = 0; i < n; ++i) weights.push_back(value(random));
+    }
+    [[nodiscard]] std::size_t size() const { return weights.size(); }
+    [[nodiscard]] ModeSearch::Product product() const {
+        return [this](std::span<const double> x, std::span<double> k_x) {
+            const auto at = [&](std::size_t i) { return i < size() ? x[i] : 0.0; };  // the wall on the left is at size_t(-1)
+            for (std::size_t i = 0; i < size(); ++i)
+                k_x[i] = stiffness[i] * (x[i] - at(i - 1)) + stiffness[i + 1] * (x[i] - at(i + 1));
+        };
+    }
+    /// The largest eigenvalue of W K on what has a weight.
+    [[nodiscard]] double highest() const {
+        const auto n = static_cast<Eigen::Index>(size());
+        Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n, n);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            a(i, i) = weights[i] * (stiffness[i] + stiffness[i + 1]);
+            if (i + 1 < n) a(i, i + 1) = a(i + 1, i) = -stiffness[i + 1] * std::sqrt(weights[i] * weights[i + 1]);
+        }
+        return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+    }
+};
+
+void iterate(ModeSearch& search, int iterations) {
+    for (int i = 0; i < iterations; ++i) search.iterate();
+}
+
+}  // namespace
+
+TEST_CASE("mode search: the quotient rises to the highest eigenvalue and never above it", "[dynamics][mode-search]") {
+    const Chain chain(300, GENERATE(1u, 2u, 3u));
+    ModeSearch search(chain.size(), chain.product());
+    search.set_weights(chain.weights);
+    const double highest = chain.highest();
+    double before = search.quotient();
+    for (int i = 0; i < 200; ++i) {
+        search.iterate();
+        CHECK(search.quotient() >= before * (1.0 - 1e-13));
+        CHECK(search.quotient() <= highest * (1.0 + 1e-13));
+        before = search.quotient();
+    }
+    CHECK(search.quotient() == Approx(highest).epsilon(1e-12));
+    CHECK(search.iterations() == 200);
+    double norm = 0.0, residual = 0.0;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+        norm += search.x()[i] * search.x()[i] / chain.weights[i];
+        residual = std::max(residual, std::abs(search.image(i) - search.quotient() * search.x()[i]));
+    }
+    CHECK(norm == Approx(1.0).epsilon(1e-10));
+    CHECK(residual < 1e-5);
+}
+
+TEST_CASE("mode search: a third of the products of a power iteration gives more", "[dynamics][mode-search]") {
+    const Chain chain(3000, GENERATE(1u, 2u, 3u));
+    const auto power = dynamics::highest_mode(chain.weights, chain.product());
+    ModeSearch search(chain.size(), chain.product());
+    search.set_weights(chain.weights);
+    iterate(search, power.iterations / 3);
+    CHECK(search.quotient() > power.quotient);
+}
+
+TEST_CASE("mode search: what has no weight is held, and other weights are gone on with", "[dynamics][mode-search]") {
+    Chain chain(300);
+    ModeSearch search(chain.size(), chain.product());
+    search.set_weights(chain.weights);
+    iterate(search, 20);
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        if (i % 7 < 2 || i > 200) chain.weights[i] = 0.0;
+    for (std::size_t i = 100; i < 120; ++i) chain.weights[i] *= 3.0;
+    search.set_weights(chain.weights);
+    CHECK(search.iterations() == 0);
+    iterate(search, 150);
+    CHECK(search.quotient() == Approx(chain.highest()).epsilon(1e-12));
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        if (chain.weights[i] == 0.0) REQUIRE(search.x()[i] == 0.0);
+}
+
+TEST_CASE("mode search: at a mode it stays, and with nothing free it is refused", "[dynamics][mode-search]") {
+    Chain chain(1);
+    ModeSearch search(1, chain.product());
+    search.set_weights(chain.weights);
+    iterate(search, 3);
+    CHECK(search.quotient() == Approx(chain.highest()).epsilon(1e-14));
+    CHECK(search.change() < 1e-14);
+    CHECK_THROWS_AS(search.set_weights(std::vector<double>{0.0}), BadInput);
+}
+
+TEST_CASE("mode search: the same bits on any number of threads", "[dynamics][mode-search][reproducible]") {
+    const Chain chain(20'000);
+    std::vector<double> quotients;
+    for (const std::size_t threads : {1u, 2u, 3u}) {
+        const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+        ModeSearch search(chain.size(), chain.product());
+        search.set_weights(chain.weights);
+        iterate(search, 10);
+        quotients.push_back(search.quotient());
+    }
+    CHECK(quotients[1] == quotients[0]);
+    CHECK(quotients[2] == quotients[0]);
+}
