@@ -48,6 +48,12 @@ if(solid IN_LIST abut_wanted_layers)
   abut_find(LBFGSpp "" ARGS MODULE TARGETS LBFGSpp::LBFGSpp)
 endif()
 
+if(ranks IN_LIST abut_wanted_layers)
+  set(MPI_CXX_SKIP_MPICXX ON)  # nobody uses the bindings for C++
+  abut_find(MPI 3.0 ARGS MODULE COMPONENTS C TARGETS MPI::MPI_C)
+  abut_find(Zoltan 3.8 ARGS MODULE TARGETS Zoltan::Zoltan)
+endif()
+
 if(run IN_LIST abut_wanted_layers)
   abut_find(HDF5 1.10 ARGS MODULE COMPONENTS C CXX TARGETS hdf5::hdf5 hdf5::hdf5_cpp)
   abut_find(fmt 9.1 ARGS CONFIG TARGETS fmt::fmt)

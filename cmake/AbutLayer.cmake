@@ -104,7 +104,7 @@ function(abut_install_package)
     ${PROJECT_BINARY_DIR}/package/abutConfig.cmake INSTALL_DESTINATION ${abut_package_dir})
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/package/abutConfig.cmake ${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLBFGSpp.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLBFGSpp.cmake ${PROJECT_SOURCE_DIR}/cmake/FindZoltan.cmake
     DESTINATION ${abut_package_dir} COMPONENT development)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC
     COMPONENT libraries)

@@ -1,10 +1,11 @@
 # Which layers are built: those of ABUT_LAYERS and all that they build on, lower ones first, in abut_wanted_layers.
-set(abut_all_layers base geometry mesh contact dynamics solid run input)
+set(abut_all_layers base geometry mesh contact dynamics solid ranks run input)
 set(abut_below_geometry base)
 set(abut_below_mesh geometry)
 set(abut_below_contact geometry)
 set(abut_below_dynamics base)
 set(abut_below_solid mesh contact dynamics)
+set(abut_below_ranks dynamics)
 set(abut_below_run solid)
 set(abut_below_input run)
 

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "abut/dynamics/ranks.hpp"
+#include "abut/ranks/communicator.hpp"
+#include "abut/ranks/exchange.hpp"
+
+namespace abut::ranks {
+
+/// What a rank has of the points of a system.
+struct SharedPoints {
+    int dimension = 3;                       ///< values per point
+    std::int32_t n_points = 0;               ///< of all ranks
+    std::vector<std::int32_t> numbers;       ///< of this rank's points, increasing; each point is on one rank
+    std::size_t n_entries = 0;               ///< of the arrays that `fill` takes: points and copies
+    std::vector<std::int32_t> position;      ///< of each of this rank's points in these (n_owned)
+    std::vector<std::int32_t> copies;        ///< positions of what is copied from others
+    std::vector<int> owner;                  ///< the rank of each copy
+    std::vector<std::int32_t> copied_point;  ///< its number among all points
+};
+
+/// What has been exchanged so far.
+struct Traffic {
+    std::int64_t fills = 0;
+    std::int64_t messages = 0;  ///< sent by this rank in fills
+    std::int64_t bytes = 0;     ///< sent by this rank in fills
+    std::int64_t sums = 0;
+    std::int64_t reductions = 0;  ///< of 1 or 2 numbers: `largest` and `agree`
+};
+
+/// dynamics::Ranks over MPI.
+class PointRanks final : public dynamics::Ranks {
+public:
+    /// A call of all ranks. The communicator must outlive it. Throws BadInput on all ranks where the points do not fit
+    /// together: a number out of order, twice or not at all, or a copy of a point that its owner does not have.
+    PointRanks(const Communicator& communicator, SharedPoints points);
+    ~PointRanks() override;
+
+    [[nodiscard]] int rank() const override;
+    [[nodiscard]] std::span<const std::int32_t> numbers() const override;
+    [[nodiscard]] std::int32_t n_points() const override;
+    [[nodiscard]] int dimension() const override;
+    void fill(std::span<double> values, int width) const override;
+    void sum(const dynamics::Summands& summands, std::span<const double> terms, std::span<double> total) const override;
+    [[nodiscard]] double fold(double start, std::span<const std::int32_t> numbers,
+                              std::span<const double> terms) const override;
+    [[nodiscard]] double largest(double value) const override;
+    void agree(const std::exception_ptr& error) const override;
+
+    [[nodiscard]] const ExchangeCounts& counts() const;  ///< of one `fill`
+    [[nodiscard]] const Traffic& traffic() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace abut::ranks

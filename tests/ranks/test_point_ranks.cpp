@@ -1,0 +1,127 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstring>
+
+#include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/base/vector.hpp"
+#include "abut/dynamics/mass.hpp"
+#include "abut/dynamics/power_iteration.hpp"
+#include "abut/ranks/point_ranks.hpp"
+#include "ranks/world.hpp"
+
+using namespace abut;
+using namespace abut::ranks;
+
+namespace {
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+/// Sums of these depend on the order.
+double term(std::int64_t i) {
+    return std::sin(1.0 + 0.37 * static_cast<double>(i)) * std::pow(10.0, static_cast<double>(i % 7));
+}
+
+SharedPoints points_of(const Communicator& all, std::int32_t n, int empty_rank = -1) {
+    SharedPoints points{.dimension = 3, .n_points = n, .numbers = test::scattered(n, all.rank(), all.size(), empty_rank)};
+    points.n_entries = points.numbers.size();
+    for (std::size_t i = 0; i < points.numbers.size(); ++i) points.position.push_back(static_cast<std::int32_t>(i));
+    return points;
+}
+
+}  // namespace
+
+TEST_CASE("a sum over ranks has the bits of the same sum on one rank", "[ranks]") {
+    const Communicator all = test::world();
+    const std::int32_t n = GENERATE(0, 1, 1023, 1025, 20'000);
+    const int empty_rank = GENERATE(-1, 0);
+    if (empty_rank == 0 && all.size() == 1) return;
+    const PointRanks ranks(all, points_of(all, n, empty_rank));
+    const auto numbers = ranks.numbers();
+    for (const std::int32_t per_point : {1, 3}) {
+        const double expected = ordered_sum(std::ptrdiff_t{per_point} * n, 0.0, term);
+        const auto n_here = static_cast<std::ptrdiff_t>(numbers.size()) * per_point;
+        const auto here = [&](std::ptrdiff_t i) {
+            return term(std::int64_t{per_point} * numbers[i / per_point] + i % per_point);
+        };
+        for (int repeated = 0; repeated < 2; ++repeated)
+            CHECK(same_bits(dynamics::sum_over(ranks, {.per_point = per_point}, n_here, 0.0, here), expected));
+    }
+    const auto vector_term = [](std::int64_t i) { return Vector<3>(term(i), term(i + 1), term(2 * i)); };
+    const Vector<3> zero = Vector<3>::Zero();
+    const Vector<3> expected = ordered_sum(n, zero, vector_term);
+    const Vector<3> sum =
+        dynamics::sum_over(ranks, {}, std::ssize(numbers), zero, [&](std::ptrdiff_t i) { return vector_term(numbers[i]); });
+    for (int j = 0; j < 3; ++j) CHECK(same_bits(sum[j], expected[j]));
+}
+
+TEST_CASE("a sum over some of the points begins its blocks with them", "[ranks]") {
+    const Communicator all = test::world();
+    const std::int32_t n = 9000, first = 1500, last = 8000;
+    const PointRanks ranks(all, points_of(all, n));
+    std::vector<double> terms;
+    for (const std::int32_t number : ranks.numbers())
+        if (number >= first && number < last) terms.push_back(term(number));
+    double total = 0.0;
+    ranks.sum({.first = first, .last = last}, terms, std::span(&total, 1));
+    CHECK(same_bits(total, ordered_sum(last - first, 0.0, [&](std::ptrdiff_t i) { return term(first + i); })));
+}
+
+TEST_CASE("a fold over ranks adds one term after the other", "[ranks]") {
+    const Communicator all = test::world();
+    const std::int32_t n = 3000;
+    const auto numbers = test::scattered(n, all.rank(), all.size());
+    std::vector<double> terms;
+    for (const std::int32_t number : numbers) terms.push_back(term(number));
+    double expected = 0.125;
+    for (std::int32_t i = 0; i < n; ++i) expected += term(i);
+    const PointRanks ranks(all, points_of(all, n));
+    CHECK(same_bits(ranks.fold(0.125, numbers, terms), expected));
+}
+
+TEST_CASE("products and the highest mode of a system over ranks have the bits of those on one", "[ranks]") {
+    const Communicator all = test::world();
+    const std::int32_t n = 700;
+    const PointRanks ranks(all, points_of(all, n));
+    std::vector<double> a, b, inverse_mass, a_all, b_all, inverse_all;
+    for (std::int64_t i = 0; i < 3 * n; ++i) {
+        a_all.push_back(term(i));
+        b_all.push_back(term(3 * i + 1));
+        inverse_all.push_back(0.5 + 1e-3 * static_cast<double>(i % 11));
+    }
+    for (const std::int32_t number : ranks.numbers())
+        for (int j = 0; j < 3; ++j) {
+            a.push_back(a_all[3 * number + j]);
+            b.push_back(b_all[3 * number + j]);
+            inverse_mass.push_back(inverse_all[3 * number + j]);
+        }
+    CHECK(same_bits(dynamics::mass_product_over(ranks, a, inverse_mass, b),
+                    dynamics::mass_product(a_all, inverse_all, b_all)));
+    CHECK(same_bits(dynamics::dot_product_over(ranks, a, b), dynamics::dot_product(a_all, b_all)));
+
+    // Springs to the ground: the product needs no neighbours.
+    const auto product = [](std::span<const std::int32_t> numbers) {
+        return [numbers](std::span<const double> x, std::span<double> k_x) {
+            for (std::size_t i = 0; i < x.size(); ++i)
+                k_x[i] = (1.0 + 1.0 / (1.0 + (numbers.empty() ? static_cast<std::int32_t>(i / 3) : numbers[i / 3]))) * x[i];
+        };
+    };
+    const auto whole = dynamics::highest_mode(inverse_all, product({}), {});
+    const auto shared = dynamics::highest_mode(inverse_mass, product(ranks.numbers()), {.ranks = &ranks});
+    CHECK(same_bits(whole.quotient, shared.quotient));
+    CHECK(whole.iterations == shared.iterations);
+}
+
+TEST_CASE("points that do not fit together are refused on all ranks", "[ranks]") {
+    const Communicator all = test::world();
+    SharedPoints twice = points_of(all, 50);
+    if (all.rank() == 0) twice.numbers.push_back(twice.numbers.back());
+    CHECK_THROWS_AS(PointRanks(all, twice), BadInput);
+    SharedPoints missing = points_of(all, 50);
+    missing.n_points = 51;
+    CHECK_THROWS_AS(PointRanks(all, missing), BadInput);
+    SharedPoints stranger = points_of(all, 50);
+    if (all.rank() == all.size() - 1) stranger.copies = {0}, stranger.owner = {0}, stranger.copied_point = {5000};
+    CHECK_THROWS_AS(PointRanks(all, stranger), BadInput);
+}

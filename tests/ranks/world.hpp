@@ -1,0 +1,26 @@
+#pragma once
+// All ranks of the program.
+#include <mpi.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "abut/ranks/communicator.hpp"
+
+namespace abut::test {
+
+inline ranks::Communicator world() { return ranks::Communicator(MPI_Comm_c2f(MPI_COMM_WORLD)); }
+
+/// Numbers 0 .. n-1 scattered over the ranks without any order; a rank may be given none.
+inline std::vector<std::int32_t> scattered(std::int32_t n, int rank, int size, int empty_rank = -1) {
+    std::vector<std::int32_t> mine;
+    for (std::int32_t i = 0; i < n; ++i) {
+        const auto hash = static_cast<std::uint32_t>(i) * 2654435761u;
+        int owner = static_cast<int>((hash >> 16) % static_cast<std::uint32_t>(size));
+        if (owner == empty_rank) owner = (owner + 1) % size;
+        if (owner == rank) mine.push_back(i);
+    }
+    return mine;
+}
+
+}  // namespace abut::test
