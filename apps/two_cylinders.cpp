@@ -10,6 +10,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/preset.hpp"
 #include "apps/support/run_scene.hpp"
 
@@ -224,21 +225,21 @@ run::Scene<Dim> two_cylinders(const CylinderOptions& options) {
     return scene;
 }
 
-int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
+int run_slipping_cylinders(int argc, char** argv) {
     Program program{
-        .name = cylinders.program,
-        .purpose = cylinders.purpose,
+        .name = "slipping_cylinders",
+        .purpose = "Two elastic cylinders collide off-centre, slip over each other and part.",
         .series = "cylinders",
         .footer =
             "A pair of values, one for the left and one for the right body, is separated by a comma: "
             "--young 1,100. Units are SI. Ctrl-C ends a run after its present step; its files are complete until there."};
     CylinderOptions scene;
-    run::RunOptions options{.out = "out/" + cylinders.program};
+    run::RunOptions options{.out = "out/" + program.name};
     const auto add_options = [&](CLI::App& app) {
         add_choice(app, "--dim", scene.dim, "discs in plane strain, or cylinders", Choices<int>{{"2", 2}, {"3", 3}})
             ->group("Scene");
         add_body_options(app, scene);
-        add_place_options(app, scene, cylinders.offset_over_radius);
+        add_place_options(app, scene, slipping_offset);
         add_preset_option(app, options);
         add_time_options(app, options, fmt::format("the approach and {:g} R/sqrt(E/rho)", default_crossings));
         add_contact_options(app, options);
@@ -246,7 +247,7 @@ int run_two_cylinders(int argc, char** argv, const TwoCylinders& cylinders) {
         add_message_options(app, program.messages);
     };
     return run_program(program, argc, argv, add_options, [&] {
-        fill_defaults(scene, cylinders.offset_over_radius);
+        fill_defaults(scene, slipping_offset);
         check(scene, options);
         scene.dim == 2 ? run_scene<2>(program, options, [&] { return two_cylinders<2>(scene); })
                        : run_scene<3>(program, options, [&] { return two_cylinders<3>(scene); });

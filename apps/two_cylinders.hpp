@@ -36,14 +36,7 @@ void fill_defaults(CylinderOptions& options, double offset_over_radius);
 template <int Dim>
 [[nodiscard]] run::Scene<Dim> two_cylinders(const CylinderOptions& options);
 
-/// What tells one program with two cylinders from another.
-struct TwoCylinders {
-    std::string program;        ///< its name, and that of its folder of results
-    std::string purpose;        ///< one sentence for --help
-    double offset_over_radius;  ///< default of --offset over the mean radius of the two [-]
-};
-
-/// Main function of these programs. Returns the exit code.
-int run_two_cylinders(int argc, char** argv, const TwoCylinders& scene);
+/// Main function of slipping_cylinders. Returns the exit code.
+int run_slipping_cylinders(int argc, char** argv);
 
 }  // namespace abut::apps

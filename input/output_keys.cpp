@@ -14,11 +14,12 @@ auto option(Value RunOptions::*member) {
     return [member](Settings& settings) -> Value& { return settings.options.*member; };
 }
 
-constexpr std::array<run::Word<bool FrameFields::*>, 5> field_words{{{"velocity", &FrameFields::velocity},
+constexpr std::array<run::Word<bool FrameFields::*>, 6> field_words{{{"velocity", &FrameFields::velocity},
                                                                      {"stress", &FrameFields::stress},
                                                                      {"von_mises", &FrameFields::von_mises},
                                                                      {"pressure", &FrameFields::pressure},
-                                                                     {"gap", &FrameFields::gap}}};
+                                                                     {"gap", &FrameFields::gap},
+                                                                     {"pairs", &FrameFields::pairs}}};
 
 Key<Settings> fields() {
     const auto read = [](Reader& reader, const Node& node, const std::string& key) -> std::optional<FrameFields> {
@@ -31,7 +32,7 @@ Key<Settings> fields() {
         for (const std::size_t index : *chosen) fields.*field_words[index].choice = true;
         return fields;
     };
-    Key<Settings> key = key_of<Settings>("fields", "list of velocity, stress, von_mises, pressure, gap",
+    Key<Settings> key = key_of<Settings>("fields", "list of velocity, stress, von_mises, pressure, gap, pairs",
                                          "what frames hold beside the displacement", &Settings::fields, read);
     key.by_default = "all";
     return key;

@@ -44,20 +44,13 @@ plot "energy.csv" using "time":(shown((column("energy")-column("pseudo_energy"))
 unset multiplot
 )gp";
 
-/// Between single quotes gnuplot takes everything as it is, and two of them for one.
-std::string quoted(const std::string& text) {
-    std::string doubled;
-    for (const char c : text) doubled.append(c == '\'' ? 2 : 1, c);
-    return doubled;
-}
-
 }  // namespace
 
 std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture) {
     return draw(directory,
                 {.name = "energy",
                  .purpose = "Energies of a run, from energy.csv beside this file",
-                 .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, quoted(picture.title),
+                 .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, in_quotes(picture.title),
                                        picture.scale_name.substr(0, 1), picture.scale_name.substr(1))});
 }
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "abut/base/error.hpp"
+#include "abut/run/failure_files.hpp"
 #include "abut/run/paraview_script.hpp"
 
 namespace abut::run {
@@ -24,19 +25,19 @@ bool take(std::string_view& text, std::string_view start) {
     return true;
 }
 
-/// <series>.pvd, <series>_000012.vtu, <series>_surface.pvd, <series>_surface_000012.vtp; and, with a dot in front, what
-/// a frame is called while it is written.
+/// <series>.pvd, <series>_000012.vtu, and the same with .vtp behind _surface and _pairs; and, with a dot in front, what a frame
+/// is called while it is written.
 bool belongs_to_series(std::string_view name, std::string_view series) {
     take(name, ".");
     if (!take(name, series)) return false;
-    const bool surface = take(name, "_surface");
+    const bool cells = !take(name, "_surface") && !take(name, pairs_series(""));
     if (name == ".pvd" || name == ".part.pvd") return true;
     if (!take(name, "_")) return false;
     const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
     if (digits < 6) return false;
     name.remove_prefix(digits);
     take(name, ".part");
-    return name == (surface ? ".vtp" : ".vtu");
+    return name == (cells ? ".vtu" : ".vtp");
 }
 
 void remove_result(const fs::path& path) {
@@ -48,16 +49,27 @@ void remove_result(const fs::path& path) {
                         path.string(), error.message()));
 }
 
-}  // namespace
-
-void remove_earlier_results(const fs::path& directory, const std::string& series) {
-    remove_files(directory, plain_results);
+void remove_series(const fs::path& directory, const std::string& series) {
     std::vector<fs::path> frames;
     std::error_code error;
     for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))
         if (belongs_to_series(entry->path().filename().string(), series)) frames.push_back(entry->path());
     if (error) refuse_directory(directory, error.message());
     for (const auto& frame : frames) remove_result(frame);
+}
+
+}  // namespace
+
+void remove_earlier_results(const fs::path& directory, const std::string& series) {
+    remove_files(directory, plain_results);
+    remove_series(directory, series);
+    remove_failure(directory, series);
+}
+
+void remove_failure(const fs::path& directory, const std::string& series) {
+    const std::string name(failure_name);
+    remove_files(directory, {name + ".csv", name + ".gp", name + ".png"});
+    remove_series(directory, failure_series(series));
 }
 
 void remove_files(const fs::path& directory, const std::vector<std::string>& names) {

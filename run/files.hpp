@@ -6,9 +6,15 @@
 namespace abut::run {
 
 /// Removes what ResultFiles of an earlier run may have left: summary.json, report.html, energy.csv, its picture, probes.csv,
-/// forces.csv, the script for ParaView, and the lists and frames of `series`. Everything else stays. Throws BadInput naming the
-/// file.
+/// forces.csv, the script for ParaView, the lists and frames of `series`, and what is left of a run that failed. Everything else
+/// stays. Throws BadInput naming the file.
 void remove_earlier_results(const std::filesystem::path& directory, const std::string& series);
+
+/// The series of pairs in contact beside that of cells.
+[[nodiscard]] inline std::string pairs_series(const std::string& series) { return series + "_pairs"; }
+
+/// Removes what a run that failed has left of its failure (write_failure). Throws BadInput naming the file.
+void remove_failure(const std::filesystem::path& directory, const std::string& series);
 
 /// Removes files of these names, and what they are called while they are written. Throws BadInput naming the file.
 void remove_files(const std::filesystem::path& directory, const std::vector<std::string>& names);

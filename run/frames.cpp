@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "abut/run/cell_velocity.hpp"
+#include "abut/run/files.hpp"
+#include "abut/solid/boundary_face.hpp"
 
 namespace abut::run {
 namespace {
@@ -42,6 +44,64 @@ struct Stresses {
     std::vector<double> out_of_plane;
 };
 
+/// Where a face is, of bodies whose vertices are known or whose cells are displaced as a whole.
+template <int Dim>
+Vector<Dim> middle_of(solid::BoundaryFace boundary, const mesh::Mesh<Dim>& mesh, std::span<const Vector<Dim>> of_cells,
+                      std::span<const Vector<Dim>> of_vertices) {
+    const std::int32_t face = solid::mesh_face(mesh, boundary);
+    const Vector<Dim>& x = mesh.face_centroid[static_cast<std::size_t>(face)];
+    if (of_vertices.empty()) return x + of_cells[static_cast<std::size_t>(solid::cell_of(mesh, boundary))];
+    Vector<Dim> sum = Vector<Dim>::Zero();
+    for (const std::int32_t vertex : mesh.face_vertices[face]) sum += of_vertices[static_cast<std::size_t>(vertex)];
+    return x + sum / static_cast<double>(mesh.face_vertices[face].size());
+}
+
+/// Pairs as points with fields.
+template <int Dim>
+class PairPoints {
+public:
+    PairPoints(const std::vector<solid::ActingPair<Dim>>& pairs, const solid::Solid<Dim>& solid,
+               std::span<const Vector<Dim>> of_cells, std::span<const Vector<Dim>> of_vertices) {
+        const mesh::Mesh<Dim>& mesh = solid.mesh();
+        const auto body_of = [&](solid::BoundaryFace face) {
+            return face == solid::no_face ? -1 : mesh.cell_body[static_cast<std::size_t>(solid::cell_of(mesh, face))];
+        };
+        for (const solid::ActingPair<Dim>& pair : pairs) {
+            Vector<Dim> sum = Vector<Dim>::Zero();
+            int n_faces = 0;
+            for (const solid::BoundaryFace face : {pair.face_1, pair.face_2})
+                if (face != solid::no_face) {
+                    sum += middle_of(face, mesh, of_cells, of_vertices);
+                    ++n_faces;
+                }
+            position_.push_back(sum / n_faces);
+            body_1_.push_back(body_of(pair.face_1));
+            body_2_.push_back(body_of(pair.face_2));
+            normal_.push_back(pair.normal);
+            force_.push_back(pair.force);
+            normal_force_.push_back(pair.normal_force);
+            gap_.push_back(pair.gap);
+            area_.push_back(pair.area);
+        }
+    }
+
+    [[nodiscard]] mesh::PointFrame<Dim> frame(double time) const {
+        return {.time = time,
+                .position = position_,
+                .fields = {{"body 1", body_1_},
+                           {"body 2", body_2_},
+                           {"normal", normal_},
+                           {"force [N]", force_},
+                           {"normal force [N]", normal_force_},
+                           {"gap [m]", gap_},
+                           {Dim == 2 ? "area [m]" : "area [m^2]", area_}}};
+    }
+
+private:
+    std::vector<Vector<Dim>> position_, normal_, force_;
+    std::vector<double> body_1_, body_2_, normal_force_, gap_, area_;
+};
+
 }  // namespace
 
 template <int Dim>
@@ -59,6 +119,7 @@ template <int Dim>
 void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     series_.emplace(directory_, name_, scene.mesh);
     fields_ = scene.outputs.fields;
+    if (fields_.pairs && scene.contact) pairs_.emplace(directory_, pairs_series(name_));
     n_steps_ = result.steps;
 }
 
@@ -78,7 +139,9 @@ void Frames<Dim>::save(StateWriter& state) {
 template <int Dim>
 void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     begin(scene, result);
-    series_->go_on_after(state.get_all<double>());
+    const auto times = state.get_all<double>();
+    series_->go_on_after(times);
+    if (pairs_) pairs_->go_on_after(times);
 }
 
 template <int Dim>
@@ -98,6 +161,7 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
     if (Dim == 2 && fields_.stress) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});
     if (fields_.pressure) frame.boundary_fields.push_back({"contact pressure [Pa]", contact.pressure});
     if (fields_.gap) frame.boundary_fields.push_back({"gap [m]", gap});
+    if (pairs_) pairs_->write(PairPoints<Dim>(solid.acting_pairs(run.q), solid, displacement, of_vertices).frame(run.time));
     series_->write(frame);
 }
 

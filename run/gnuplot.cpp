@@ -70,4 +70,10 @@ std::string draw(const fs::path& directory, const Picture& picture) {
     return fmt::format("gnuplot ended with code {}: run gnuplot {} in {} to see why", code, script, directory.string());
 }
 
+std::string in_quotes(const std::string& text) {
+    std::string doubled;
+    for (const char c : text) doubled.append(c == '\'' ? 2 : 1, c);
+    return doubled;
+}
+
 }  // namespace abut::run

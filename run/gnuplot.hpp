@@ -18,4 +18,7 @@ struct Picture {
 /// is one. Throws BadInput if the script cannot be written.
 [[nodiscard]] std::string draw(const std::filesystem::path& directory, const Picture& picture);
 
+/// A text as it stands between single quotes of gnuplot, which takes all else there as it is.
+[[nodiscard]] std::string in_quotes(const std::string& text);
+
 }  // namespace abut::run

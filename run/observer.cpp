@@ -25,6 +25,11 @@ bool Observers<Dim>::asks_to_stop() const {
 }
 
 template <int Dim>
+void Observers<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid) {
+    for (Observer<Dim>& observer : observers_) observer.fail(failure, solid);
+}
+
+template <int Dim>
 bool Observers<Dim>::wants_checkpoint(std::int64_t step, bool stops) const {
     return std::ranges::any_of(observers_,
                                [&](const Observer<Dim>& observer) { return observer.wants_checkpoint(step, stops); });

@@ -5,6 +5,7 @@
 
 #include "abut/base/state_bytes.hpp"
 #include "abut/run/checkpoint.hpp"
+#include "abut/run/failure.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::run {
@@ -22,6 +23,8 @@ public:
     virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
     /// Asked at the start and after each step but the last, before that is recorded: true makes it the last one.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
+    /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here.
+    virtual void fail(const Failure&, const solid::Solid<Dim>&) {}
 
     // Runs that survive: docs/checkpoints.md
 
@@ -48,6 +51,7 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool asks_to_stop() const override;
+    void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
     void save(StateWriter& state) override;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* script = R"py("""Opens the results beside this file in ParaView: paraview --script=view_in_paraview.py
 
-Left the von Mises stress of the cells, right the contact pressure on the boundary, both on bodies as they have moved.
+Left the von Mises stress of the cells, right the contact pressure on the boundary, both on bodies as they have moved; there
+also the pairs of faces that push each other, as points with the force between them.
 """
 import os
 
@@ -29,6 +30,17 @@ def show(view, file_name, field):
     display.SetScalarBarVisibility(view, True)
 
 
+def show_pairs(view, file_name):
+    """Shows where faces push each other, if the run has left that."""
+    path = os.path.join(FOLDER, file_name)
+    if not os.path.exists(path):
+        return
+    display = simple.Show(simple.PVDReader(FileName=path), view)
+    display.SetRepresentationType("Points")
+    display.PointSize = 6.0
+    simple.ColorBy(display, ("POINTS", "normal force [N]"))
+
+
 layout = simple.CreateLayout("Abut")
 stress = simple.CreateView("RenderView")
 pressure = simple.CreateView("RenderView")
@@ -37,6 +49,7 @@ layout.SplitViewHorizontal(stress, 0.5)
 simple.AssignViewToLayout(view=pressure, layout=layout)
 show(stress, SERIES + ".pvd", "von Mises [Pa]")
 show(pressure, SERIES + "_surface.pvd", "contact pressure [Pa]")
+show_pairs(pressure, SERIES + "_pairs.pvd")
 for view in (stress, pressure):
     simple.ResetCamera(view)
 simple.AddCameraLink(stress, pressure, "both")

@@ -4,8 +4,10 @@
 
 #include <utility>
 
+#include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/run/energy_picture.hpp"
+#include "abut/run/failure_files.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/paraview_script.hpp"
 #include "abut/run/summary.hpp"
@@ -69,6 +71,20 @@ void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
 }
 
 template <int Dim>
+void ResultFiles<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid) {
+    try {
+        failed_ = " In the same folder " + write_failure(out_, name_, failure, solid);
+    } catch (const Error& error) {
+        failed_ = std::string(" Where it failed could not be written: ") + error.what();
+    }
+}
+
+template <int Dim>
+std::string ResultFiles<Dim>::left_behind() const {
+    return has_begun_ ? " energy.csv.partial holds the records so far." + failed_ : "";
+}
+
+template <int Dim>
 bool ResultFiles<Dim>::wants_checkpoint(std::int64_t step, bool stops) const {
     if (minutes_ == 0.0 && steps_ == 0) return false;
     if (stops || (steps_ > 0 && step % steps_ == 0)) return true;
@@ -102,6 +118,7 @@ template <int Dim>
 void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     const Stopwatch watch(seconds_);
     remove_files(out_, {"summary.json", "report.html", "energy.csv", "energy.png", "energy.gp"});
+    remove_failure(out_, name_);
     energies_.resume(scene, result, state);
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
@@ -136,7 +153,9 @@ std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
     if (frames_) {
         files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
         files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
-        files.push_back({paraview_script_name, "opens both: paraview --script=" + std::string(paraview_script_name)});
+        if (frames_->has_pairs())
+            files.push_back({pairs_series(name_) + ".pvd", "pairs of faces in contact over time, for ParaView"});
+        files.push_back({paraview_script_name, "opens them: paraview --script=" + std::string(paraview_script_name)});
     }
     return files;
 }
@@ -149,6 +168,7 @@ std::string ResultFiles<Dim>::table() const {
     if (probes_) text += table_line("probes", path("probes.csv"));
     if (forces_) text += table_line("forces", path("forces.csv"));
     if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
+    if (frames_ && frames_->has_pairs()) text += table_line("", path(pairs_series(name_) + ".pvd"));
     return text + table_line("picture", without_picture_.empty() ? path("energy.png") : "none: " + without_picture_);
 }
 

@@ -20,7 +20,8 @@ namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, probes.csv and forces.csv (where
 /// Scene::outputs asks for them) as it goes, then energy.gp, energy.png, the script for ParaView, report.html and summary.json;
-/// in `checkpoints`, what a run that is stopped goes on from. The folder is its own (FolderLock) until `finish`, or until it
+/// in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound state and where it failed
+/// (write_failure). The folder is its own (FolderLock) until `finish`, or until it
 /// goes.
 ///
 ///     run::RunOptions options{.out = "out/mine"};
@@ -39,6 +40,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
     void save(StateWriter& state) override;
@@ -53,8 +55,8 @@ public:
     /// A file that whoever goes on needs is written beside the first checkpoint.
     void keep_beside_checkpoints(std::string name, std::string text);
 
-    /// Whether energy.csv.partial holds records of a run: what is left of one that fails.
-    [[nodiscard]] bool has_begun() const { return has_begun_; }
+    /// What is left of a run that fails, in sentences for its message; empty if it has not begun.
+    [[nodiscard]] std::string left_behind() const;
     /// Why there is no energy.png, after `finish`; empty if there is.
     [[nodiscard]] const std::string& without_picture() const { return without_picture_; }
     /// "Files" and a line for each kind of them, as closing_table: to follow it.
@@ -78,6 +80,7 @@ private:
     std::chrono::steady_clock::time_point last_kept_;
     bool has_kept_ = false;
     bool has_begun_ = false;
+    std::string failed_;  // what `fail` has left
     double seconds_ = 0.0;
     std::string without_picture_;
 };

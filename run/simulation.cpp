@@ -31,6 +31,8 @@ using oneapi::tbb::global_control;
 
 /// H beyond this many times its first value: the solution is lost, whatever H~ says.
 constexpr double divergence_factor = 1e3;
+/// H up to this many times |H~|, or of its first value: nothing is wrong yet.
+constexpr double sound_factor = 2.0;
 
 const std::string observers_kind = "observers of a run";
 
@@ -167,6 +169,7 @@ private:
         try {
             integrator_.step();
         } catch (const Error& error) {
+            fail_at(error.facts());
             throw_again(error, at_this_step(error.what()));
         } catch (const std::exception& error) {
             throw std::runtime_error(at_this_step(error.what()));
@@ -219,6 +222,7 @@ private:
         result_.scale = known_scale(scene_.energy_scale, result_.ledger.entries().front().kinetic);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_.steps();
+        keep_sound();
         StateReader state(from.observers, observers_kind, 1);
         observer_.resume(scene_, result_, state);
         state.finish();
@@ -231,6 +235,26 @@ private:
             integrator_.set_node_restart(
                 [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
         }
+    }
+
+    /// Where a step has no end.
+    void fail_at(const ErrorFacts& facts) {
+        Failure failure{.sound = sound_, .lost = nullptr, .cells = {}};
+        for (const std::int64_t cell : {facts.cell, std::int64_t{solid_.cell_of_contact_face(facts.face_1)},
+                                        std::int64_t{solid_.cell_of_contact_face(facts.face_2)}})
+            if (cell >= 0 && cell < scene_.mesh.n_cells()) failure.cells.push_back(static_cast<std::int32_t>(cell));
+        observer_.fail(failure, solid_);
+    }
+
+    /// What `fail` needs, without allocation from one record to the next.
+    void keep_sound() {
+        const auto copy = [](std::span<const double> from, std::vector<double>& to) { to.assign(from.begin(), from.end()); };
+        copy(integrator_.q(), sound_.q);
+        copy(integrator_.p_before(), sound_.p_before);
+        copy(integrator_.p_after(), sound_.p_after);
+        sound_.dt = result_.dt;
+        sound_.time = integrator_.time();
+        sound_.steps = integrator_.steps();
     }
 
     [[nodiscard]] std::string at_this_step(const char* what) const {
@@ -250,16 +274,24 @@ private:
         const auto& entries = result_.ledger.entries();
         if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
         observer_.record(entries.back(), result_);
-        check_alive(entries.back(), std::max(entries.front().energy, result_.scale.value));
+        const double scale = std::max(entries.front().energy, result_.scale.value);
+        check_alive(entries.back(), scale);
+        if (entries.size() == 1 || entries.back().energy <= sound_factor * std::max(scale, entries.back().pseudo_energy))
+            keep_sound();
     }
 
-    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) const {
+    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) {
         if (std::isfinite(entry.pseudo_energy) && entry.energy <= divergence_factor * scale) return;
+        const dynamics::IntegratorState lost = integrator_.state();
+        if (sound_.q.empty()) sound_ = lost;  // it never was
+        const WorstCell worst = worst_cell(lost, solid_);
+        observer_.fail({.sound = sound_, .lost = &lost, .cells = {worst.cell}}, solid_);
         throw Diverged(fmt::format("step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J and H~ {:.3g} J; {:g} times "
-                                   "{:.3g} J is allowed. Steps are {:.4g} s long, stable are {:.4g} s: lower --cfl or --dt.",
+                                   "{:.3g} J is allowed. Worst is {}, with {:.3g} m/s. Steps are {:.4g} s long, stable are "
+                                   "{:.4g} s: lower --cfl or --dt.",
                                    entry.step, entry.time, entry.energy, entry.pseudo_energy, divergence_factor, scale,
-                                   result_.dt, result_.stable.dt),
-                       {.value = entry.energy, .allowed = divergence_factor * scale});
+                                   name_of_cell(scene_.mesh, worst.cell), worst.speed, result_.dt, result_.stable.dt),
+                       {.cell = worst.cell, .value = entry.energy, .allowed = divergence_factor * scale});
     }
 
     const Scene<Dim>& scene_;
@@ -270,6 +302,7 @@ private:
     dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     Integrator integrator_;
+    dynamics::IntegratorState sound_;   // Failure::sound, except what only the scheme knows
     solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
 };
 

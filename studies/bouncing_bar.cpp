@@ -14,7 +14,7 @@
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/bar_host.hpp"
 #include "studies/scenes/bars.hpp"

@@ -7,7 +7,7 @@
 // H - H~ over a million steps (--steps 1000000) with and without the energy-neutral filter. docs/filter.md has the table.
 #include <vector>
 
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/run_scene.hpp"
 #include "studies/scenes/bars.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/run_options.hpp"
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/report.hpp"

@@ -16,7 +16,7 @@
 
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 
 namespace abut::studies {

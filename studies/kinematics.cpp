@@ -5,7 +5,7 @@
 // force that closes the balance of energy; scenes are asked for closed forms: tops, times of impact, Hertz, a cradle, gears. No
 // energy is claimed without H - H~, |e|/m and the number of events beside it.
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "studies/kinematics/rows.hpp"
 
 namespace abut::studies::kinematics {

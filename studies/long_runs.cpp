@@ -16,7 +16,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/program.hpp"
 #include "studies/extremes/scenes.hpp"

@@ -13,7 +13,7 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 
 namespace abut::studies {

@@ -14,7 +14,7 @@
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/trade/report.hpp"
 

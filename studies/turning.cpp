@@ -6,7 +6,7 @@
 // No energy is claimed without H - H~, |e|/m and the number of events beside it. docs/turning.md reads the table.
 #include "abut/base/error.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "studies/nodal/rows.hpp"
 
 namespace abut::studies::turning {

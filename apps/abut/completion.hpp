@@ -6,9 +6,12 @@
 
 namespace abut::apps {
 
-/// The script that completes a program's commands, options, words and files in bash. `topics` are what its command help
-/// takes.
-[[nodiscard]] std::string bash_completion(const std::string& program, const std::vector<Command>& commands,
-                                          const std::vector<std::string>& topics);
+/// The shells that `completion` knows.
+[[nodiscard]] const std::vector<std::string>& completing_shells();
+
+/// The script that completes a program's commands, options, words and files in one of these shells. `topics` are what its
+/// command help takes.
+[[nodiscard]] std::string completion(const std::string& shell, const std::string& program, std::vector<Command> commands,
+                                     const std::vector<std::string>& topics);
 
 }  // namespace abut::apps

@@ -79,8 +79,9 @@ const Topic output{"output", "Results",
   summary.json         for programs: all figures and the options as they were used
   energy.csv           energies and momenta, a row per record (--interval)
   energy.png           their picture, if gnuplot is there; energy.gp draws it
-  bodies.pvd           cells over time for ParaView (--frames), bodies_surface.pvd boundary faces
-  view_in_paraview.py  opens both with sensible views: paraview --script=...
+  bodies.pvd           cells over time for ParaView (--frames), bodies_surface.pvd boundary faces,
+                       bodies_pairs.pvd pairs of faces in contact
+  view_in_paraview.py  opens them with sensible views: paraview --script=...
 
 `abut info FOLDER` says what is in one. While a run goes on, and after one that failed, energy.csv is called
 energy.csv.partial and there is no summary. A folder belongs to one run at a time.

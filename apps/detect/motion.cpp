@@ -13,7 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 
 namespace abut::apps {
 namespace {

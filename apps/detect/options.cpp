@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "apps/detect/shapes.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/contact_choices.hpp"
 
 namespace abut::apps {

@@ -12,7 +12,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/surface_shapes.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 
 namespace abut::apps {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/run_options.hpp"
 
 namespace abut::apps {

@@ -1,4 +1,5 @@
 #include "apps/support/messages.hpp"
+#include "apps/support/command_line.hpp"
 
 #include <spdlog/spdlog.h>
 

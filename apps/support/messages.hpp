@@ -1,5 +1,5 @@
 #pragma once
-#include <CLI/CLI.hpp>
+#include "apps/support/cli.hpp"
 
 namespace abut::apps {
 

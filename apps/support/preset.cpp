@@ -1,4 +1,5 @@
 #include "apps/support/preset.hpp"
+#include "apps/support/command_line.hpp"
 
 #include <fmt/format.h>
 

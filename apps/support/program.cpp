@@ -9,7 +9,7 @@
 #include <exception>
 #include <memory>
 
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/signals.hpp"
 #include "apps/support/terminal.hpp"

@@ -1,11 +1,10 @@
 #pragma once
-#include <CLI/CLI.hpp>
-
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/support/cli.hpp"
 #include "apps/support/messages.hpp"
 
 namespace abut::apps {

@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "apps/support/command_line.hpp"
 #include "apps/support/contact_choices.hpp"
 
 namespace abut::apps {

@@ -1,10 +1,10 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <string>
 
 #include "abut/run/options.hpp"
+#include "apps/support/cli.hpp"
 
 namespace abut::apps {
 

@@ -34,9 +34,7 @@ run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene
     run::Observers<Dim> observers{files, stop};
     if (messages == Messages::normal) observers = {log, files, progress, stop};
     if (messages == Messages::json) observers = {lines, files, stop};
-    const auto with_rest = [&](const char* what) {
-        return what + std::string(files.has_begun() ? " energy.csv.partial holds the records so far." : "");
-    };
+    const auto with_rest = [&](const char* what) { return what + files.left_behind(); };
     try {
         return run::simulate<Dim>(scene, options, observers, from);
     } catch (const Error& error) {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 
 namespace abut::apps {
 namespace {

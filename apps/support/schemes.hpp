@@ -1,5 +1,4 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <string>
@@ -11,6 +10,7 @@
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/memm_async.hpp"
+#include "apps/support/cli.hpp"
 
 namespace abut::apps {
 

@@ -15,9 +15,9 @@
 
 #include <array>
 
-#include "abut/base/messages.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/io/file.hpp"
+#include "abut/mesh/io/series_files.hpp"
 #include "abut/mesh/io/vtk_output.hpp"
 #include "abut/mesh/quality.hpp"
 
@@ -123,20 +123,6 @@ std::vector<Vector<Dim>> vertex_means(std::span<const Vector<Dim>> of_cells, con
     return mean;
 }
 
-std::string frame_name(const std::string& basename, std::size_t frame, const char* extension) {
-    const std::string number = std::to_string(frame);
-    return basename + "_" + std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + extension;
-}
-
-PreparedFile prepared_list(const Path& directory, const std::string& basename, const char* extension,
-                           const std::vector<double>& times) {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
-    for (std::size_t i = 0; i < times.size(); ++i)
-        text += "<DataSet timestep=\"" + exact_number(times[i]) + "\" part=\"0\" file=\"" +
-                frame_name(basename, i, extension) + "\"/>\n";
-    return prepared_text(directory / (basename + ".pvd"), text + "</Collection>\n</VTKFile>\n");
-}
-
 }  // namespace
 
 template <int Dim>
@@ -220,13 +206,8 @@ const std::vector<double>& VtuSeries<Dim>::times() const {
 
 template <int Dim>
 void VtuSeries<Dim>::go_on_after(std::vector<double> times) {
-    for (std::size_t i = 0; i < times.size(); ++i)
-        for (const std::string& name :
-             {frame_name(files_->basename, i, ".vtu"), frame_name(files_->surface_name(), i, ".vtp")})
-            if (const Path path = files_->directory / name; !std::filesystem::exists(path))
-                throw MeshError(path.string() +
-                                ": the frame is not there, and the series cannot go on after it. Put it back, or run "
-                                "from the start.");
+    require_frames(files_->directory, files_->basename, ".vtu", times.size());
+    require_frames(files_->directory, files_->surface_name(), ".vtp", times.size());
     files_->publish_lists(times);
 }
 

@@ -30,7 +30,9 @@ const Json& Figures::find(const std::string& path) const {
 
 Markup Figures::at(const std::string& path, bool rough) const {
     const Json& value = find(path);
-    return element("data", {{"id", path}, {"value", value.dump()}}, shown(value, rough));
+    Attributes attributes{{"id", path}, {"value", value.dump()}};
+    if (value.is_string()) attributes.emplace_back("class", "words");
+    return element("data", attributes, shown(value, rough));
 }
 
 double Figures::number(const std::string& path) const {

@@ -66,7 +66,8 @@ Markup table(const std::vector<Markup>& head, const std::vector<Markup>& rows) {
     if (rows.empty()) return {};
     Markup body;
     for (const Markup& each : rows) body += each;
-    return element("table", element("thead", row(head, "th")) + element("tbody", body)) + "\n";
+    const Markup whole = element("table", element("thead", row(head, "th")) + element("tbody", body));
+    return element("div", {{"class", "scroll"}}, whole) + "\n";
 }
 
 }  // namespace abut::run

@@ -39,7 +39,7 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 /// A row of a table: one cell for each, <td>, or another tag for all of them.
 [[nodiscard]] Markup row(const std::vector<Markup>& cells, std::string_view tag = "td");
-/// A table with a head; nothing where there are no rows.
+/// A table with a head, which scrolls where it is wider than the page; nothing where there are no rows.
 [[nodiscard]] Markup table(const std::vector<Markup>& head, const std::vector<Markup>& rows);
 
 }  // namespace abut::run

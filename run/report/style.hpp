@@ -22,12 +22,15 @@ h2 { font-size: 1.15em; margin: 2em 0 0.5em; border-bottom: 1px solid var(--line
 p.faint, figcaption, td.faint { color: var(--faint); }
 p.good, p.attention { font-size: 1.1em; border-left: 4px solid var(--good); padding-left: 0.7em; }
 p.attention { border-color: var(--bad); }
+.scroll, figure { overflow-x: auto; }
 table { border-collapse: collapse; margin: 0.5em 0; }
-th, td { text-align: left; vertical-align: top; padding: 0.15em 1.4em 0.15em 0; border-bottom: 1px solid var(--line); }
+th, td { text-align: left; vertical-align: top; padding: 0.15em 1.3em 0.15em 0; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; }
-data { font-variant-numeric: tabular-nums; overflow-wrap: anywhere; }
+th:last-child, td:last-child { padding-right: 0; }
+data { font-variant-numeric: tabular-nums; white-space: nowrap; }
+data.words { white-space: normal; overflow-wrap: anywhere; }
 figure { margin: 1em 0; }
-svg { width: 100%; height: auto; font: 12px system-ui, sans-serif; }
+svg { width: 100%; min-width: 36em; height: auto; font: 12px system-ui, sans-serif; }
 svg text { fill: var(--ink); }
 .grid { stroke: var(--line); stroke-width: 1; }
 .axis { stroke: var(--ink); stroke-width: 1; }
@@ -37,6 +40,7 @@ svg text { fill: var(--ink); }
 .grey { stroke: var(--grey); stroke-width: 4; }
 .ink { stroke: var(--ink); }
 .bar { display: inline-block; height: 0.7em; background: var(--blue); print-color-adjust: exact; }
+@media (max-width: 40em) { body { font-size: 14px; } th, td { padding-right: 0.8em; } }
 summary { cursor: pointer; color: var(--faint); }
 )css";
 

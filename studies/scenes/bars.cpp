@@ -10,7 +10,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/log.hpp"
 

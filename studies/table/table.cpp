@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "abut/run/files.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/csv.hpp"
 
 namespace abut::studies {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/patch_test.hpp"

@@ -8,7 +8,7 @@
 #include <array>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/contact_patch.hpp"
 #include "studies/validation/study.hpp"

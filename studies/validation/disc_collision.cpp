@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/scenes/impacts.hpp"

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/validation/study.hpp"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/manufactured.hpp"

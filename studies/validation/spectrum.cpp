@@ -15,7 +15,7 @@
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/dynamics/stable_step.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/dense_stiffness.hpp"
 #include "studies/scenes/plane_wave.hpp"

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "abut/base/error.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "studies/scenes/bars.hpp"
 
 namespace abut::studies {

@@ -17,7 +17,7 @@
 #include <numbers>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/scenes/half_plane.hpp"
 #include "studies/scenes/plane_wave.hpp"

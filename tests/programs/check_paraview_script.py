@@ -33,6 +33,9 @@ class Display:
     def SetScalarBarVisibility(self, view, visible):
         assert visible
 
+    def SetRepresentationType(self, name):
+        assert name == "Points"
+
 
 class Layout:
     def SplitViewHorizontal(self, view, fraction):
@@ -54,7 +57,8 @@ def warp_by_vector(Input, Vectors, ScaleFactor):
 
 def color_by(display, value):
     place, name = value
-    assert place == "CELLS" and display.source.has("CellData", name), value
+    assert place in ("CELLS", "POINTS")
+    assert display.source.has("CellData" if place == "CELLS" else "PointData", name), value
     seen["fields"].append(name)
 
 
@@ -83,6 +87,6 @@ sys.modules.update({"paraview": paraview, "paraview.simple": simple})
 with tempfile.TemporaryDirectory() as folder:
     subprocess.run([sys.argv[1], "--size", "0.25", "--steps", "4", "--frames", "2", "--quiet", "--out", folder], check=True)
     runpy.run_path(folder + "/view_in_paraview.py")
-    assert len(seen["readers"]) == len(seen["warped"]) == seen["views"] == 2
-    assert {reader.path.name for reader in seen["readers"]} == {"cylinders.pvd", "cylinders_surface.pvd"}
-    assert seen["fields"] == ["von Mises [Pa]", "contact pressure [Pa]"]
+    assert len(seen["warped"]) == seen["views"] == 2
+    assert {reader.path.name for reader in seen["readers"]} == {"cylinders.pvd", "cylinders_surface.pvd", "cylinders_pairs.pvd"}
+    assert seen["fields"] == ["von Mises [Pa]", "contact pressure [Pa]", "normal force [N]"]

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "programs/program.hpp"
@@ -20,10 +21,12 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 }  // namespace
 
 TEST_CASE("a scene gives the bits of the program for the same bodies", "[programs][abut]") {
-    for (const char* name : {"slipping_cylinders", "rebounding_cylinders"}) {
+    const std::vector<std::pair<std::string, std::string>> scenes = {{"slipping_cylinders", ""},
+                                                                     {"rebounding_cylinders", "--offset 0"}};
+    for (const auto& [name, options] : scenes) {
         CAPTURE(name);
         const auto by_scene = run_well("abut", fmt::format("run {} --frames 0", scene(name)), "of_scene");
-        const auto by_program = run_well(name, "--frames 0", "of_program");
+        const auto by_program = run_well("slipping_cylinders", "--frames 0 " + options, "of_program");
         CHECK(read_text(by_scene.directory / "energy.csv") == read_text(by_program.directory / "energy.csv"));
         CHECK(read_summary(by_scene)["complete"] == true);
         CHECK(read_summary(by_scene)["program"] == name);

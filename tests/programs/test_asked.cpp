@@ -62,6 +62,42 @@ std::set<std::string> options_of(const std::string& help) {
     return options;
 }
 
+/// Whether a shell is installed; says so where it is not.
+bool has_shell(const std::string& shell) {
+    if (std::system(fmt::format("command -v {} > /dev/null", shell).c_str()) == 0) return true;
+    WARN("skipped: " << shell << " is not installed");
+    return false;
+}
+
+/// What a script of a shell prints, whose first argument is abut and whose others are words of a command line.
+std::vector<std::string> printed_by(const std::string& shell, const std::string& script, const std::string& line) {
+    const Folder folder("completion_" + shell);
+    const fs::path path = folder.path() / "complete";
+    std::ofstream(path) << script;
+    return lines_of(answer(line, fmt::format("{} '{}'", shell, path.string())));
+}
+
+/// What fish offers for a command line: words, without their meaning.
+std::vector<std::string> completed_by_fish(const std::string& line) {
+    auto offered =
+        printed_by("fish", "$argv[1] completion fish | source\ncomplete -C \"abut $argv[2]\"\n", "'" + line + "'");
+    for (std::string& word : offered) word.resize(std::min(word.size(), word.find('\t')));
+    return offered;
+}
+
+/// What zsh is asked to offer behind words of a command line: the arguments of its function _arguments.
+std::vector<std::string> asked_of_zsh(const std::string& line) {
+    return printed_by("zsh", R"sh(_arguments() { print -rl -- "$@" }
+_describe() { print -rl -- "${commands[@]}" }
+script=$($1 completion zsh)
+shift
+words=(abut "$@")
+CURRENT=${#words}
+eval "$script"
+)sh",
+                      line);
+}
+
 /// What bash offers for a command line, the last word of which is being typed.
 std::vector<std::string> completed(const std::string& line) {
     const Folder folder("completion");
@@ -204,6 +240,48 @@ TEST_CASE("bash completes commands, options, words and topics", "[programs][aske
     for (const std::string& topic : topics) CHECK(std::ranges::count(help, topic) == 1);
     const auto files = completed(fmt::format("run '{}/falling'", ABUT_SCENES));
     CHECK(files == std::vector<std::string>{fmt::format("{}/falling_bar.toml", ABUT_SCENES)});
+}
+
+TEST_CASE("fish completes commands, options, words and files", "[programs][asked]") {
+    if (!has_shell("fish")) return;
+    const auto first = completed_by_fish("");
+    for (const std::string& command : commands) CHECK(std::ranges::count(first, command) == 1);
+    CHECK(completed_by_fish("ch") == std::vector<std::string>{"check"});
+    CHECK(completed_by_fish("run --law pair") == std::vector<std::string>{"pair_potential"});
+    CHECK(completed_by_fish("run --preset ").size() == 3);
+    CHECK(completed_by_fish("help uni") == std::vector<std::string>{"units"});
+    for (const std::string& command : commands) {
+        CAPTURE(command);
+        const auto offered = completed_by_fish(command + " --");
+        const auto options = options_of(answer(command + " --help"));
+        CHECK(std::set<std::string>(offered.begin(), offered.end()) == options);
+    }
+    const auto files = completed_by_fish(fmt::format("run {}/falling", ABUT_SCENES));
+    CHECK(files == std::vector<std::string>{fmt::format("{}/falling_bar.toml", ABUT_SCENES)});
+}
+
+TEST_CASE("zsh is told all commands and options, and which take words, folders and files", "[programs][asked]") {
+    if (!has_shell("zsh")) return;
+    const auto begins = [](const std::vector<std::string>& lines, const std::string& start) {
+        return std::ranges::count_if(lines, [&](const std::string& line) { return line.starts_with(start); });
+    };
+    const auto holds = [](const std::vector<std::string>& lines, const std::string& start, const std::string& end) {
+        return std::ranges::any_of(lines,
+                                   [&](const std::string& line) { return line.starts_with(start) && line.ends_with(end); });
+    };
+    const auto first = asked_of_zsh("''");
+    for (const std::string& command : commands) CHECK(begins(first, command + ":") == 1);
+    for (const std::string& command : commands) {
+        CAPTURE(command);
+        const auto asked = asked_of_zsh(command + " ''");
+        for (const std::string& option : options_of(answer(command + " --help")))
+            CHECK(begins(asked, option + "[") + begins(asked, "*" + option + "[") == 1);
+    }
+    const auto run = asked_of_zsh("run ''");
+    CHECK(holds(run, "*--preset[", "]:value:(fast balanced exact)"));
+    CHECK(holds(run, "*--out[", "]:value:_directories"));
+    CHECK(holds(run, "*:what", ":_files"));
+    CHECK(holds(run, "*--quiet[", "]"));
 }
 
 TEST_CASE("the manual page has all commands, options and topics, and troff finds nothing wrong with it",

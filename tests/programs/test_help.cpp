@@ -19,7 +19,6 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--integrator "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
      "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --quiet --json"},
-    {"rebounding_cylinders", "--dim --offset --out"},
     {"bouncing_strip",
      "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames --quiet --json"},
     {"bouncing_bar",

@@ -40,7 +40,6 @@ TEST_CASE("a second run into the folder of one that is under way is refused and 
 TEST_CASE("every program that leaves results is refused a folder that another run has", "[programs][folder]") {
     const auto [program, arguments] =
         GENERATE(table<std::string, std::string>({{"slipping_cylinders", "--steps 1"},
-                                                  {"rebounding_cylinders", "--steps 1"},
                                                   {"bouncing_strip", "--steps 1"},
                                                   {"detect", "torus"},
                                                   {"fpu", "--time 1"},

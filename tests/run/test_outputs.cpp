@@ -106,6 +106,67 @@ TEST_CASE("forces times their intervals are the change of momentum, whatever sch
         CHECK(normal_impulse == Approx(impulse.x()).epsilon(1e-12));
 }
 
+/// Looks at the pairs that push each other, beside the force on each body.
+struct PairWitness : run::Observer<2> {
+    void look(const dynamics::RunView<2>& view, solid::Solid<2>& solid) override {
+        std::vector<double> force(view.q.size());
+        solid.force(view.q, force);
+        Vector<2> on_right = Vector<2>::Zero();
+        for (std::size_t i = 0; i < solid.masses().size(); ++i)
+            if (solid.body_of_points()[i] == 1) on_right += as_vectors<2>(std::span<const double>(force))[i];
+        const auto pairs = solid.acting_pairs(view.q);
+        most_pairs = std::max(most_pairs, pairs.size());
+        for (const solid::ActingPair<2>& pair : pairs) {
+            largest_force = std::max(largest_force, pair.force.norm());
+            if (pair.area <= 0.0 || pair.normal.x() < 0.5) ++bad_pairs;  // from left to right
+            on_right -= pair.force;
+        }
+        largest_difference = std::max(largest_difference, on_right.norm());
+        last_pairs = pairs.size();
+    }
+    std::size_t most_pairs = 0, last_pairs = 0;
+    int bad_pairs = 0;
+    double largest_force = 0.0, largest_difference = 0.0;
+};
+
+TEST_CASE("pairs that push each other carry the whole force between two bodies, under both laws", "[run][outputs]") {
+    const auto law = GENERATE(solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential);
+    CAPTURE(static_cast<int>(law));
+    PairWitness witness;
+    static_cast<void>(run::simulate<2>(two_blocks(), {.law = law}, witness));
+    CHECK(witness.most_pairs > 3);
+    CHECK(witness.bad_pairs == 0);
+    CHECK(witness.largest_force > 1e-3);
+    CHECK(witness.largest_difference < 1e-13 * static_cast<double>(witness.most_pairs));
+}
+
+TEST_CASE("frames hold as many points as there are pairs in contact, and none where pairs are not asked for",
+          "[run][outputs]") {
+    const Folder folder;
+    run::Scene<2> scene = two_blocks();
+    run::RunOptions options{.steps = 40, .out = folder.path(), .frames = 2};
+    options.dt = 0.02;  // blocks meet at t = 0.1 s
+    PairWitness witness;
+    run::ResultFiles<2> files(options, "outputs", "bodies");
+    run::Observers<2> observers{files, witness};
+    run::RunResult<2> result = run::simulate<2>(scene, options, observers);
+    files.finish(scene, result);
+    REQUIRE(witness.last_pairs > 0);
+    const std::string first = read_text(folder.path() / "bodies_pairs_000000.vtp");
+    const std::string last = read_text(folder.path() / "bodies_pairs_000001.vtp");
+    CHECK(first.find("NumberOfPoints=\"0\"") != std::string::npos);
+    CHECK(last.find("NumberOfPoints=\"" + std::to_string(witness.last_pairs) + "\"") != std::string::npos);
+    for (const char* name : {"body 1", "body 2", "normal", "force [N]", "normal force [N]", "gap [m]", "area [m]"})
+        CHECK(last.find(std::string("Name=\"") + name + "\"") != std::string::npos);
+    CHECK(files.table().find("bodies_pairs.pvd") != std::string::npos);
+
+    scene.outputs.fields.pairs = false;
+    run::ResultFiles<2> without(options, "outputs", "bodies");
+    static_cast<void>(run::simulate<2>(scene, options, without));
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "bodies_pairs.pvd"));
+    CHECK(std::filesystem::exists(folder.path() / "bodies_surface.pvd"));
+}
+
 TEST_CASE("forces on an obstacle carry its name, and bodies that turn change numbers without changing names",
           "[run][outputs]") {
     run::Scene<2> scene = test::block_on_plane(0.05);

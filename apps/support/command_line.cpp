@@ -1,4 +1,4 @@
-#include "apps/support/choices.hpp"
+#include "apps/support/command_line.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,21 @@
+#pragma once
+// Private to the layer; not installed.
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "abut/mesh/io/file.hpp"
+
+namespace abut::mesh {
+
+/// BASENAME_000012.vtp, with the extension given.
+[[nodiscard]] std::string frame_name(const std::string& basename, std::size_t frame, const char* extension);
+/// BASENAME.pvd: the frames with their times [s]. Throws MeshError.
+[[nodiscard]] PreparedFile prepared_list(const std::filesystem::path& directory, const std::string& basename,
+                                         const char* extension, const std::vector<double>& times);
+/// Throws MeshError naming the first of so many frames that is not there.
+void require_frames(const std::filesystem::path& directory, const std::string& basename, const char* extension,
+                    std::size_t n_frames);
+
+}  // namespace abut::mesh
