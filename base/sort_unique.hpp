@@ -10,8 +10,8 @@
 namespace abut {
 namespace detail {
 
-/// The same as `sort_unique` by a mark for each number from `least` on, in time that is linear in `range` and the values.
-/// Takes no more memory than the result.
+/// The same as `sort_unique` by a mark for each number from `least` on, in time that is linear in `range` and the values: a bit
+/// each beside the result.
 template <std::integral T>
 std::vector<T> marked(const std::vector<T>& values, T least, std::size_t range) {
     std::vector<std::uint64_t> marks(range / 64 + 1, 0);

@@ -49,4 +49,10 @@ template <int Dim, class Double>
     return std::span<V>(reinterpret_cast<V*>(values.data()), values.size() / Dim);
 }
 
+/// The other way round.
+template <int Dim>
+[[nodiscard]] std::span<double> as_values(std::span<Vector<Dim>> vectors) {
+    return std::span<double>(reinterpret_cast<double*>(vectors.data()), vectors.size() * Dim);
+}
+
 }  // namespace abut

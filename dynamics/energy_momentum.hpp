@@ -35,6 +35,7 @@ public:
         : Integrator<EnergyMomentum, S>(system, std::move(q), dt),
           mean_force_(system, mean),
           matrix_(system.size(), mass_entries(system.inverse_mass())) {
+        refuse_ranks(ranks_of(system), "an implicit scheme");
         for (auto* array : {&residual_, &change_, &q_on_path_}) array->resize(system.size());
         this->begin(p);
     }

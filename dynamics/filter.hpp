@@ -6,6 +6,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/point_system.hpp"
+#include "abut/dynamics/ranks.hpp"
 
 namespace abut::dynamics {
 
@@ -77,6 +78,7 @@ public:
 
     /// To be called after each step (Integrator::set_after_step).
     void operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after) {
+        refuse_ranks(ranks_of(system_), "filter");
         const std::vector<ContactPatch<Dim>> patches = system_.contact_patches();
         if (patches.empty()) return;
         points_.clear();

@@ -71,6 +71,14 @@ public:
           p_before(integrator.p_before()),
           p_after(integrator.p_after()),
           ranks(integrator.ranks()) {}
+    /// Of a state, which must outlive the view, with all points of its system.
+    explicit RunView(const IntegratorState& state)
+        : steps(state.steps),
+          time(state.time),
+          q(state.q),
+          p_before(state.p_before),
+          p_after(state.p_after),
+          ranks(nullptr) {}
 
     std::int64_t steps;
     double time;                       ///< [s]

@@ -44,6 +44,7 @@ public:
     /// steps do not fit. After an error in `step` q and p are of different times: the run is over.
     MemmAsync(S& system, std::vector<double> q, std::span<const double> p, double dt, LocalSteps steps)
         : Integrator<MemmAsync, S>(system, std::move(q), dt), steps_(std::move(steps)) {
+        refuse_ranks(ranks_of(system), "a scheme with local steps");
         detail::check_local_steps(steps_, system.size());
         dofs_.resize(steps_.parts.size());
         for (std::size_t i = 0; i < steps_.level.size(); ++i) dofs_[steps_.level[i]].push_back(i);

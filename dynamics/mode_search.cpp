@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -52,9 +51,12 @@ ModeSearch::ModeSearch(std::size_t n, Product stiffness) : stiffness_(std::move(
         direction->vector.assign(n, 0.0);
         direction->product.assign(n, 0.0);
     }
-    std::minstd_rand random(1);
+    restart();
+}
+
+void ModeSearch::restart() {
     for (double& value : x_.vector)
-        value = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+        value = static_cast<double>(random_()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
 }
 
 void ModeSearch::set_weights(std::span<const double> weights) {

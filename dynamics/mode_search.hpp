@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,9 @@ public:
     /// the count begins again then. Throws BadInput if nothing is free.
     void set_weights(std::span<const double> weights);
     void iterate();
+    /// Begins again from another random field, at the next `set_weights`: parts of a system that know nothing of each other
+    /// are forgotten where the search has followed the others for long.
+    void restart();
 
     [[nodiscard]] double quotient() const { return quotient_; }  ///< Rayleigh quotient of x, a lower bound of lambda
     [[nodiscard]] double change() const { return change_; }      ///< relative, in the last iteration
@@ -39,6 +43,7 @@ private:
     void combine(const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
     Product stiffness_;
+    std::minstd_rand random_{1};
     std::vector<double> weights_, masses_;  ///< 1/W, 0 where held
     Direction x_, residual_, last_;
     double quotient_ = 0.0, change_ = 0.0;

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace abut::dynamics {
@@ -20,7 +22,7 @@ struct Summands {
 /// The ranks that the points of a system are shared out to, as one of them sees them; a system on one rank has none of this
 /// (a null pointer). The points of a rank are numbered in the order of their numbers among all points.
 ///
-/// Every function but the first four is a call of all ranks together: each waits until the others call the same.
+/// Every function but the first five is a call of all ranks together: each waits until the others call the same.
 class Ranks {
 public:
     virtual ~Ranks() = default;
@@ -28,6 +30,8 @@ public:
     [[nodiscard]] virtual int rank() const = 0;  ///< this one, from 0
     /// Of this rank's points among all, increasing (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> numbers() const = 0;
+    /// Of this rank's points among the cells of its part of the mesh, increasing (n_owned).
+    [[nodiscard]] virtual std::span<const std::int32_t> positions() const = 0;
     [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
     [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
 
@@ -36,27 +40,44 @@ public:
     /// Sums of the terms of all ranks by component (width), with the bits that one rank gets which adds all of them up in
     /// blocks of 1,024 values (base/parallel.hpp). `terms` are those of this rank's points in the range (n, per_point, width).
     virtual void sum(const Summands& summands, std::span<const double> terms, std::span<double> total) const = 0;
-    /// start + the terms of all ranks, one after the other by number. `numbers`: of this rank's terms, increasing.
-    [[nodiscard]] virtual double fold(double start, std::span<const std::int32_t> numbers,
+    /// start + the terms of all ranks, one after the other by number. `numbers`: of this rank's terms, each on one rank.
+    [[nodiscard]] virtual double fold(double start, std::span<const std::int64_t> numbers,
                                       std::span<const double> terms) const = 0;
+    /// Values by point (n_owned, width) of all ranks in the order of the points, on rank 0; nothing on the others.
+    [[nodiscard]] virtual std::vector<double> collect(std::span<const double> values, int width) const = 0;
+    /// The values of all ranks on all of them, rank after rank.
+    [[nodiscard]] virtual std::vector<double> gather(std::span<const double> values) const = 0;
     /// The largest of all ranks; NaN if one is.
     [[nodiscard]] virtual double largest(double value) const = 0;
-    /// Returns where no rank brings an error. Else it throws on all ranks: the rank's own error, or that of the first rank
-    /// that has one, as an error of the same type with the rank in front.
+    /// Returns where no rank brings an error. Else it throws on all ranks the error of the first rank that has one: on the
+    /// others as an error of the same type, with the rank in front.
     virtual void agree(const std::exception_ptr& error) const = 0;
 };
 
-/// Calls body() and agrees on how it ended. `body` must not call what all ranks call together. Null: it is called.
+/// The result of body(), once all ranks have agreed that it ended well on each. `body` must not call what all ranks call
+/// together. Null: it is called.
 template <class Body>
-void agreed(const Ranks* ranks, const Body& body) {
+auto agreed(const Ranks* ranks, const Body& body) {
     if (!ranks) return body();
+    using Result = decltype(body());
     std::exception_ptr error;
-    try {
-        body();
-    } catch (...) {
-        error = std::current_exception();
+    if constexpr (std::is_void_v<Result>) {
+        try {
+            body();
+        } catch (...) {
+            error = std::current_exception();
+        }
+        ranks->agree(error);
+    } else {
+        std::optional<Result> result;
+        try {
+            result.emplace(body());
+        } catch (...) {
+            error = std::current_exception();
+        }
+        ranks->agree(error);
+        return *std::move(result);
     }
-    ranks->agree(error);
 }
 
 /// Sum of term(i) over the values of a system, i being numbered on this rank: `ordered_sum` over those of all ranks.

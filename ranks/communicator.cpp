@@ -1,9 +1,9 @@
 #include "abut/ranks/communicator.hpp"
 
+#include <array>
 #include <cmath>
-#include <cstring>
-#include <numeric>
-#include <utility>
+#include <limits>
+#include <string>
 
 #include "abut/base/throw_again.hpp"
 #include "abut/ranks/mpi.hpp"
@@ -83,7 +83,7 @@ void Communicator::agree(const std::exception_ptr& error) const {
     broadcast<std::int32_t>(*this, head, first);
     cause.text.resize(static_cast<std::size_t>(head[1]));
     require(MPI_Bcast(cause.text.data(), head[1], MPI_CHAR, first, impl_->comm), "MPI_Bcast");
-    if (error) std::rethrow_exception(error);
+    if (first == rank()) std::rethrow_exception(error);
     const std::string text = "on rank " + std::to_string(first) + ": " + cause.text;
     if (head[0] < 0) throw std::runtime_error(text);
     throw_again(Error(static_cast<ErrorKind>(head[0]), text), text);

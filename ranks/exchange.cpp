@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <map>
 #include <numeric>
 
@@ -64,9 +65,30 @@ void check(const Received<std::int32_t>& asked, std::size_t n_entries) {
                            {.value = static_cast<double>(position), .allowed = static_cast<double>(n_entries)});
 }
 
+/// Each copy has a place of its own.
+void check_wanted(std::size_t n_entries, std::span<const std::int32_t> wanted, std::span<const int> owner,
+                  std::span<const std::int32_t> number) {
+    if (owner.size() != wanted.size() || number.size() != wanted.size())
+        throw BadInput("exchange: " + std::to_string(wanted.size()) + " copies are wanted, with " +
+                       std::to_string(owner.size()) + " owners and " + std::to_string(number.size()) +
+                       " numbers. Give one of each per copy.");
+    std::vector<bool> taken(n_entries, false);
+    for (const std::int32_t position : wanted) {
+        if (position < 0 || static_cast<std::size_t>(position) >= n_entries)
+            throw BadInput("exchange: a copy is wanted at entry " + std::to_string(position) + " of an array of " +
+                               std::to_string(n_entries) + ", counted from 0.",
+                           {.value = static_cast<double>(position), .allowed = static_cast<double>(n_entries)});
+        if (taken[static_cast<std::size_t>(position)])
+            throw BadInput("exchange: two copies are wanted at entry " + std::to_string(position) + ".",
+                           {.value = static_cast<double>(position)});
+        taken[static_cast<std::size_t>(position)] = true;
+    }
+}
+
 }  // namespace
 
 struct Exchange::Impl {
+    std::size_t n_entries = 0;
     MPI_Comm graph = MPI_COMM_NULL;  // of the ranks that have neighbours
     Side to, from;
     ExchangeCounts counts;
@@ -112,6 +134,7 @@ Exchange::Exchange(const Communicator& communicator, std::size_t n_entries, std:
     std::vector<std::vector<int>> from(size);
     std::vector<std::vector<std::int32_t>> asked(size);
     agreed(communicator, [&] {
+        check_wanted(n_entries, wanted, owner, number);
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             if (owner[i] < 0 || owner[i] >= size)
                 throw BadInput("exchange: an entry is wanted of rank " + std::to_string(owner[i]) + ", but there are " +
@@ -136,6 +159,7 @@ Exchange::Exchange(const Communicator& communicator, std::size_t n_entries, std:
         impl_->to.add(rank, std::vector<int>(of_rank.begin(), of_rank.end()));
         impl_->from.add(rank, std::move(from[rank]));
     }
+    impl_->n_entries = n_entries;
     impl_->counts = {std::ssize(impl_->to.ranks), std::ssize(impl_->from.ranks), impl_->to.size(), impl_->from.size()};
     impl_->connect(communicator);
 }
@@ -145,6 +169,7 @@ Exchange::Exchange(Exchange&&) noexcept = default;
 Exchange& Exchange::operator=(Exchange&&) noexcept = default;
 
 void Exchange::fill(std::span<double> values, int width) const {
+    assert(values.size() == impl_->n_entries * static_cast<std::size_t>(width));
     if (impl_->graph == MPI_COMM_NULL) return;
     const TypesOfWidth& types = impl_->types.try_emplace(width, impl_->to, impl_->from, width).first->second;
     const auto& [to, from] = types;

@@ -3,10 +3,13 @@
 #define OMPI_SKIP_MPICXX 1
 #include <mpi.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "abut/base/error.hpp"
@@ -52,11 +55,11 @@ void agreed(const Communicator& communicator, const Body& body) {
 }
 
 template <class T>
+requires(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::int64_t>)
 [[nodiscard]] MPI_Datatype type_of() {
     if constexpr (std::is_same_v<T, double>) return MPI_DOUBLE;
     if constexpr (std::is_same_v<T, std::int32_t>) return MPI_INT32_T;
     if constexpr (std::is_same_v<T, std::int64_t>) return MPI_INT64_T;
-    if constexpr (std::is_same_v<T, std::byte>) return MPI_BYTE;
 }
 
 /// Values that came from all ranks, in their order.
@@ -91,7 +94,7 @@ template <class T>
 
 /// All values of all ranks, on rank 0; nothing on the others.
 template <class T>
-[[nodiscard]] Received<T> gather(const Communicator& communicator, std::span<const T> values) {
+[[nodiscard]] Received<T> gather_to_first(const Communicator& communicator, std::span<const T> values) {
     const int count = as_count(values.size());
     Received<T> result;
     std::vector<int> counts(communicator.size());
@@ -103,6 +106,21 @@ template <class T>
     require(MPI_Gatherv(values.data(), count, type_of<T>(), result.values.data(), counts.data(), result.offsets.data(),
                         type_of<T>(), 0, handle(communicator)),
             "MPI_Gatherv");
+    return result;
+}
+
+/// All values of all ranks, on all of them.
+template <class T>
+[[nodiscard]] Received<T> gather_to_all(const Communicator& communicator, std::span<const T> values) {
+    const int count = as_count(values.size());
+    std::vector<int> counts(communicator.size());
+    require(MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, handle(communicator)), "MPI_Allgather");
+    Received<T> result;
+    result.offsets = offsets_of(counts);
+    result.values.resize(result.offsets.back());
+    require(MPI_Allgatherv(values.data(), count, type_of<T>(), result.values.data(), counts.data(), result.offsets.data(),
+                           type_of<T>(), handle(communicator)),
+            "MPI_Allgatherv");
     return result;
 }
 

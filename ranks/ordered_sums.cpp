@@ -1,6 +1,7 @@
 #include "abut/ranks/ordered_sums.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "abut/base/parallel.hpp"
 #include "abut/ranks/mpi.hpp"
@@ -51,7 +52,8 @@ void OrderedSums::sum(const dynamics::Summands& summands, std::span<const double
     const Plan& plan = plan_of(summands);
     const auto width = static_cast<std::size_t>(summands.width);
     std::vector<int> counts = plan.counts;
-    for (int& count : counts) count *= summands.width;
+    for (int& count : counts) count = as_count(static_cast<std::size_t>(count) * width);
+    assert(static_cast<int>(terms.size()) == offsets_of(counts).back());
     const auto arrived = exchange<double>(communicator_, terms, counts);
     std::vector<double> here(static_cast<std::size_t>(plan.n_here) * width);
     for (std::size_t i = 0; i < plan.arrived.size(); ++i)
@@ -65,7 +67,7 @@ void OrderedSums::sum(const dynamics::Summands& summands, std::span<const double
         for (std::int64_t i = begin; i < std::min(plan.n_here, begin + block); ++i)
             for (std::size_t j = 0; j < width; ++j) sum_of_block[j] += here[static_cast<std::size_t>(i) * width + j];
     }
-    const auto all = gather<double>(communicator_, sums);
+    const auto all = gather_to_first<double>(communicator_, sums);
     std::ranges::fill(total, 0.0);
     for (std::size_t i = 0; i < all.values.size(); ++i) total[i % width] += all.values[i];
     broadcast<double>(communicator_, total);

@@ -1,6 +1,7 @@
 #include "abut/ranks/point_ranks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "abut/ranks/mpi.hpp"
@@ -11,7 +12,20 @@ namespace {
 
 /// The points are on one rank each.
 void check_cover(const Communicator& communicator, const SharedPoints& points) {
+    std::array<std::int32_t, 2> of_first{points.n_points, points.dimension};
+    broadcast<std::int32_t>(communicator, of_first);
     agreed(communicator, [&] {
+        if (of_first != std::array{points.n_points, points.dimension})
+            throw BadInput("ranks: " + std::to_string(points.n_points) + " points of " + std::to_string(points.dimension) +
+                           " values are given, but on rank 0 they are " + std::to_string(of_first[0]) + " of " +
+                           std::to_string(of_first[1]) + ". Give all ranks the same.");
+        if (points.position.size() != points.numbers.size())
+            throw BadInput("ranks: " + std::to_string(points.numbers.size()) + " points are given with " +
+                           std::to_string(points.position.size()) + " positions. Give one per point.");
+        if (points.owner.size() != points.copies.size() || points.copied_point.size() != points.copies.size())
+            throw BadInput("ranks: " + std::to_string(points.copies.size()) + " copies are given with " +
+                           std::to_string(points.owner.size()) + " owners and " +
+                           std::to_string(points.copied_point.size()) + " numbers. Give one of each per copy.");
         for (std::size_t i = 0; i < points.numbers.size(); ++i)
             if (points.numbers[i] < (i == 0 ? 0 : points.numbers[i - 1] + 1) || points.numbers[i] >= points.n_points)
                 throw BadInput("ranks: point " + std::to_string(points.numbers[i]) + " of rank " +
@@ -19,7 +33,7 @@ void check_cover(const Communicator& communicator, const SharedPoints& points) {
                                    std::to_string(points.n_points) + ". Give numbers in increasing order.",
                                {.value = static_cast<double>(points.numbers[i])});
     });
-    auto all = gather<std::int32_t>(communicator, points.numbers).values;
+    auto all = gather_to_first<std::int32_t>(communicator, points.numbers).values;
     agreed(communicator, [&] {
         if (communicator.rank() != 0) return;
         std::ranges::sort(all);
@@ -98,6 +112,7 @@ PointRanks::~PointRanks() = default;
 
 int PointRanks::rank() const { return impl_->communicator.rank(); }
 std::span<const std::int32_t> PointRanks::numbers() const { return impl_->points.numbers; }
+std::span<const std::int32_t> PointRanks::positions() const { return impl_->points.position; }
 std::int32_t PointRanks::n_points() const { return impl_->points.n_points; }
 int PointRanks::dimension() const { return impl_->points.dimension; }
 
@@ -113,17 +128,35 @@ void PointRanks::sum(const dynamics::Summands& summands, std::span<const double>
     impl_->sums.sum(summands, terms, total);
 }
 
-double PointRanks::fold(double start, std::span<const std::int32_t> numbers, std::span<const double> terms) const {
+double PointRanks::fold(double start, std::span<const std::int64_t> numbers, std::span<const double> terms) const {
     ++impl_->traffic.sums;
-    const auto all_numbers = gather<std::int32_t>(impl_->communicator, numbers);
-    const auto all_terms = gather<double>(impl_->communicator, terms);
-    std::vector<std::pair<std::int32_t, double>> by_number;
-    for (std::size_t i = 0; i < all_numbers.values.size(); ++i)
-        by_number.emplace_back(all_numbers.values[i], all_terms.values[i]);
-    std::ranges::sort(by_number, {}, &std::pair<std::int32_t, double>::first);
+    const auto all_numbers = gather_to_first<std::int64_t>(impl_->communicator, numbers).values;
+    const auto all_terms = gather_to_first<double>(impl_->communicator, terms).values;
+    std::vector<std::pair<std::int64_t, double>> by_number;
+    for (std::size_t i = 0; i < all_numbers.size(); ++i) by_number.emplace_back(all_numbers[i], all_terms[i]);
+    std::ranges::sort(by_number, {}, &std::pair<std::int64_t, double>::first);
     for (const auto& [number, term] : by_number) start += term;
     broadcast<double>(impl_->communicator, std::span(&start, 1));
     return start;
+}
+
+std::vector<double> PointRanks::collect(std::span<const double> values, int width) const {
+    ++impl_->traffic.gathers;
+    const auto numbers = gather_to_first<std::int32_t>(impl_->communicator, impl_->points.numbers).values;
+    const auto all = gather_to_first<double>(impl_->communicator, values).values;
+    std::vector<double> ordered(all.size());
+    const auto n = static_cast<std::size_t>(width);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(i * n), n,
+                    ordered.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(numbers[i]) * n));
+    return ordered;
+}
+
+std::vector<double> PointRanks::gather(std::span<const double> values) const {
+    ++impl_->traffic.gathers;
+    std::vector<double> all = gather_to_all<double>(impl_->communicator, values).values;
+    impl_->traffic.gathered_bytes += static_cast<std::int64_t>((all.size() - values.size()) * sizeof(double));
+    return all;
 }
 
 double PointRanks::largest(double value) const {

@@ -28,7 +28,9 @@ struct Traffic {
     std::int64_t messages = 0;  ///< sent by this rank in fills
     std::int64_t bytes = 0;     ///< sent by this rank in fills
     std::int64_t sums = 0;
-    std::int64_t reductions = 0;  ///< of 1 or 2 numbers: `largest` and `agree`
+    std::int64_t gathers = 0;
+    std::int64_t gathered_bytes = 0;  ///< received in gathers
+    std::int64_t reductions = 0;      ///< of 1 or 2 numbers: `largest` and `agree`
 };
 
 /// dynamics::Ranks over MPI.
@@ -41,12 +43,15 @@ public:
 
     [[nodiscard]] int rank() const override;
     [[nodiscard]] std::span<const std::int32_t> numbers() const override;
+    [[nodiscard]] std::span<const std::int32_t> positions() const override;
     [[nodiscard]] std::int32_t n_points() const override;
     [[nodiscard]] int dimension() const override;
     void fill(std::span<double> values, int width) const override;
     void sum(const dynamics::Summands& summands, std::span<const double> terms, std::span<double> total) const override;
-    [[nodiscard]] double fold(double start, std::span<const std::int32_t> numbers,
+    [[nodiscard]] double fold(double start, std::span<const std::int64_t> numbers,
                               std::span<const double> terms) const override;
+    [[nodiscard]] std::vector<double> collect(std::span<const double> values, int width) const override;
+    [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override;
     [[nodiscard]] double largest(double value) const override;
     void agree(const std::exception_ptr& error) const override;
 

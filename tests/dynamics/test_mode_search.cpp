@@ -124,3 +124,26 @@ TEST_CASE("mode search: the same bits on any number of threads", "[dynamics][mod
     CHECK(quotients[1] == quotients[0]);
     CHECK(quotients[2] == quotients[0]);
 }
+
+TEST_CASE("mode search: begun again, it finds what it had forgotten of a part that nothing couples with the rest",
+          "[dynamics][mode-search]") {
+    const Chain left(200, 5), right(200, 6);
+    const std::size_t n = left.size() + right.size();
+    ModeSearch search(n, [&](std::span<const double> x, std::span<double> product) {
+        left.product()(x.first(left.size()), product.first(left.size()));
+        right.product()(x.subspan(left.size()), product.subspan(left.size()));
+    });
+    const auto weights = [&](double of_left) {
+        std::vector<double> w;
+        for (const double value : left.weights) w.push_back(of_left * value);
+        w.insert(w.end(), right.weights.begin(), right.weights.end());
+        return w;
+    };
+    search.set_weights(weights(1e4));
+    iterate(search, 500);
+    CHECK(search.quotient() == Approx(1e4 * left.highest()).epsilon(1e-6));
+    search.restart();
+    search.set_weights(weights(0.1));
+    iterate(search, 500);
+    CHECK(search.quotient() == Approx(right.highest()).epsilon(1e-6));
+}

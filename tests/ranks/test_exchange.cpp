@@ -1,5 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <stdexcept>
+
 #include "abut/base/error.hpp"
 #include "abut/ranks/exchange.hpp"
 #include "ranks/world.hpp"
@@ -60,6 +63,18 @@ TEST_CASE("an entry that no rank has is refused on all ranks", "[ranks]") {
     CHECK_THROWS_AS(Exchange(all, 2, wanted, std::vector<int>{0}, number), BadInput);
     CHECK_THROWS_AS(Exchange(all, 2, wanted, std::vector<int>{wrong ? all.size() : 0}, std::vector<std::int32_t>{0}),
                     BadInput);
+}
+
+TEST_CASE("copies that have no place of their own are refused on all ranks", "[ranks]") {
+    const Communicator all = test::world();
+    const bool wrong = all.rank() == all.size() - 1;
+    const std::vector<int> owner{0, 0};
+    const std::vector<std::int32_t> number{0, 0};
+    const auto exchange_of = [&](std::vector<std::int32_t> wanted) { Exchange(all, 3, wanted, owner, number); };
+    CHECK_NOTHROW(exchange_of({1, 2}));
+    CHECK_THROWS_AS(exchange_of({1, wrong ? 3 : 2}), BadInput);
+    CHECK_THROWS_AS(exchange_of({1, wrong ? 1 : 2}), BadInput);
+    CHECK_THROWS_AS(exchange_of(wrong ? std::vector<std::int32_t>{1} : std::vector<std::int32_t>{1, 2}), BadInput);
 }
 
 TEST_CASE("the error of one rank is thrown on all of them, of the same type", "[ranks]") {

@@ -71,13 +71,29 @@ TEST_CASE("a sum over some of the points begins its blocks with them", "[ranks]"
 TEST_CASE("a fold over ranks adds one term after the other", "[ranks]") {
     const Communicator all = test::world();
     const std::int32_t n = 3000;
-    const auto numbers = test::scattered(n, all.rank(), all.size());
+    const auto scattered = test::scattered(n, all.rank(), all.size());
+    const std::vector<std::int64_t> numbers(scattered.begin(), scattered.end());
     std::vector<double> terms;
-    for (const std::int32_t number : numbers) terms.push_back(term(number));
+    for (const std::int64_t number : numbers) terms.push_back(term(number));
     double expected = 0.125;
     for (std::int32_t i = 0; i < n; ++i) expected += term(i);
     const PointRanks ranks(all, points_of(all, n));
     CHECK(same_bits(ranks.fold(0.125, numbers, terms), expected));
+}
+
+TEST_CASE("values that are collected come in the order of the points", "[ranks]") {
+    const Communicator all = test::world();
+    const std::int32_t n = 500;
+    const PointRanks ranks(all, points_of(all, n));
+    std::vector<double> values;
+    for (const std::int32_t number : ranks.numbers()) values.insert(values.end(), {term(number), -term(number)});
+    const std::vector<double> all_values = ranks.collect(values, 2);
+    REQUIRE(all_values.size() == (all.rank() == 0 ? 2 * static_cast<std::size_t>(n) : 0));
+    for (std::size_t i = 0; i < all_values.size(); ++i)
+        CHECK(all_values[i] == (i % 2 == 0 ? 1.0 : -1.0) * term(static_cast<std::int64_t>(i / 2)));
+    std::size_t n_gathered = 0;
+    for (const double value : ranks.gather(values)) n_gathered += std::isfinite(value) ? 1 : 0;
+    CHECK(n_gathered == 2 * static_cast<std::size_t>(n));
 }
 
 TEST_CASE("products and the highest mode of a system over ranks have the bits of those on one", "[ranks]") {
@@ -121,6 +137,14 @@ TEST_CASE("points that do not fit together are refused on all ranks", "[ranks]")
     SharedPoints missing = points_of(all, 50);
     missing.n_points = 51;
     CHECK_THROWS_AS(PointRanks(all, missing), BadInput);
+    SharedPoints short_of_places = points_of(all, 50);
+    if (all.rank() == 0) short_of_places.position.pop_back();
+    CHECK_THROWS_AS(PointRanks(all, short_of_places), BadInput);
+    if (all.size() > 1) {
+        SharedPoints other_number = points_of(all, 50);
+        if (all.rank() == 0) other_number.n_points = 60;
+        CHECK_THROWS_AS(PointRanks(all, other_number), BadInput);
+    }
     SharedPoints stranger = points_of(all, 50);
     if (all.rank() == all.size() - 1) stranger.copies = {0}, stranger.owner = {0}, stranger.copied_point = {5000};
     CHECK_THROWS_AS(PointRanks(all, stranger), BadInput);

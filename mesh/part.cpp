@@ -1,0 +1,123 @@
+#include "abut/mesh/part.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/mesh/chosen_rows.hpp"
+
+namespace abut::mesh {
+namespace {
+
+template <int Dim>
+void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers) {
+    if (std::ssize(owner) != mesh.n_cells())
+        throw BadInput(mesh.name + ": owners of " + std::to_string(owner.size()) + " cells are given for " +
+                           std::to_string(mesh.n_cells()) + " cells. Give one per cell.",
+                       {.value = static_cast<double>(owner.size()), .allowed = static_cast<double>(mesh.n_cells())});
+    if (layers < 1)
+        throw BadInput(mesh.name + ": a part with " + std::to_string(layers) +
+                           " layers of copies is asked for, 1 at least is needed.",
+                       {.value = static_cast<double>(layers), .allowed = 1.0});
+    for (std::int32_t c = 1; c < mesh.n_cells(); ++c)
+        if (mesh.cell_body[c] == mesh.cell_body[c - 1] && mesh.cell_faces[c].size() != mesh.cell_faces[c - 1].size())
+            throw BadInput(mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])] +
+                               "' has cells of " + std::to_string(mesh.cell_faces[c - 1].size()) + " and of " +
+                               std::to_string(mesh.cell_faces[c].size()) +
+                               " faces. Ranks cannot share such a body out: mesh it with cells of one kind.",
+                           {.cell = c});
+}
+
+/// Own cells and copies, increasing.
+template <int Dim>
+std::vector<std::int32_t> cells_of_part(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers) {
+    std::vector<std::int32_t> cells, outermost, next;
+    std::vector<bool> taken(owner.size(), false);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+        if (owner[static_cast<std::size_t>(c)] == rank) outermost.push_back(c), taken[static_cast<std::size_t>(c)] = true;
+    cells = outermost;
+    for (int layer = 0; layer < layers; ++layer) {
+        next.clear();
+        for (const std::int32_t c : outermost)
+            for (const std::int32_t f : mesh.cell_faces[c])
+                for (const std::int32_t neighbour : mesh.face_cells[f])
+                    if (neighbour >= 0 && !taken[static_cast<std::size_t>(neighbour)]) {
+                        taken[static_cast<std::size_t>(neighbour)] = true;
+                        next.push_back(neighbour);
+                    }
+        std::swap(outermost, next);
+        cells.insert(cells.end(), outermost.begin(), outermost.end());
+    }
+    std::ranges::sort(cells);
+    return cells;
+}
+
+/// Faces of these cells by their first cell among them, then by their position in it: the order of a mesh.
+template <int Dim>
+std::vector<std::int32_t> faces_of_part(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& cells) {
+    std::vector<std::int32_t> faces;
+    std::vector<bool> taken(static_cast<std::size_t>(mesh.n_faces()), false);
+    for (const std::int32_t c : cells)
+        for (const std::int32_t f : mesh.cell_faces[c])
+            if (!taken[static_cast<std::size_t>(f)]) taken[static_cast<std::size_t>(f)] = true, faces.push_back(f);
+    return faces;
+}
+
+/// Sets the faces of a part: those whose first cell is elsewhere are seen from the other side.
+template <int Dim>
+void set_faces(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& faces, const std::vector<std::int32_t>& new_cell,
+               const std::vector<std::int32_t>& new_vertex, Mesh<Dim>& part) {
+    std::vector<std::int32_t> vertices;
+    for (const std::int32_t f : faces) {
+        auto [first, second] = mesh.face_cells[f];
+        first = new_cell[static_cast<std::size_t>(first)];
+        second = second < 0 ? not_chosen : new_cell[static_cast<std::size_t>(second)];
+        const bool turned = first == not_chosen;
+        if (turned) std::swap(first, second);
+        vertices.clear();
+        for (const std::int32_t v : mesh.face_vertices[f]) vertices.push_back(new_vertex[static_cast<std::size_t>(v)]);
+        if (turned) std::reverse(vertices.begin(), vertices.end());
+        part.face_vertices.append(vertices);
+        part.face_normal.push_back(turned ? Vector<Dim>(-mesh.face_normal[f]) : mesh.face_normal[f]);
+        if (second == not_chosen) part.boundary_faces.push_back(static_cast<std::int32_t>(part.face_cells.size()));
+        part.face_cells.push_back({first, second});
+    }
+    part.face_measure = chosen_values(mesh.face_measure, faces);
+    part.face_centroid = chosen_values(mesh.face_centroid, faces);
+}
+
+}  // namespace
+
+template <int Dim>
+MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers) {
+    check(mesh, owner, layers);
+    MeshPart<Dim> result;
+    result.n_cells = mesh.n_cells();
+    result.cell_number = cells_of_part(mesh, owner, rank, layers);
+    const std::vector<std::int32_t>& cells = result.cell_number;
+    for (const std::int32_t c : cells) result.cell_owner.push_back(owner[static_cast<std::size_t>(c)]);
+
+    const std::vector<std::int32_t> faces = faces_of_part(mesh, cells), vertices = vertices_of(mesh, cells);
+    const auto new_cell = new_numbers(mesh.cell_measure.size(), cells);
+    const auto new_face = new_numbers(mesh.face_measure.size(), faces);
+    const auto new_vertex = new_numbers(mesh.vertices.size(), vertices);
+    Mesh<Dim>& part = result.mesh;
+    set_cells(mesh, cells, vertices, new_face, new_vertex, part);
+    part.cell_body = chosen_values(mesh.cell_body, cells);
+    set_faces(mesh, faces, new_cell, new_vertex, part);
+    part.body_names = mesh.body_names;
+    for (const BoundaryGroup& group : mesh.groups) {
+        BoundaryGroup& kept = part.groups.emplace_back(group.name);
+        for (const std::int32_t f : group.faces)
+            if (new_face[static_cast<std::size_t>(f)] != not_chosen)
+                kept.faces.push_back(new_face[static_cast<std::size_t>(f)]);
+    }
+    return result;
+}
+
+template MeshPart<2> part_of(const Mesh<2>&, std::span<const int>, int, int);
+template MeshPart<3> part_of(const Mesh<3>&, std::span<const int>, int, int);
+
+}  // namespace abut::mesh

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/mesh.hpp"
+
+namespace abut::mesh {
+
+/// What one of several ranks has of a mesh: its own cells, and copies of those around them, which other ranks own. Cells and
+/// faces come in the order that they have in the whole mesh, bodies and groups are all there. Where the part ends inside a
+/// body, its outermost copies have boundary faces that the whole mesh does not have.
+template <int Dim>
+struct MeshPart {
+    Mesh<Dim> mesh;
+    std::vector<std::int32_t> cell_number;  ///< of each cell in the whole mesh, increasing (n_cells)
+    std::vector<int> cell_owner;            ///< the rank that owns it (n_cells)
+    std::int32_t n_cells = 0;               ///< of the whole mesh
+};
+
+/// How many cells deep copies are: what a force on a cell depends on, with the operators of solid (docs/ranks.md).
+inline constexpr int default_layers = 8;
+
+/// The part of a rank: the cells that it owns, and `layers` of neighbours across faces around them. `owner` says whose each
+/// cell is (n_cells). Throws BadInput where its length is another one, for fewer than 1 layer, and for a body with cells of
+/// more than one number of faces.
+template <int Dim>
+[[nodiscard]] MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank,
+                                    int layers = default_layers);
+
+}  // namespace abut::mesh

@@ -1,0 +1,148 @@
+#include "abut/ranks/partition.hpp"
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "abut/ranks/mpi.hpp"
+// What it needs of MPI comes first.
+#include <zoltan.h>
+
+namespace abut::ranks {
+namespace {
+
+/// The points that this rank hands to Zoltan: a part of all in their order.
+template <int Dim>
+struct Slice {
+    std::span<const Vector<Dim>> points;
+    std::span<const double> weights;  // empty: all 1
+    std::size_t begin, end;
+
+    [[nodiscard]] std::size_t size() const { return end - begin; }
+};
+
+template <int Dim>
+int n_points(void* slice, int* error) {
+    *error = ZOLTAN_OK;
+    return static_cast<int>(static_cast<const Slice<Dim>*>(slice)->size());
+}
+
+template <int Dim>
+void list_points(void* data, int, int, ZOLTAN_ID_PTR numbers, ZOLTAN_ID_PTR local, int has_weights, float* weights,
+                 int* error) {
+    const auto& slice = *static_cast<const Slice<Dim>*>(data);
+    for (std::size_t i = 0; i < slice.size(); ++i) {
+        numbers[i] = static_cast<ZOLTAN_ID_TYPE>(slice.begin + i);
+        local[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+        if (has_weights > 0) weights[i] = static_cast<float>(slice.weights[slice.begin + i]);
+    }
+    *error = ZOLTAN_OK;
+}
+
+template <int Dim>
+int n_coordinates(void*, int* error) {
+    *error = ZOLTAN_OK;
+    return Dim;
+}
+
+template <int Dim>
+void list_coordinates(void* data, int, int, int n, ZOLTAN_ID_PTR, ZOLTAN_ID_PTR local, int, double* coordinates,
+                      int* error) {
+    const auto& slice = *static_cast<const Slice<Dim>*>(data);
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < Dim; ++k) coordinates[i * Dim + k] = slice.points[slice.begin + local[i]][k];
+    *error = ZOLTAN_OK;
+}
+
+struct Destroy {
+    void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
+};
+
+template <int Dim>
+void check(const Communicator& communicator, std::span<const Vector<Dim>> points, std::span<const double> weights) {
+    std::array<std::int64_t, 1> of_first{std::ssize(points)};
+    broadcast<std::int64_t>(communicator, of_first);
+    agreed(communicator, [&] {
+        if (std::ssize(points) != of_first[0])
+            throw BadInput("partition: " + std::to_string(points.size()) + " points are given, but " +
+                           std::to_string(of_first[0]) + " on rank 0. Give all ranks the same.");
+        if (!weights.empty() && weights.size() != points.size())
+            throw BadInput("partition: " + std::to_string(weights.size()) + " weights are given for " +
+                           std::to_string(points.size()) + " points. Give one per point, or none.");
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            if (!(weights[i] >= 0.0) || std::isinf(weights[i]))
+                throw BadInput("partition: the weight of point " + std::to_string(i) + " is " + std::to_string(weights[i]) +
+                                   ", finite and >= 0 is allowed.",
+                               {.value = weights[i], .allowed = 0.0});
+    });
+}
+
+void require_zoltan(const Communicator& communicator, int result, const char* call) {
+    agreed(communicator, [&] {
+        if (result != ZOLTAN_OK && result != ZOLTAN_WARN)
+            throw LimitExceeded(std::string("partition: ") + call + " of Zoltan has failed (" + std::to_string(result) +
+                                "). Take fewer ranks, or give owners of your own.");
+    });
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<int> partition(const Communicator& communicator, std::span<const Vector<Dim>> points,
+                           std::span<const double> weights) {
+    check(communicator, points, weights);
+    if (communicator.size() == 1) return std::vector<int>(points.size(), 0);
+    const auto begin_of = [&](int rank) {
+        return points.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(communicator.size());
+    };
+    Slice<Dim> slice{points, weights, begin_of(communicator.rank()), begin_of(communicator.rank() + 1)};
+
+    float version = 0.0f;
+    require_zoltan(communicator, Zoltan_Initialize(0, nullptr, &version), "Zoltan_Initialize");
+    const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(handle(communicator)));
+    const auto set = [&](const char* name, const char* value) { Zoltan_Set_Param(zoltan.get(), name, value); };
+    set("DEBUG_LEVEL", "0");
+    set("LB_METHOD", "RCB");
+    set("RETURN_LISTS", "PARTS");
+    set("OBJ_WEIGHT_DIM", weights.empty() ? "0" : "1");
+    set("RCB_OUTPUT_LEVEL", "0");
+    Zoltan_Set_Num_Obj_Fn(zoltan.get(), n_points<Dim>, &slice);
+    Zoltan_Set_Obj_List_Fn(zoltan.get(), list_points<Dim>, &slice);
+    Zoltan_Set_Num_Geom_Fn(zoltan.get(), n_coordinates<Dim>, &slice);
+    Zoltan_Set_Geom_Multi_Fn(zoltan.get(), list_coordinates<Dim>, &slice);
+
+    int changed = 0, id_size = 0, local_size = 0, n_import = 0, n_export = 0;
+    ZOLTAN_ID_PTR import_ids = nullptr, import_local = nullptr, export_ids = nullptr, export_local = nullptr;
+    int *import_ranks = nullptr, *import_parts = nullptr, *export_ranks = nullptr, *export_parts = nullptr;
+    const int result = Zoltan_LB_Partition(zoltan.get(), &changed, &id_size, &local_size, &n_import, &import_ids,
+                                           &import_local, &import_ranks, &import_parts, &n_export, &export_ids,
+                                           &export_local, &export_ranks, &export_parts);
+    std::vector<std::int32_t> mine(slice.size(), communicator.rank());
+    for (int i = 0; i < n_export; ++i) mine[export_local[i]] = export_parts[i];
+    Zoltan_LB_Free_Part(&import_ids, &import_local, &import_ranks, &import_parts);
+    Zoltan_LB_Free_Part(&export_ids, &export_local, &export_ranks, &export_parts);
+    require_zoltan(communicator, result, "Zoltan_LB_Partition");
+    return gather_to_all<std::int32_t>(communicator, mine).values;
+}
+
+SharedPoints shared_cells(const Communicator& communicator, int dimension, std::int32_t n_points,
+                          std::span<const std::int32_t> cell_number, std::span<const int> cell_owner) {
+    SharedPoints points{.dimension = dimension, .n_points = n_points, .n_entries = cell_number.size()};
+    for (std::size_t c = 0; c < cell_number.size(); ++c) {
+        const auto position = static_cast<std::int32_t>(c);
+        if (cell_owner[c] == communicator.rank()) {
+            points.numbers.push_back(cell_number[c]);
+            points.position.push_back(position);
+        } else {
+            points.copies.push_back(position);
+            points.owner.push_back(cell_owner[c]);
+            points.copied_point.push_back(cell_number[c]);
+        }
+    }
+    return points;
+}
+
+template std::vector<int> partition(const Communicator&, std::span<const Vector<2>>, std::span<const double>);
+template std::vector<int> partition(const Communicator&, std::span<const Vector<3>>, std::span<const double>);
+
+}  // namespace abut::ranks

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+#include "abut/ranks/communicator.hpp"
+#include "abut/ranks/point_ranks.hpp"
+
+namespace abut::ranks {
+
+/// The rank of each point (n): as many to each, by recursive bisection of space (Zoltan's RCB), or as much weight. All ranks
+/// give the same points and weights (n; empty: all 1), and get the same answer, always. A call of all ranks. Throws BadInput
+/// on all for weights that are not finite and >= 0, or of another number, and where ranks give points of different numbers.
+template <int Dim>
+[[nodiscard]] std::vector<int> partition(const Communicator& communicator, std::span<const Vector<Dim>> points,
+                                         std::span<const double> weights = {});
+
+/// What PointRanks wants to know of a part whose cells have these numbers among `n_points` and these owners, as
+/// mesh::MeshPart has them: the points of a rank are the cells that it owns, `dimension` values each.
+[[nodiscard]] SharedPoints shared_cells(const Communicator& communicator, int dimension, std::int32_t n_points,
+                                        std::span<const std::int32_t> cell_number, std::span<const int> cell_owner);
+
+}  // namespace abut::ranks

@@ -1,0 +1,40 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "abut/ranks/communicator.hpp"
+
+namespace abut::ranks {
+
+/// Whether mpirun, or what stands for it, has started this process as one of several: as its environment says (Open MPI,
+/// MPICH and others that follow PMI, Slurm's srun).
+[[nodiscard]] bool is_launched();
+
+/// MPI from here to the end of the scope, for programs of ours; a host has its own, and needs none of this. One in a process.
+class Session {
+public:
+    Session();
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    [[nodiscard]] const Communicator& all() const { return *all_; }
+    [[nodiscard]] int ranks_on_this_machine() const { return here_; }
+    /// To be called by a rank that ends with an error: where the others do not come as well within some seconds, they wait for
+    /// it in vain, and all are ended.
+    void leave_with_error() const;
+
+private:
+    std::unique_ptr<Communicator> all_;
+    std::unique_ptr<Communicator> farewell_;  // of `leave_with_error` alone
+    int here_ = 1;
+};
+
+/// The command that starts this program on so many ranks of this machine, with the arguments that it was given.
+[[nodiscard]] std::vector<std::string> command_for(int n_ranks);
+
+/// Becomes that command: does not return. Throws BadInput where it cannot be started.
+[[noreturn]] void start_on(int n_ranks);
+
+}  // namespace abut::ranks

@@ -1,0 +1,108 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/mesh/part.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+
+using namespace abut;
+using namespace abut::mesh;
+
+namespace {
+
+template <int Dim>
+Mesh<Dim> two_boxes() {
+    const CellShape shape = Dim == 2 ? CellShape::triangle : CellShape::tetrahedron;
+    Vector<Dim> lower = Vector<Dim>::Zero(), upper = Vector<Dim>::Ones(), shift = Vector<Dim>::Zero();
+    std::array<int, Dim> counts{};
+    counts.fill(4);
+    upper[0] = 4.0, counts[0] = 16;
+    shift[1] = 2.0;
+    const std::array parts{structured_box<Dim>(lower, upper, counts, shape, "low"),
+                           structured_box<Dim>(lower + shift, upper + shift, counts, shape, "high")};
+    return combine<Dim>(parts);
+}
+
+/// By where they lie along x.
+template <int Dim>
+std::vector<int> slices(const Mesh<Dim>& mesh, int n) {
+    std::vector<int> owner;
+    for (const Vector<Dim>& x : mesh.cell_centroid) owner.push_back(std::min(n - 1, static_cast<int>(x[0] / 4.0 * n)));
+    return owner;
+}
+
+}  // namespace
+
+TEMPLATE_TEST_CASE_SIG("a part has its own cells with all of their faces, as the whole mesh has them", "[mesh][part]",
+                       ((int Dim), Dim), 2, 3) {
+    const Mesh<Dim> whole = two_boxes<Dim>();
+    const std::vector<int> owner = slices(whole, 3);
+    std::int32_t n_own = 0, n_boundary = 0;
+    for (int rank = 0; rank < 3; ++rank) {
+        const MeshPart<Dim> part = part_of<Dim>(whole, owner, rank, 2);
+        const Mesh<Dim>& mesh = part.mesh;
+        CHECK(part.n_cells == whole.n_cells());
+        REQUIRE(std::ssize(part.cell_number) == mesh.n_cells());
+        CHECK(std::ranges::is_sorted(part.cell_number));
+        CHECK(mesh.body_names == whole.body_names);
+        CHECK(mesh.groups.size() == whole.groups.size());
+        CHECK(std::ranges::is_sorted(mesh.face_cells, {}, [](const auto& cells) { return cells[0]; }));
+        for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+            const std::int32_t number = part.cell_number[static_cast<std::size_t>(c)];
+            CHECK(part.cell_owner[static_cast<std::size_t>(c)] == owner[static_cast<std::size_t>(number)]);
+            CHECK(mesh.cell_centroid[static_cast<std::size_t>(c)] == whole.cell_centroid[static_cast<std::size_t>(number)]);
+            REQUIRE(mesh.cell_faces[c].size() == whole.cell_faces[number].size());
+            // The faces close the cell: area vectors that point out of it sum to zero, and its volume is theirs.
+            Vector<Dim> sum = Vector<Dim>::Zero();
+            double volume = 0.0;
+            for (const std::int32_t f : mesh.cell_faces[c]) {
+                const double sign = mesh.face_cells[f][0] == c ? 1.0 : -1.0;
+                CHECK((mesh.face_cells[f][0] == c || mesh.face_cells[f][1] == c));
+                const Vector<Dim> area = sign * mesh.face_measure[f] * mesh.face_normal[f];
+                sum += area;
+                volume += area.dot(mesh.face_centroid[f]) / Dim;
+            }
+            CHECK(sum.norm() < 1e-14);
+            CHECK(volume == Approx(mesh.cell_measure[static_cast<std::size_t>(c)]).epsilon(1e-12));
+            if (part.cell_owner[static_cast<std::size_t>(c)] != rank) continue;
+            ++n_own;
+            for (std::size_t i = 0; i < mesh.cell_faces[c].size(); ++i) {
+                const bool is_boundary = mesh.is_boundary(mesh.cell_faces[c][i]);
+                CHECK(is_boundary == whole.is_boundary(whole.cell_faces[number][i]));
+                n_boundary += is_boundary;
+            }
+        }
+    }
+    CHECK(n_own == whole.n_cells());
+    CHECK(n_boundary == std::ssize(whole.boundary_faces));
+}
+
+TEST_CASE("copies lie as many layers deep as were asked for", "[mesh][part]") {
+    // Squares in a row: a layer is one square.
+    const Mesh<2> whole = structured_box<2>({0.0, 0.0}, {20.0, 1.0}, {20, 1}, CellShape::quadrangle);
+    const std::vector<int> owner = [&] {
+        std::vector<int> of_cells;
+        for (const Vector<2>& x : whole.cell_centroid) of_cells.push_back(x[0] < 10.0 ? 0 : 1);
+        return of_cells;
+    }();
+    for (const int layers : {1, 3, 8, 100}) CHECK(part_of<2>(whole, owner, 0, layers).mesh.n_cells() == std::min(20, 10 + layers));
+    CHECK(part_of<2>(whole, owner, 7).mesh.n_cells() == 0);  // a rank without cells
+}
+
+TEST_CASE("parts of unusable input are refused", "[mesh][part]") {
+    const Mesh<2> whole = structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {3, 3}, CellShape::quadrangle);
+    const std::vector<int> owner(9, 0), few(8, 0);
+    CHECK_THROWS_AS(part_of<2>(whole, few, 0), BadInput);
+    CHECK_THROWS_AS(part_of<2>(whole, owner, 0, 0), BadInput);
+    CellSoup<2> soup{.name = "mixed", .vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0.5}}};
+    soup.cell_shape = {CellShape::quadrangle, CellShape::triangle};
+    soup.cell_vertices.append(std::array<std::int32_t, 4>{0, 1, 2, 3});
+    soup.cell_vertices.append(std::array<std::int32_t, 3>{1, 4, 2});
+    soup.cell_body = {0, 0};
+    soup.body_names = {"body"};
+    const Mesh<2> mixed = build_mesh<2>(soup);
+    CHECK_THROWS_AS(part_of<2>(mixed, std::vector<int>{0, 1}, 0), BadInput);
+}

@@ -1,0 +1,108 @@
+#pragma once
+// A solid on all ranks of the program, and the same on each of them.
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/stable_step.hpp"
+#include "abut/mesh/part.hpp"
+#include "abut/ranks/partition.hpp"
+#include "abut/solid/body_motion.hpp"
+#include "abut/solid/solid.hpp"
+#include "ranks/world.hpp"
+
+namespace abut::test {
+
+[[nodiscard]] inline bool same_bits(std::span<const double> a, std::span<const double> b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
+/// Whether it is so on all ranks: a test that ends on one of them would leave the others waiting.
+[[nodiscard]] inline bool everywhere(const ranks::Communicator& all, bool here) { return all.largest(here ? 0.0 : 1.0) == 0.0; }
+
+/// The part of a rank, with all that its solid needs.
+template <int Dim>
+struct SharedSolid {
+    mesh::MeshPart<Dim> part;
+    ranks::PointRanks points;
+    solid::Solid<Dim> solid;
+
+    SharedSolid(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole, const solid::SolidOptions<Dim>& options,
+                std::span<const int> owner, int layers = mesh::default_layers)
+        : part(mesh::part_of(whole, owner, all.rank(), layers)),
+          points(all, ranks::shared_cells(all, Dim, part.n_cells, part.cell_number, part.cell_owner)),
+          solid(part.mesh, options, &points) {}
+
+    /// What this rank has of values by cell of the whole (n_cells, Dim).
+    [[nodiscard]] std::vector<double> own(std::span<const double> of_all) const {
+        std::vector<double> values;
+        for (const std::int32_t number : points.numbers())
+            for (int k = 0; k < Dim; ++k) values.push_back(of_all[static_cast<std::size_t>(number * Dim + k)]);
+        return values;
+    }
+};
+
+/// Velocities of the bodies, and what else differs from cell to cell: waves.
+template <int Dim>
+std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity, double waves) {
+    std::vector<double> momentum = solid::uniform_momentum<Dim>(solid, body_velocity);
+    for (std::size_t i = 0; i < momentum.size(); ++i) {
+        const Vector<Dim>& x = solid.rest_positions()[i / Dim];
+        momentum[i] += waves * solid.masses()[i / Dim] * std::sin(7.0 * x.sum() + static_cast<double>(i % Dim));
+    }
+    return momentum;
+}
+
+/// Runs the scene on all ranks and, beside it, the whole of it on each: all that can be seen of the two has the same bits in
+/// each step. Returns contact's figures at the end.
+template <int Dim, template <class> class Scheme = dynamics::Memm>
+contact::ContactReport check_same_bits(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole,
+                                       const solid::SolidOptions<Dim>& options,
+                                       std::span<const Vector<Dim>> body_velocity, int steps, std::span<const int> owner,
+                                       double waves = 0.01) {
+    solid::Solid<Dim> alone(whole, options);
+    SharedSolid<Dim> shared(all, whole, options, owner);
+    solid::Solid<Dim>& solid = shared.solid;
+    const auto stable = dynamics::stable_step(alone), of_ranks = dynamics::stable_step(solid);
+    CHECK(stable.dt == of_ranks.dt);
+    CHECK(stable.omega_max == of_ranks.omega_max);
+    const std::vector<double> p_0 = momentum_of<Dim>(alone, body_velocity, waves),
+                              p_0_here = momentum_of<Dim>(solid, body_velocity, waves);
+    REQUIRE(everywhere(all, same_bits(shared.own(p_0), p_0_here)));
+    const double dt = 0.9 * stable.dt;
+    Scheme<solid::Solid<Dim>> run(alone, std::vector<double>(alone.size(), 0.0), p_0, dt),
+        run_here(solid, std::vector<double>(solid.size(), 0.0), p_0_here, dt);
+    for (int step = 0; step <= steps; ++step) {
+        CAPTURE(all.rank(), step);
+        if (step > 0) {
+            run.step();
+            run_here.step();
+        }
+        REQUIRE(everywhere(all, same_bits(shared.own(run.q()), run_here.q())));
+        REQUIRE(everywhere(all, same_bits(shared.own(run.p_after()), run_here.p_after())));
+        if (step % 10 != 0 && step != steps) continue;
+        const auto entry = dynamics::ledger_values(dynamics::measure(run, alone)),
+                   entry_here = dynamics::ledger_values(dynamics::measure(run_here, solid));
+        REQUIRE(everywhere(all, same_bits(entry, entry_here)));
+    }
+    const contact::ContactReport of_alone = alone.contact_report(), report = solid.contact_report();
+    CHECK(of_alone.events == report.events);
+    CHECK(of_alone.candidates == report.candidates);
+    CHECK(of_alone.rebuilds == report.rebuilds);
+    CHECK(of_alone.missed_contacts == report.missed_contacts);
+    CHECK(alone.contact_faces_left_out() == solid.contact_faces_left_out());
+    for (std::size_t i = 0; i < options.obstacles.size(); ++i)
+        CHECK(alone.obstacle_force(i) == solid.obstacle_force(i));
+    const auto impulses = alone.contact_impulses(), of_shared = solid.contact_impulses();
+    REQUIRE(everywhere(all, impulses.size() == of_shared.size()));
+    for (std::size_t i = 0; i < impulses.size(); ++i) CHECK(impulses[i].impulse == of_shared[i].impulse);
+    CHECK(alone.rotations(run.q()) == solid.rotations(run_here.q()));
+    CHECK(alone.local_rotations(run.q()) == solid.local_rotations(run_here.q()));
+    return report;
+}
+
+}  // namespace abut::test

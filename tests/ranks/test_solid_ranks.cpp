@@ -1,0 +1,201 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "abut/base/error.hpp"
+#include "abut/dynamics/leapfrog.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+#include "ranks/shared_solid.hpp"
+
+using namespace abut;
+using test::check_same_bits;
+
+namespace {
+
+constexpr solid::Material steel{.young = 2.0, .poisson = 0.3, .density = 1.5};
+
+/// Long along x, so that copies do not reach from end to end.
+template <int Dim>
+mesh::Mesh<Dim> bar(mesh::CellShape shape) {
+    if constexpr (Dim == 2)
+        return mesh::structured_box<2>({0.0, 0.0}, {4.0, 0.5}, {64, 8}, shape);
+    else
+        return mesh::structured_box<3>({0.0, 0.0, 0.0}, {4.0, 0.3, 0.25}, {48, 4, 3}, shape);
+}
+
+/// Two round bodies, of different cells, about to collide off-centre.
+template <int Dim>
+mesh::Mesh<Dim> two_round_bodies() {
+    std::vector<mesh::Mesh<Dim>> bodies;
+    for (int i = 0; i < 2; ++i) {
+        Vector<Dim> centre = Vector<Dim>::Zero();
+        centre[0] = i == 0 ? -1.005 : 1.005;
+        centre[1] = i == 0 ? 0.0 : 0.5;
+        if constexpr (Dim == 2)
+            bodies.push_back(mesh::disc({.centre = centre, .size = i == 0 ? 0.08 : 0.09, .variant = i}));
+        else
+            bodies.push_back(mesh::cylinder({.centre = centre, .length = 0.6, .size = i == 0 ? 0.2 : 0.22, .variant = i}));
+    }
+    return mesh::combine<Dim>(bodies);
+}
+
+template <int Dim>
+std::vector<int> parts(const ranks::Communicator& all, const mesh::Mesh<Dim>& mesh) {
+    return ranks::partition<Dim>(all, mesh.cell_centroid);
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> towards_each_other(double speed) {
+    return {speed * Vector<Dim>::Unit(0), -speed * Vector<Dim>::Unit(0)};
+}
+
+}  // namespace
+
+TEST_CASE("parts have as many cells each, and every rank knows the same", "[ranks][solid]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<3>(mesh::CellShape::tetrahedron);
+    const std::vector<int> owner = parts(all, mesh);
+    std::vector<int> count(static_cast<std::size_t>(all.size()), 0);
+    for (const int rank : owner) ++count.at(static_cast<std::size_t>(rank));
+    for (const int n : count) CHECK(std::abs(n - mesh.n_cells() / all.size()) <= 1);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < owner.size(); ++c) sum += owner[c] * std::cos(static_cast<double>(c));
+    CHECK(all.largest(sum) == sum);
+    std::vector<double> weights(owner.size(), 1.0);
+    weights[3] = -1.0;
+    CHECK_THROWS_AS(ranks::partition<3>(all, mesh.cell_centroid, weights), BadInput);
+}
+
+TEMPLATE_TEST_CASE_SIG("a free body with waves has the bits of one rank, step by step", "[ranks][solid]", ((int Dim), Dim), 2,
+                       3) {
+    const ranks::Communicator all = test::world();
+    const mesh::CellShape shape = Dim == 2 ? GENERATE(mesh::CellShape::triangle, mesh::CellShape::quadrangle)
+                                           : GENERATE(mesh::CellShape::tetrahedron, mesh::CellShape::hexahedron);
+    const auto mesh = bar<Dim>(shape);
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel};
+    const std::vector<Vector<Dim>> velocity{Vector<Dim>::Unit(0)};
+    check_same_bits<Dim>(all, mesh, options, velocity, 20, parts(all, mesh), 0.1);
+}
+
+TEMPLATE_TEST_CASE_SIG("loads, supports and gravity have the bits of one rank", "[ranks][solid]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<Dim>(Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron);
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel};
+    options.acceleration = {-0.3 * Vector<Dim>::Unit(1)};
+    options.body_load = [](const Vector<Dim>& x) -> Vector<Dim> { return 0.1 * std::sin(x[0]) * Vector<Dim>::Unit(0); };
+    options.boundary.dirichlet = {
+        {.group = "xmin", .history = [](double t, const Vector<Dim>&) -> Vector<Dim> {
+             return 0.01 * std::sin(5.0 * t) * Vector<Dim>::Unit(1);
+         }}};
+    options.boundary.traction = {
+        {.group = "ymax", .history = [](double t, const Vector<Dim>& x) -> Vector<Dim> {
+             return 0.02 * std::sin(3.0 * t + x[0]) * Vector<Dim>::Unit(1);
+         }}};
+    const std::vector<Vector<Dim>> velocity{Vector<Dim>::Zero()};
+    check_same_bits<Dim>(all, mesh, options, velocity, 20, parts(all, mesh), 0.1);
+}
+
+TEMPLATE_TEST_CASE_SIG("two bodies that collide have the bits of one rank, pairs and lists included", "[ranks][solid][contact]",
+                       ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<Dim>();
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel, {.young = 1.0, .poisson = 0.2, .density = 1.0}};
+    options.contact = contact::ContactOptions{};
+    const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 160 : 80,
+                                             parts(all, mesh));
+    CHECK(report.events > 0);
+    CHECK(report.rebuilds > 1);
+}
+
+TEST_CASE("contact with a moving wall and with itself has the bits of one rank", "[ranks][solid][contact]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<2>(mesh::CellShape::triangle);
+    solid::SolidOptions<2> options;
+    options.materials = {steel};
+    options.contact = contact::ContactOptions{};
+    options.contact->search.self_contact = true;
+    options.obstacles = {{.faces = {{Vector<2>(5.0, -0.01), Vector<2>(-1.0, -0.01)}},
+                          .path = [](double t) -> Vector<2> { return 0.05 * t * Vector<2>::Unit(1); }}};
+    const std::vector<Vector<2>> velocity{Vector<2>(0.0, -0.1)};
+    const auto report = check_same_bits<2>(all, mesh, options, velocity, 120, parts(all, mesh));
+    CHECK(report.events > 0);
+}
+
+TEST_CASE("central differences have the bits of one rank", "[ranks][solid][contact]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<2>();
+    solid::SolidOptions<2> options;
+    options.materials = {steel, steel};
+    options.contact = contact::ContactOptions{};
+    check_same_bits<2, dynamics::Leapfrog>(all, mesh, options, towards_each_other<2>(0.1), 100, parts(all, mesh));
+}
+
+TEST_CASE("a rank without cells, and parts without any order, change no bit", "[ranks][solid][contact]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<2>();
+    solid::SolidOptions<2> options;
+    options.materials = {steel, steel};
+    options.contact = contact::ContactOptions{};
+    std::vector<int> owner(static_cast<std::size_t>(mesh.n_cells()), 0);  // all on rank 0
+    SECTION("all but one rank have none") {}
+    SECTION("a body each") {
+        for (std::int32_t c = 0; c < mesh.n_cells(); ++c) owner[static_cast<std::size_t>(c)] = mesh.cell_body[c] % all.size();
+    }
+    SECTION("scattered in rows") {
+        for (std::int32_t c = 0; c < mesh.n_cells(); ++c) owner[static_cast<std::size_t>(c)] = c / 37 % all.size();
+    }
+    check_same_bits<2>(all, mesh, options, towards_each_other<2>(0.1), 60, owner);
+}
+
+TEST_CASE("too few layers of copies are refused on all ranks", "[ranks][solid]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<2>(mesh::CellShape::triangle);
+    solid::SolidOptions<2> options;
+    options.materials = {steel};
+    const std::vector<int> owner = parts(all, mesh);
+    if (all.size() == 1)
+        CHECK_NOTHROW(test::SharedSolid<2>(all, mesh, options, owner, 1));
+    else
+        CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner, 2), Catch::Contains("more layers of copies"));
+}
+
+TEST_CASE("what one rank finds wrong is thrown on all, and nobody waits", "[ranks][solid]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<2>(mesh::CellShape::triangle);
+    solid::SolidOptions<2> options;
+    options.materials = {steel};
+    options.body_load = [](const Vector<2>& x) -> Vector<2> {  // at one end alone
+        return x[0] < 0.05 ? Vector<2>(std::nan(""), 0.0) : Vector<2>(0.0, 0.0);
+    };
+    const std::vector<int> owner = parts(all, mesh);
+    CHECK_THROWS_AS(test::SharedSolid<2>(all, mesh, options, owner), BadInput);
+
+    options.body_load = nullptr;
+    options.boundary.traction = {{.group = "xmin", .history = [](double t, const Vector<2>&) -> Vector<2> {
+                                      return {t < 0.02 ? 0.0 : std::nan(""), 0.0};
+                                  }}};
+    test::SharedSolid<2> shared(all, mesh, options, owner);
+    dynamics::Memm run(shared.solid, std::vector<double>(shared.solid.size(), 0.0),
+                       std::vector<double>(shared.solid.size(), 0.0), 0.01);
+    const auto make_steps = [&] {
+        for (int step = 0; step < 5; ++step) run.step();
+    };
+    CHECK_THROWS_AS(make_steps(), BadInput);
+}
+
+TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<2>(mesh::CellShape::triangle);
+    const std::vector<int> owner = parts(all, mesh);
+    solid::SolidOptions<2> options;
+    options.materials = {steel};
+    options.kinematics = {GENERATE(solid::Kinematics::floating, solid::Kinematics::rigid, solid::Kinematics::finite)};
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("not made for a run on several ranks"));
+    options.kinematics.clear();
+    options.contact = contact::ContactOptions{};
+    options.law = solid::ContactLaw::pair_potential;
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("pair potential"));
+}
