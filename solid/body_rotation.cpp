@@ -3,8 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
 
-#include "abut/solid/body_cells.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
 
 namespace abut::solid {
@@ -23,33 +24,47 @@ Matrix<Dim> pseudo_inverse(const Matrix<Dim>& matrix) {
 }  // namespace
 
 template <int Dim>
-BodyRotation<Dim>::BodyRotation(const mesh::Mesh<Dim>& mesh, std::span<const double> masses) : mesh_(mesh), masses_(masses) {
-    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) {
-        const auto [begin, end] = cells_of_body(mesh, body);
-        Body& added = bodies_.emplace_back(begin, end, Vector<Dim>::Zero(), Matrix<Dim>::Zero());
-        double mass = 0.0;
-        for (std::int32_t c = added.begin; c < added.end; ++c) {
-            mass += masses[c];
-            added.centre += masses[c] * mesh.cell_centroid[c];
-        }
-        added.centre /= mass;
-        Matrix<Dim> second_moment = Matrix<Dim>::Zero();
-        for (std::int32_t c = added.begin; c < added.end; ++c) {
-            const Vector<Dim> arm = mesh.cell_centroid[c] - added.centre;
-            second_moment += masses[c] * (arm * arm.transpose());
-        }
-        added.inverse = pseudo_inverse<Dim>(second_moment);
+BodyRotation<Dim>::BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses,
+                                std::vector<std::int32_t> begin, const dynamics::Ranks* ranks)
+    : rest_(rest), masses_(masses), begin_(std::move(begin)), ranks_(ranks) {
+    const Vector<Dim> zero = Vector<Dim>::Zero();
+    const Matrix<Dim> zeros = Matrix<Dim>::Zero();
+    for (std::size_t body = 0; body + 1 < begin_.size(); ++body) {
+        const double mass = sum_of(body, 0.0, [&](std::size_t c) { return masses[c]; });
+        const Vector<Dim> moment = sum_of(body, zero, [&](std::size_t c) -> Vector<Dim> { return masses[c] * rest[c]; });
+        const Vector<Dim> centre = moment / mass;
+        const Matrix<Dim> second_moment = sum_of(body, zeros, [&](std::size_t c) -> Matrix<Dim> {
+            const Vector<Dim> arm = rest[c] - centre;
+            return masses[c] * (arm * arm.transpose());
+        });
+        bodies_.push_back({centre, pseudo_inverse<Dim>(second_moment)});
     }
+}
+
+/// In the order of the cells of the body.
+template <int Dim>
+template <class Value, class Term>
+Value BodyRotation<Dim>::sum_of(std::size_t body, const Value& zero, const Term& term) const {
+    const std::int32_t begin = begin_[body], end = begin_[body + 1];
+    if (!ranks_)
+        return ordered_sum(end - begin, zero, [&](std::ptrdiff_t i) { return term(static_cast<std::size_t>(begin + i)); });
+    const auto numbers = ranks_->numbers();
+    const auto first = std::ranges::lower_bound(numbers, begin) - numbers.begin();
+    const auto last = std::ranges::lower_bound(numbers, end) - numbers.begin();
+    return dynamics::sum_over(*ranks_, {.first = begin, .last = end}, last - first, zero,
+                              [&](std::ptrdiff_t i) { return term(static_cast<std::size_t>(first + i)); });
 }
 
 template <int Dim>
 std::vector<double> BodyRotation<Dim>::angles(std::span<const Vector<Dim>> u) const {
     std::vector<double> angles;
-    for (const Body& body : bodies_) {
-        Matrix<Dim> moment = Matrix<Dim>::Zero();  // sum m u (x - centre)^T
-        for (std::int32_t c = body.begin; c < body.end; ++c)
-            moment += (masses_[c] * u[c]) * (mesh_.cell_centroid[c] - body.centre).transpose();
-        angles.push_back(rotation_angle<Dim>(nearest_rotation<Dim>(Matrix<Dim>::Identity() + moment * body.inverse)));
+    for (std::size_t body = 0; body < bodies_.size(); ++body) {
+        const auto& [centre, inverse] = bodies_[body];
+        // sum m u (x - centre)^T
+        const Matrix<Dim> moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&, at = centre](std::size_t c) -> Matrix<Dim> {
+            return (masses_[c] * u[c]) * (rest_[c] - at).transpose();
+        });
+        angles.push_back(rotation_angle<Dim>(nearest_rotation<Dim>(Matrix<Dim>::Identity() + moment * inverse)));
     }
     return angles;
 }

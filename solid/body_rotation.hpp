@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "abut/base/vector.hpp"
-#include "abut/mesh/mesh.hpp"
+#include "abut/dynamics/ranks.hpp"
 
 namespace abut::solid {
 
@@ -14,21 +14,26 @@ namespace abut::solid {
 template <int Dim>
 class BodyRotation {
 public:
-    /// `masses` are those of the cells. The mesh and the masses must outlive it.
-    BodyRotation(const mesh::Mesh<Dim>& mesh, std::span<const double> masses);
+    /// Cells of body b are [begin[b], begin[b + 1]) of all; `rest` and `masses` are those of the cells here, which are all
+    /// of them unless there are ranks. Both, and the ranks, must outlive it. A call of all ranks.
+    BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
+                 const dynamics::Ranks* ranks);
 
-    /// Of each body (n_bodies) [rad], 0 to pi, for the displacements u of the cells (n_cells) [m].
+    /// Of each body (n_bodies) [rad], 0 to pi, for the displacements u of the cells here [m]. A call of all ranks.
     [[nodiscard]] std::vector<double> angles(std::span<const Vector<Dim>> u) const;
 
 private:
     struct Body {
-        std::int32_t begin, end;  // its cells
-        Vector<Dim> centre;       // of mass
-        Matrix<Dim> inverse;      // of sum m (x - centre) (x - centre)^T
+        Vector<Dim> centre;   // of mass
+        Matrix<Dim> inverse;  // of sum m (x - centre) (x - centre)^T
     };
+    template <class Value, class Term>
+    [[nodiscard]] Value sum_of(std::size_t body, const Value& zero, const Term& term) const;
 
-    const mesh::Mesh<Dim>& mesh_;
+    std::span<const Vector<Dim>> rest_;
     std::span<const double> masses_;
+    std::vector<std::int32_t> begin_;
+    const dynamics::Ranks* ranks_;
     std::vector<Body> bodies_;
 };
 

@@ -9,6 +9,7 @@ namespace abut::solid {
 template <int Dim>
 void ListWatch<Dim>::set_searched(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, double time,
                                   std::span<const Vector<Dim>> q_1, const BoundaryLoad<Dim>& load_1) {
+    has_searched_ = true;
     u_.assign(q_0.begin(), q_0.end());
     load_ = load_0;
     time_ = time;
@@ -18,13 +19,13 @@ void ListWatch<Dim>::set_searched(std::span<const Vector<Dim>> q_0, const Bounda
 
 template <int Dim>
 bool ListWatch<Dim>::is_end_of_search(std::span<const Vector<Dim>> q) const {
-    return std::ranges::equal(q, swept_end_);
+    return largest(std::ranges::equal(q, swept_end_) ? 0.0 : 1.0) == 0.0;
 }
 
 template <int Dim>
 double ListWatch<Dim>::motion_until(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
-    if (u_.empty()) return std::numeric_limits<double>::infinity();
-    return ccg_.motion_bound(u_, load_, q, load);
+    if (!has_searched_) return std::numeric_limits<double>::infinity();
+    return largest(ccg_.motion_bound(u_, load_, q, load));
 }
 
 template <int Dim>
@@ -37,7 +38,7 @@ template <int Dim>
 std::optional<double> ListWatch<Dim>::add_step(double cell_motion) {
     travelled_ += cell_motion;
     if (!std::exchange(is_at_last_end_, false) || ccg_.load_varies()) return std::nullopt;
-    return measured_ + ccg_.motion_amplification() * travelled_;
+    return measured_ + amplification_ * travelled_;
 }
 
 template class ListWatch<2>;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/dynamics/ranks.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 
 namespace abut::solid {
@@ -13,8 +14,10 @@ namespace abut::solid {
 template <int Dim>
 class ListWatch {
 public:
-    /// The operators must outlive the watch.
-    explicit ListWatch(Ccg<Dim>& ccg) : ccg_(ccg) {}
+    /// The operators and the ranks (null: there is one) must outlive the watch. With ranks `set_searched`, `measure` and the like are
+    /// calls of all of them, and say the same on each.
+    explicit ListWatch(Ccg<Dim>& ccg, const dynamics::Ranks* ranks = nullptr)
+        : ccg_(ccg), ranks_(ranks), amplification_(largest(ccg.motion_amplification())) {}
 
     /// Candidates have been searched at `time` for a step from q_0 to q_1, with the loads of both ends.
     void set_searched(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, double time,
@@ -36,7 +39,12 @@ public:
     void end_step() { is_at_last_end_ = true; }
 
 private:
+    [[nodiscard]] double largest(double value) const { return ranks_ ? ranks_->largest(value) : value; }
+
     Ccg<Dim>& ccg_;
+    const dynamics::Ranks* ranks_;
+    double amplification_;  // of all ranks
+    bool has_searched_ = false;
     std::vector<Vector<Dim>> u_;          // at the last search,
     BoundaryLoad<Dim> load_;              // with its loads,
     double time_ = 0.0;                   // and its time

@@ -188,14 +188,21 @@ double make_stable(Solid<Dim>& solid, double finest_step, Levels& level) {
     const double enough = std::pow(margin / dynamics::lower_bound_margin, 2);
     dynamics::ModeSearch search(
         solid.size(), [&](std::span<const double> x, std::span<double> product) { solid.stiffness_product(x, product); });
-    for (int least_beyond = first_iterations;; least_beyond = further_iterations) {
+    bool is_fresh = true;  // the search began from a random field: it has not followed one place and forgotten the others
+    for (;;) {
         if (std::ranges::all_of(level, [&](std::int32_t l) { return l == finest; })) return 0.0;
         const std::vector<double> steps = steps_to_bear(solid.mesh(), level, finest);
         search.set_weights(weights_of(solid, steps, finest_step));
         do search.iterate();
-        while (!is_done(search, enough, least_beyond));
-        if (search.quotient() <= enough) return dynamics::lower_bound_margin * std::sqrt(search.quotient()) / margin;
-        refine_about(solid.mesh(), carriers(solid, search, steps, enough), steps, finest, level);
+        while (!is_done(search, enough, is_fresh ? first_iterations : further_iterations));
+        if (search.quotient() > enough) {
+            refine_about(solid.mesh(), carriers(solid, search, steps, enough), steps, finest, level);
+            is_fresh = false;
+            continue;
+        }
+        if (is_fresh) return dynamics::lower_bound_margin * std::sqrt(search.quotient()) / margin;
+        search.restart();
+        is_fresh = true;
     }
 }
 
@@ -226,6 +233,7 @@ std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
 
 template <int Dim>
 SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stable, const LocalStepOptions& options) {
+    dynamics::refuse_ranks(solid.ranks(), "local steps");
     const auto& [most_levels, contact_margin, contact_levels] = options;
     if (most_levels < 1 || most_levels > 20 || contact_margin < 0 || contact_levels < 0 || contact_levels > 10)
         throw BadInput("local steps: " + std::to_string(most_levels) + " levels, a margin of " +

@@ -29,23 +29,29 @@ double norm_bound(const Matrix<Dim>& m) {
 }  // namespace
 
 template <int Dim>
-MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays) : arrays_(arrays), cells_(arrays.boundary.cells) {
-    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) cells_.push_back(arrays.cell_of(BoundaryFace{b}));
+MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces)
+    : arrays_(arrays), faces_(faces.begin(), faces.end()), offsets_{0} {
+    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
+    for (const BoundaryFace face : faces_) {
+        cells_.push_back(arrays.cell_of(face));
+        cells_.insert(cells_.end(), boundary.cells.begin() + boundary.offsets[number_of(face)],
+                      boundary.cells.begin() + boundary.offsets[number_of(face) + 1]);
+    }
     sort_unique(cells_);
     const auto position = [&](std::int32_t cell) {
         return static_cast<std::int32_t>(std::ranges::lower_bound(cells_, cell) - cells_.begin());
     };
-    const BoundaryReconstruction<Dim>& boundary = arrays.boundary;
-    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
-        own_.push_back(position(arrays.cell_of(BoundaryFace{b})));
+    for (const BoundaryFace face : faces_) {
+        const std::int32_t b = number_of(face);
+        own_.push_back(position(arrays.cell_of(face)));
         kept_.push_back(spectral_norm<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b]));
-    }
-    for (const std::int32_t cell : boundary.cells) positions_.push_back(position(cell));
-    for (std::int32_t b = 0; b < arrays.n_boundary(); ++b) {
-        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-            norms_.push_back(positions_[i] == own_[b] ? 0.0 : spectral_norm<Dim>(boundary.weights[i]));  // du_c - du_c = 0
-        norm_sum_.push_back(std::accumulate(norms_.begin() + boundary.offsets[b], norms_.end(), 0.0));
-        amplification_ = std::max(amplification_, (1.0 + rounding) * (kept_[b] + 2.0 * norm_sum_[b]));
+        for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) {
+            positions_.push_back(position(boundary.cells[i]));  // the face's own: du_c - du_c = 0
+            norms_.push_back(positions_.back() == own_.back() ? 0.0 : spectral_norm<Dim>(boundary.weights[i]));
+        }
+        norm_sum_.push_back(std::accumulate(norms_.begin() + offsets_.back(), norms_.end(), 0.0));
+        offsets_.push_back(static_cast<std::int32_t>(norms_.size()));
+        amplification_ = std::max(amplification_, (1.0 + rounding) * (kept_.back() + 2.0 * norm_sum_.back()));
     }
     moved_.resize(lane_width<Dim> * cells_.size());
 }
@@ -88,15 +94,14 @@ double MotionBound<Dim>::corner_amplification(BoundaryFace face, const Vector<Di
 }
 
 template <int Dim>
-double MotionBound<Dim>::of_face(BoundaryFace face) const {
-    const std::int32_t b = number_of(face);
-    const Lanes<Dim> own = load_packed<Dim>(moved_, own_[b]);
+double MotionBound<Dim>::of_face(std::size_t i) const {
+    const Lanes<Dim> own = load_packed<Dim>(moved_, own_[i]);
     Lanes<Dim> squares;  // by direction
-    for (std::int32_t i = arrays_.boundary.offsets[b]; i < arrays_.boundary.offsets[b + 1]; ++i) {
-        const Lanes<Dim> relative = load_packed<Dim>(moved_, positions_[i]) - own;
-        squares.r += norms_[i] * relative.r * relative.r;
+    for (std::int32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
+        const Lanes<Dim> relative = load_packed<Dim>(moved_, positions_[k]) - own;
+        squares.r += norms_[k] * relative.r * relative.r;
     }
-    return kept_[b] * std::sqrt(dot(own, own)) + std::sqrt(norm_sum_[b] * unload<Dim>(squares).sum());
+    return kept_[i] * std::sqrt(dot(own, own)) + std::sqrt(norm_sum_[i] * unload<Dim>(squares).sum());
 }
 
 template <int Dim>
@@ -105,10 +110,11 @@ double MotionBound<Dim>::operator()(std::span<const Vector<Dim>> u_from, const B
     parallel_each(static_cast<std::ptrdiff_t>(cells_.size()), [&](std::ptrdiff_t i) {
         store(load_packed<Dim>(u_to[cells_[i]]) - load_packed<Dim>(u_from[cells_[i]]), moved_, i);
     });
-    return largest(arrays_.n_boundary(), [&](std::ptrdiff_t i) {
-        const auto b = static_cast<BoundaryFace>(i);
-        if (load_to.displacement.empty()) return of_face(b);
-        return of_face(b) + (load_to.displacement[i] - load_from.displacement[i]).norm();
+    return largest(std::ssize(faces_), [&](std::ptrdiff_t i) {
+        const auto face = static_cast<std::size_t>(i);
+        if (load_to.displacement.empty()) return of_face(face);
+        const auto b = static_cast<std::size_t>(faces_[face]);
+        return of_face(face) + (load_to.displacement[b] - load_from.displacement[b]).norm();
     });
 }
 

@@ -20,8 +20,8 @@ namespace abut::solid {
 template <int Dim>
 class MotionBound {
 public:
-    /// The arrays must outlive it.
-    explicit MotionBound(const CcgArrays<Dim>& arrays);
+    /// Of these boundary faces, increasing. The arrays must outlive it.
+    MotionBound(const CcgArrays<Dim>& arrays, std::span<const BoundaryFace> faces);
 
     [[nodiscard]] double operator()(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                     std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);
@@ -35,15 +35,17 @@ public:
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
 private:
-    [[nodiscard]] double of_face(BoundaryFace face) const;
+    [[nodiscard]] double of_face(std::size_t i) const;
 
     const CcgArrays<Dim>& arrays_;
-    std::vector<std::int32_t> cells_;      // all that a boundary face depends on, and those of the faces, increasing
-    std::vector<std::int32_t> own_;        // position in cells_ of the face's cell (n_boundary)
-    std::vector<double> kept_;             // |1 - D| (n_boundary)
+    std::vector<BoundaryFace> faces_;
+    std::vector<std::int32_t> cells_;      // all that one of the faces depends on, and their own, increasing
+    std::vector<std::int32_t> own_;        // position in cells_ of the face's cell (n)
+    std::vector<double> kept_;             // |1 - D| (n)
+    std::vector<std::int32_t> offsets_;    // of a row, by weight (n + 1)
     std::vector<std::int32_t> positions_;  // in cells_, by weight
     std::vector<double> norms_;            // |W_j|, by weight; 0 for the face's own cell
-    std::vector<double> norm_sum_;         // of a row (n_boundary)
+    std::vector<double> norm_sum_;         // of a row (n)
     double amplification_ = 0.0;
     LargeArray<double> moved_;  // du of cells_, registers
 };

@@ -27,20 +27,33 @@ contact::ContactOptions contact_options(const SolidOptions<Dim>& options) {
 
 template <int Dim>
 ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                                                const Loads<Dim>& loads, SolidTimes& times)
+                                                const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>* part)
     : mesh_(mesh),
       options_(contact_options(options)),
       ccg_(ccg),
       loads_(loads),
       times_(times),
       obstacles_(options.obstacles),
-      watch_(ccg) {
+      ranks_(part ? std::make_unique<RankFaces<Dim>>(*part, mesh, ccg) : nullptr),
+      watch_(ccg, part ? &part->ranks() : nullptr) {
     build_surface();
     contact_.emplace(surface_.view(), options_);
 }
 
 template <int Dim>
 void ReconstructionDriver<Dim>::build_surface() {
+    if (ranks_) {
+        ranks_->append_to(surface_, boundary_of_surface_);
+        faces_left_out_ = ranks_->n_left_out();
+    } else {
+        append_faces();
+    }
+    obstacles_.append_to(surface_, mesh_.n_bodies());
+    surface_.steps_to_sharp_edge = contact::steps_to_sharp_edge(surface_.view());
+}
+
+template <int Dim>
+void ReconstructionDriver<Dim>::append_faces() {
     const auto prescribed = ccg_.prescribed();
     for (const BoundaryFace b : ccg_.boundary_faces()) {
         if (!prescribed[b].isZero(0.0)) {
@@ -48,15 +61,11 @@ void ReconstructionDriver<Dim>::build_surface() {
             continue;
         }
         const std::int32_t face = mesh_face(mesh_, b);
-        const std::int32_t cell = mesh_.face_cells[face][0];
         std::vector<Vector<Dim>> corners;
         for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
-        const double cell_depth = (mesh_.face_centroid[face] - mesh_.cell_centroid[cell]).dot(mesh_.face_normal[face]);
-        surface_.append(corners, cell_depth, ccg_.normal_stiffness(b), mesh_.cell_body[cell]);
+        surface_.append(corners, cell_depth(mesh_, face), ccg_.normal_stiffness(b), mesh_.cell_body[cell_of(mesh_, b)]);
         boundary_of_surface_.push_back(b);
     }
-    obstacles_.append_to(surface_, mesh_.n_bodies());
-    surface_.steps_to_sharp_edge = contact::steps_to_sharp_edge(surface_.view());
 }
 
 // The path of the listed faces ---------------------------------------------------------------------------------------
@@ -96,17 +105,29 @@ void ReconstructionDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::sp
     const Stopwatch watch(times_.search);
     const auto u_0 = surface_displacement(q_0, loads_.start(), time);
     const auto u_1 = surface_displacement(q_1, loads_.end(), time + dt);
-    contact_->search(u_0, u_1, [&](std::span<const contact::SurfaceFace> faces) {
-        boundary_of_listed_.clear();
-        for (const contact::SurfaceFace face : faces)
-            if (const BoundaryFace b = mesh_boundary(face); b != no_face) boundary_of_listed_.push_back(b);
-        region_ = ccg_.region_of_faces(boundary_of_listed_);
-        contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
-        coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
-        return coupling;
-    });
+    contact_->search(u_0, u_1, [&](std::span<const contact::SurfaceFace> faces) { return list_faces(faces); });
     watch_.set_searched(q_0, loads_.start(), time, q_1, loads_.end());
     set_start(q_0, time);
+}
+
+template <int Dim>
+contact::FaceCoupling<Dim> ReconstructionDriver<Dim>::list_faces(std::span<const contact::SurfaceFace> faces) {
+    boundary_of_listed_.clear();
+    listed_here_.clear();
+    n_listed_deformable_ = static_cast<std::size_t>(
+        std::ranges::partition_point(faces, [&](contact::SurfaceFace face) { return !is_of_obstacle(face); }) -
+        faces.begin());
+    for (std::size_t i = 0; i < n_listed_deformable_; ++i)
+        if (const BoundaryFace b = mesh_boundary(faces[i]); b != no_face) {
+            boundary_of_listed_.push_back(b);
+            listed_here_.push_back(i);
+        }
+    if (ranks_) ranks_->set_listed(faces.first(n_listed_deformable_));
+    region_ = ccg_.region_of_faces(ranks_ ? ranks_->own_listed() : boundary_of_listed_);
+    contact::FaceCoupling<Dim> coupling = ccg_.coupling(boundary_of_listed_);
+    if (ranks_) coupling = ranks_->gather_coupling(coupling);
+    coupling.offsets.resize(faces.size() + 1, coupling.offsets.back());
+    return coupling;
 }
 
 /// Of all faces of the surface.
@@ -116,7 +137,10 @@ std::vector<Vector<Dim>> ReconstructionDriver<Dim>::surface_displacement(std::sp
     IdVector<BoundaryFace, Vector<Dim>> boundary(static_cast<std::size_t>(ccg_.n_boundary()));
     ccg_.boundary_displacement(q, load, boundary.values());
     std::vector<Vector<Dim>> displacement(static_cast<std::size_t>(surface_.size()));
-    for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) displacement[i] = boundary[boundary_of_surface_[i]];
+    if (ranks_)
+        ranks_->gather_displacement(boundary.values(), displacement);
+    else
+        for (std::size_t i = 0; i < boundary_of_surface_.size(); ++i) displacement[i] = boundary[boundary_of_surface_[i]];
     obstacles_.displace(time, std::span(displacement).subspan(boundary_of_surface_.size()));
     return displacement;
 }
@@ -139,8 +163,14 @@ void ReconstructionDriver<Dim>::evaluate_faces(std::span<const Vector<Dim>> q, c
     const auto faces = contact_->faces();
     displacement.resize(faces.size());
     gradient.resize(faces.size());
-    ccg_.evaluate_faces(region_, q, load, displacement, gradient);
-    for (std::size_t i = boundary_of_listed_.size(); i < faces.size(); ++i) {
+    if (ranks_) {
+        for (auto* array : {&own_displacement_, &own_gradient_}) array->resize(region_.faces.size());
+        ccg_.evaluate_faces(region_, q, load, own_displacement_, own_gradient_);
+        ranks_->gather_listed(own_displacement_, own_gradient_, displacement, gradient);
+    } else {
+        ccg_.evaluate_faces(region_, q, load, displacement, gradient);
+    }
+    for (std::size_t i = n_listed_deformable_; i < faces.size(); ++i) {
         displacement[i] = obstacles_.displacement(obstacle_of(faces[i]), time);
         gradient[i].setZero();
     }
@@ -181,7 +211,9 @@ void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<D
         const auto points = [&](BoundaryFace face) {
             return face == no_face ? std::span<const std::int32_t>{} : ccg_.cells_of(face);
         };
-        touching_.push_back({points(face_1), points(face_2), ccg_.centroid(std::max(face_1, face_2)), pair.normal});
+        const BoundaryFace here = std::max(face_1, face_2);  // none: both are on other ranks
+        touching_.push_back({points(face_1), points(face_2),
+                             here == no_face ? Vector<Dim>(Vector<Dim>::Zero()) : ccg_.centroid(here), pair.normal});
     }
 }
 
@@ -220,8 +252,18 @@ template <int Dim>
 FaceCorrections<Dim> ReconstructionDriver<Dim>::corrections() const {
     const contact::ContactStep<Dim>& step = contact_->last();
     if (!step.is_active()) return {};
-    const std::size_t n = boundary_of_listed_.size();
-    return {boundary_of_listed_, step.mean_correction.values().first(n), step.mean_gradient.values().first(n)};
+    return {boundary_of_listed_, values_here(step.mean_correction.values(), correction_here_),
+            values_here(step.mean_gradient.values(), gradient_here_)};
+}
+
+/// Of the listed faces that are here, from values of all of them.
+template <int Dim>
+std::span<const Vector<Dim>> ReconstructionDriver<Dim>::values_here(std::span<const Vector<Dim>> of_listed,
+                                                                    std::vector<Vector<Dim>>& work) const {
+    if (!ranks_) return of_listed.first(n_listed_deformable_);
+    work.clear();
+    for (const std::size_t i : listed_here_) work.push_back(of_listed[i]);
+    return work;
 }
 
 template <int Dim>
@@ -230,7 +272,7 @@ void ReconstructionDriver<Dim>::take_obstacle_forces(double share, double& work)
     if (touching_.empty()) return;
     const auto faces = contact_->faces();
     const auto gradients = contact_->last().mean_gradient.values();
-    for (std::size_t i = boundary_of_listed_.size(); i < faces.size(); ++i) {
+    for (std::size_t i = n_listed_deformable_; i < faces.size(); ++i) {
         const Vector<Dim> gradient = gradients[i];
         obstacles_.add_force(obstacle_of(faces[i]), -gradient);
         work += share * gradient.dot(u_1_[i] - u_0_[i]);
@@ -257,7 +299,8 @@ ContactField ReconstructionDriver<Dim>::field() const {
     if (step.is_active())
         for (std::size_t i = 0; i < boundary_of_listed_.size(); ++i) {
             const BoundaryFace b = boundary_of_listed_[i];
-            field.pressure[number_of(b)] = step.mean_normal_force.values()[i] / mesh_.face_measure[mesh_face(mesh_, b)];
+            field.pressure[number_of(b)] =
+                step.mean_normal_force.values()[listed_here_[i]] / mesh_.face_measure[mesh_face(mesh_, b)];
         }
     for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
         for (const contact::SurfaceFace face : {overlap.face_1, overlap.face_2})

@@ -2,6 +2,7 @@
 // Private to the sources of this layer.
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "abut/solid/list_watch.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/options.hpp"
+#include "abut/solid/rank_faces.hpp"
 
 namespace abut::solid {
 
@@ -24,9 +26,10 @@ namespace abut::solid {
 template <int Dim>
 class ReconstructionDriver final : public ContactDriver<Dim> {
 public:
-    /// All arguments must outlive the driver; where the time goes is added to `times`. Throws as contact::Contact.
+    /// All arguments must outlive the driver; where the time goes is added to `times`. `part` is null on one rank; on several
+    /// each does all pairs, from faces that are evaluated where their cells are. Throws as contact::Contact.
     ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                         const Loads<Dim>& loads, SolidTimes& times);
+                         const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>* part);
 
     // The path of the listed faces in one step
 
@@ -84,6 +87,13 @@ public:
 
 private:
     void build_surface();
+    void append_faces();
+    [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::SurfaceFace> faces);
+    [[nodiscard]] bool is_of_obstacle(contact::SurfaceFace face) const {
+        return static_cast<std::size_t>(face) >= boundary_of_surface_.size();
+    }
+    [[nodiscard]] std::span<const Vector<Dim>> values_here(std::span<const Vector<Dim>> of_listed,
+                                                           std::vector<Vector<Dim>>& work) const;
     [[nodiscard]] bool is_surely_valid(double cell_motion, double time);
     void require_valid_at(std::span<const Vector<Dim>> q, double time);
     void keep_touching_faces(const contact::ContactStep<Dim>& step);
@@ -102,13 +112,18 @@ private:
     SolidTimes& times_;
     Obstacles<Dim> obstacles_;
     contact::Surface<Dim> surface_;                  // deformable faces, then those of the obstacles
-    std::vector<BoundaryFace> boundary_of_surface_;  // boundary face of each deformable surface face
+    std::vector<BoundaryFace> boundary_of_surface_;  // of each deformable surface face; `no_face`: it is on other ranks
+    std::unique_ptr<RankFaces<Dim>> ranks_;          // null on one rank
     std::int64_t faces_left_out_ = 0;
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
     bool has_stepped_ = false;
-    Region<Dim> region_;                            // of the deformable listed faces
-    std::vector<BoundaryFace> boundary_of_listed_;  // their boundary faces; they come first in the list
+    Region<Dim> region_;                            // of the deformable listed faces, of those that are evaluated here
+    std::size_t n_listed_deformable_ = 0;           // they come first in the list
+    std::vector<BoundaryFace> boundary_of_listed_;  // of those that are here: all on one rank
+    std::vector<std::size_t> listed_here_;          // their indices in the list
+    mutable std::vector<Vector<Dim>> correction_here_, gradient_here_;  // work arrays of `corrections`
+    std::vector<Vector<Dim>> own_displacement_, own_gradient_;          // and of `evaluate_faces`
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_,
         y_1_;                                    // path of the listed faces; between steps _0 is where the last one ended
     std::vector<TouchingPoints<Dim>> touching_;  // faces of the pairs that were active in the last step

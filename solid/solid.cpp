@@ -11,6 +11,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
 #include "abut/solid/largest_motion.hpp"
 #include "abut/solid/loads.hpp"
@@ -18,6 +19,8 @@
 #include "abut/solid/outside_loads.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
+#include "abut/solid/rank_part.hpp"
+#include "abut/solid/rank_rows.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
 
 namespace abut::solid {
@@ -25,29 +28,74 @@ namespace {
 
 inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
 
+/// What is not made for several ranks.
+template <int Dim>
+void check_for_ranks(const dynamics::Ranks* ranks, const Bodies<Dim>& bodies) {
+    const SolidOptions<Dim>& options = bodies.options();
+    if (!std::ranges::all_of(options.kinematics, [](Kinematics k) { return k == Kinematics::small; }))
+        dynamics::refuse_ranks(ranks, "a body that turns, bends or is rigid");
+    if (options.contact && bodies.law() == ContactLaw::pair_potential)
+        dynamics::refuse_ranks(ranks, "contact by the pair potential");
+    if (!options.springs.empty() || !options.moments.empty()) dynamics::refuse_ranks(ranks, "a spring or a moment");
+    if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
+        dynamics::refuse_ranks(ranks, "a load from outside");
+}
+
+/// Where the cells of each body begin, one more at the end.
+template <int Dim>
+std::vector<std::int32_t> first_cells(const mesh::Mesh<Dim>& mesh) {
+    std::vector<std::int32_t> begin;
+    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) begin.push_back(cells_of_body(mesh, body).first);
+    begin.push_back(mesh.n_cells());
+    return begin;
+}
+
 }  // namespace
 
 template <int Dim>
-Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
+Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks)
     : mesh_(mesh),
       options_(std::move(options)),
-      bodies_(std::make_unique<Bodies<Dim>>(mesh, options_)),
-      ccg_(bodies_->deformable(), bodies_->deformable_options().materials, bodies_->deformable_options().boundary,
-           bodies_->deformable_options().kinematics),
-      rotation_(std::make_unique<BodyRotation<Dim>>(bodies_->deformable(), bodies_->masses())),
+      bodies_(dynamics::agreed(ranks,
+                               [&] {
+                                   auto bodies = std::make_unique<Bodies<Dim>>(mesh, options_);
+                                   if (ranks) check_for_ranks(ranks, *bodies);
+                                   return bodies;
+                               })),
+      part_(ranks ? std::make_unique<RankPart<Dim>>(*ranks, *bodies_) : nullptr),
+      ccg_(dynamics::agreed(ranks,
+                            [&] {
+                                const SolidOptions<Dim>& deformable = bodies_->deformable_options();
+                                return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
+                                                deformable.kinematics);
+                            })),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames())),
       point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_)),
       all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
-    loads_ = std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_);
+    if (part_) {
+        check_rows_of_ranks(*part_, mesh, ccg_);
+        ccg_.compute_only(part_->own_cells());
+        ccg_.watch_only(part_->own_faces());
+        const auto begin = part_->body_begin();
+        rotation_ = std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(),
+                                                        std::vector<std::int32_t>(begin.begin(), begin.end()), ranks);
+    } else {
+        rotation_ = std::make_unique<BodyRotation<Dim>>(bodies_->deformable().cell_centroid, bodies_->masses(),
+                                                        first_cells(bodies_->deformable()), nullptr);
+    }
+    loads_ = dynamics::agreed(ranks, [&] {
+        return std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_,
+                                            part_.get());
+    });
     outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
     if (!options_.contact) return;
     if (bodies_->law() == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_);
     } else {
-        auto driver = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_);
+        auto driver = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, part_.get());
         reconstruction_ = driver.get();
         contact_ = std::move(driver);
     }
@@ -55,6 +103,45 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options)
 
 template <int Dim>
 Solid<Dim>::~Solid() = default;
+
+template <int Dim>
+const dynamics::Ranks* Solid<Dim>::ranks() const {
+    return part_ ? &part_->ranks() : nullptr;
+}
+
+template <int Dim>
+void Solid<Dim>::refuse_ranks(const char* what) const {
+    dynamics::refuse_ranks(ranks(), what);
+}
+
+template <int Dim>
+std::span<const Vector<Dim>> Solid<Dim>::state_here(std::span<const double> q) {
+    return part_ ? part_->state(as_vectors<Dim>(q)) : as_vectors<Dim>(q);
+}
+
+template <int Dim>
+auto Solid<Dim>::ends_here(std::span<const double> q_0, std::span<const double> q_1) -> Ends {
+    if (!part_) return {as_vectors<Dim>(q_0), as_vectors<Dim>(q_1)};
+    const auto [start, end] = part_->step(as_vectors<Dim>(q_0), as_vectors<Dim>(q_1));
+    return {start, end};
+}
+
+/// Where to write what `take_result` makes by point.
+template <int Dim>
+std::span<Vector<Dim>> Solid<Dim>::result_here(std::span<double> of_points) {
+    return part_ ? part_->result() : as_vectors<Dim>(of_points);
+}
+
+template <int Dim>
+void Solid<Dim>::take_result(std::span<double> of_points) const {
+    if (part_) part_->take_result(as_vectors<Dim>(of_points));
+}
+
+/// That deform, of all ranks.
+template <int Dim>
+std::int32_t Solid<Dim>::n_cells_of_all() const {
+    return part_ ? part_->ranks().n_points() : bodies_->n_cells();
+}
 
 /// The part of what is by point that belongs to cells.
 template <int Dim>
@@ -112,8 +199,8 @@ Matrix<Dim> Solid<Dim>::mean_turn(std::int32_t body) const {
 
 template <int Dim>
 void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
-    const auto u = as_vectors<Dim>(q);
-    const auto gradient = as_vectors<Dim>(force);
+    const auto u = state_here(q);
+    const auto gradient = result_here(force);
     frames_->stand_at(of_cells(u));
     if (contact_) contact_->evaluate(u, time_);
     ccg_.gradient(in_frames(u, all_cells_), loads_->end(), corrections(), gradient);
@@ -122,32 +209,50 @@ void Solid<Dim>::force(std::span<const double> q, std::span<double> force) {
         point_loads_->add_at(
             u, time_, [this](std::int32_t body) { return mean_turn(body); }, gradient);
     bodies_->rigid().add_constraint_forces(u, gradient);
+    take_result(force);
 }
 
 template <int Dim>
 double Solid<Dim>::potential(std::span<const double> q) {
-    const auto u = as_vectors<Dim>(q);
+    return potential_here(state_here(q));
+}
+
+template <int Dim>
+double Solid<Dim>::potential_here(std::span<const Vector<Dim>> u) {
     frames_->stand_at(of_cells(u));
     if (contact_) contact_->evaluate(u, time_);
-    double energy = ccg_.potential(in_frames(u, all_cells_), loads_->end(), corrections()) - loads_->body_work(of_cells(u));
+    double energy = stored_energy(u) - loads_->body_work(of_cells(u));
     if (contact_) energy += contact_->energy();
     energy += point_loads_->energy(u);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) energy -= rigid_force_[i].dot(u[i]);
     return energy;
 }
 
+/// Less the work of tractions.
+template <int Dim>
+double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u) {
+    const BoundaryLoad<Dim>& load = loads_->end();
+    if (!part_) return ccg_.potential(in_frames(u, all_cells_), load, corrections());
+    const std::vector<double> of_cells = ccg_.cell_energies(u, load, corrections());
+    const double stored = part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
+    if (options_.boundary.dirichlet.empty() && options_.boundary.traction.empty()) return stored;
+    return stored - part_->fold_faces(0.0, [&](BoundaryFace face) { return ccg_.traction_work(face, load); });
+}
+
 template <int Dim>
 void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> product) {
-    const auto u = as_vectors<Dim>(q);
-    const auto result = as_vectors<Dim>(product);
+    const auto u = state_here(q);
+    const auto result = result_here(product);
     stiffness_of_cells(of_cells(u), result);
     for (auto i = static_cast<std::size_t>(bodies_->n_cells()); i < u.size(); ++i) result[i] = rigid_stiffness_[i] * u[i];
     point_loads_->add_stiffness(u, result);
+    take_result(product);
 }
 
 template <int Dim>
 void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
                               std::span<Vector<Dim>> force) {
+    refuse_ranks("a force on some points alone");
     const auto n_cells = std::ranges::lower_bound(points, bodies_->n_cells()) - points.begin();
     const auto cells = points.first(static_cast<std::size_t>(n_cells));
     const auto u = as_vectors<Dim>(q);
@@ -202,8 +307,7 @@ template <int Dim>
 void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                             std::span<double> force) {
     require_start(time, dt);
-    const auto u_0 = as_vectors<Dim>(q_0);
-    const auto u_1 = as_vectors<Dim>(q_1);
+    const auto [u_0, u_1] = ends_here(q_0, q_1);
     follow_loads(u_0, time, dt);
     bodies_->rigid().follow(u_0, u_1);
     const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
@@ -213,7 +317,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     }
 
     const Stopwatch watch(times_.bulk);
-    const auto gradient = as_vectors<Dim>(force);
+    const auto gradient = result_here(force);
     const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1)};
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
         if (frames_->any_turns())
@@ -231,7 +335,8 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     to_force(u_0, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
     outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
-    evaluations_ += bodies_->n_cells();
+    take_result(force);
+    evaluations_ += n_cells_of_all();
     end_step(time + dt);
 }
 
@@ -239,9 +344,8 @@ template <int Dim>
 void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
                            std::span<double> force) {
     require_start(time, dt);
-    const auto u_0 = as_vectors<Dim>(q_0);
-    const auto u_1 = as_vectors<Dim>(q_1);
-    const auto gradient = as_vectors<Dim>(force);
+    const auto [u_0, u_1] = ends_here(q_0, q_1);
+    const auto gradient = result_here(force);
     follow_loads(u_0, time, dt);
     bodies_->rigid().follow(u_0, u_1);
     const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
@@ -262,7 +366,8 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     to_force(u_1, u_1, gradient);
     add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
     outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
-    evaluations_ += bodies_->n_cells();
+    take_result(force);
+    evaluations_ += n_cells_of_all();
     end_step(time + dt);
 }
 
@@ -286,14 +391,13 @@ void Solid<Dim>::require_start(double time, double dt) const {
 template <int Dim>
 void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
     if (!loads_->vary()) return;
-    const std::span<const double> q(q_0.data()->data(), q_0.size() * Dim);
     double change = 0.0, held_change = 0.0;  // of V, and of what it has less for loads from outside
     const auto follow_jump = [&] {
         if (contact_) contact_->follow_jump(q_0, time);
         held_change = outside_->held_change(q_0);
     };
     const bool tractions_jump = loads_->begin_step(
-        time, dt, [&] { return potential(q); }, follow_jump, change);
+        time, dt, [&] { return potential_here(q_0); }, follow_jump, change);
     if (!tractions_jump) return;
     work_ += change;
     if (outside_->any()) outside_->add_change(change + held_change);
@@ -305,7 +409,11 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
 template <int Dim>
 double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     const Stopwatch watch(times_.bulk);
-    if (!frames_->any_turns()) return contact_ ? largest_motion<Dim>(q_0, q_1) : 0.0;
+    if (!frames_->any_turns()) {
+        if (!contact_) return 0.0;
+        const double motion = largest_motion<Dim>(q_0, q_1);
+        return part_ ? part_->ranks().largest(motion) : motion;
+    }
     frames_->follow(q_0, q_1);
     midpoint_.resize(lane_width<Dim> * q_0.size());
     return frames_->take_midpoints(q_0, q_1, midpoint_);
@@ -331,6 +439,7 @@ void Solid<Dim>::end_step(double time) {
 
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
+    refuse_ranks("local steps");
     if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !reconstruction_))
         throw BadInput(mesh_.name +
                        ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "

@@ -12,6 +12,7 @@
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/ranks.hpp"
 #include "abut/dynamics/system.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/contact_results.hpp"
@@ -37,6 +38,8 @@ class OutsideLoads;
 template <int Dim>
 class PointLoads;
 template <int Dim>
+class RankPart;
+template <int Dim>
 class ReconstructionDriver;
 
 /// Deformable bodies on one mesh, in contact with each other and with rigid obstacles: a System. With contact or with loads
@@ -55,7 +58,12 @@ public:
     static constexpr int dimension = Dim;
 
     /// The mesh must outlive the solid. Throws BadInput saying where, how much, how much is allowed and what to do.
-    Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options);
+    ///
+    /// On several ranks `mesh` is that of a part (mesh::MeshPart), and `ranks`, which must outlive the solid, say whose its
+    /// cells are (ranks::PointRanks): points are the cells of this rank then, and all functions but those that read no state
+    /// are calls of all ranks together. Contact by the modified reconstruction, constant and varying loads and obstacles have
+    /// the bits of one rank; what is not made for several ranks throws BadInput (docs/ranks.md).
+    Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks = nullptr);
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
     ~Solid();
@@ -124,7 +132,7 @@ public:
     [[nodiscard]] std::vector<ActingPair<Dim>> acting_pairs(std::span<const double> q);
 
     /// All that the next steps depend on beside q and p: loads, work, dashpots, rigid bodies, what pairs remember. Bytes,
-    /// versioned, with a checksum.
+    /// versioned, with a checksum; the same on all ranks, for any number of them.
     [[nodiscard]] std::vector<std::byte> state() const;
     /// Goes on in q, where the last step before `state` ended, with a solid made of the same mesh with the same options: the
     /// next steps have the same bits. Contact has no force on obstacles and no patches before the next step. Throws BadInput
@@ -161,6 +169,7 @@ public:
     /// So far; q is where the last step ended.
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
+    [[nodiscard]] const dynamics::Ranks* ranks() const;  ///< null: there is one
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     /// Of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
@@ -213,6 +222,20 @@ public:
     [[nodiscard]] std::vector<double> momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;
 
 private:
+    // By point of this system or, on several ranks, by cell of the part: all that is private takes the latter.
+    struct Ends {
+        std::span<const Vector<Dim>> start, end;
+    };
+    [[nodiscard]] std::span<const Vector<Dim>> state_here(std::span<const double> q);
+    [[nodiscard]] Ends ends_here(std::span<const double> q_0, std::span<const double> q_1);
+    [[nodiscard]] std::span<Vector<Dim>> result_here(std::span<double> of_points);
+    void take_result(std::span<double> of_points) const;
+    [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
+    [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u);
+    void evaluate_contact(std::span<const double> q);
+    void refuse_ranks(const char* what) const;
+    [[nodiscard]] std::int32_t n_cells_of_all() const;
+
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
     void stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result);
     void rigid_to_force(std::span<Vector<Dim>> force) const;
@@ -235,6 +258,7 @@ private:
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
     std::unique_ptr<Bodies<Dim>> bodies_;
+    std::unique_ptr<RankPart<Dim>> part_;  // null on one rank
     Ccg<Dim> ccg_;  // of the bodies that deform
     std::unique_ptr<BodyRotation<Dim>> rotation_;
     std::unique_ptr<BodyFrames<Dim>> frames_;

@@ -12,6 +12,7 @@
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
+#include "abut/solid/rank_part.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -33,10 +34,16 @@ std::vector<double> as_numbers(const std::vector<Vector<Dim>>& vectors) {
 // Contact ------------------------------------------------------------------------------------------------------------
 
 template <int Dim>
+void Solid<Dim>::evaluate_contact(std::span<const double> q) {
+    const auto u = state_here(q);
+    frames_->stand_at(of_cells(u));
+    contact_->evaluate(u, time_);
+}
+
+template <int Dim>
 ContactField Solid<Dim>::contact_field(std::span<const double> q) {
     if (contact_) {
-        frames_->stand_at(of_cells(as_vectors<Dim>(q)));
-        contact_->evaluate(as_vectors<Dim>(q), time_);
+        evaluate_contact(q);
         return contact_->field();
     }
     const std::size_t n = mesh_.boundary_faces.size();
@@ -46,16 +53,14 @@ ContactField Solid<Dim>::contact_field(std::span<const double> q) {
 template <int Dim>
 std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap) {
     if (!contact_) return {};
-    frames_->stand_at(of_cells(as_vectors<Dim>(q)));
-    contact_->evaluate(as_vectors<Dim>(q), time_);
+    evaluate_contact(q);
     return contact_->touching_pairs(gap);
 }
 
 template <int Dim>
 std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q) {
     if (!contact_) return {};
-    frames_->stand_at(of_cells(as_vectors<Dim>(q)));
-    contact_->evaluate(as_vectors<Dim>(q), time_);
+    evaluate_contact(q);
     std::vector<ActingPair<Dim>> acting;
     for (const contact::PairStep<Dim>& pair : contact_->pairs())
         if (pair.force != Vector<Dim>::Zero())
@@ -66,6 +71,7 @@ std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q)
 
 template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const {
+    refuse_ranks("the search for parts in contact");
     return contact_ ? contact_->patches() : std::vector<dynamics::ContactPatch<Dim>>{};
 }
 
@@ -140,28 +146,28 @@ std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const {
 
 template <int Dim>
 std::span<const double> Solid<Dim>::inverse_mass() const {
-    return bodies_->inverse_masses();
+    return part_ ? part_->inverse_masses() : bodies_->inverse_masses();
 }
 
 template <int Dim>
 std::span<const double> Solid<Dim>::masses() const {
-    return bodies_->masses();
+    return part_ ? part_->masses() : bodies_->masses();
 }
 
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const {
-    return bodies_->rest();
+    return part_ ? part_->rest() : bodies_->rest();
 }
 
 template <int Dim>
 std::span<const std::int32_t> Solid<Dim>::body_of_points() const {
-    return bodies_->body_of_points();
+    return part_ ? part_->body_of_cells() : bodies_->body_of_points();
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
     const auto u = as_vectors<Dim>(q);
-    return bodies_->of_bodies(rotation_->angles(of_cells(u)), [&](std::size_t rigid) {
+    return bodies_->of_bodies(rotation_->angles(u), [&](std::size_t rigid) {
         return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, u).map));
     });
 }
@@ -171,17 +177,19 @@ std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
     static_cast<void>(potential(q));  // leaves the displacement gradients of this state behind
     const mesh::Mesh<Dim>& part = bodies_->deformable();
     std::vector<double> largest(static_cast<std::size_t>(part.n_bodies()), 0.0);
-    for (std::int32_t c = 0; c < part.n_cells(); ++c) {
+    for (const std::int32_t c : part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_)) {
         if (bodies_->is_finite(bodies_->body_of_points()[static_cast<std::size_t>(c)])) continue;
         double& of_body = largest[static_cast<std::size_t>(part.cell_body[c])];
         of_body = larger(of_body, 0.5 * axial<Dim>(ccg_.displacement_gradient(c)).norm());
     }
+    if (part_)
+        for (double& of_body : largest) of_body = part_->ranks().largest(of_body);
     return bodies_->of_bodies(largest, [](std::size_t) { return 0.0; });
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
-    return bodies_->of_cells(as_vectors<Dim>(q));
+    return part_ ? part_->filled(as_vectors<Dim>(q)) : bodies_->of_cells(as_vectors<Dim>(q));
 }
 
 template <int Dim>
@@ -223,17 +231,20 @@ std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double>
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const {
+    if (part_) return bodies_->velocities(part_->filled(as_vectors<Dim>(p)));
     return bodies_->velocities(as_vectors<Dim>(p));
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const {
-    return as_numbers<Dim>(bodies_->of_points(of_cells));
+    const std::vector<Vector<Dim>> of_points = bodies_->of_points(of_cells);
+    return as_numbers<Dim>(part_ ? part_->own(of_points) : of_points);
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const {
-    return as_numbers<Dim>(bodies_->momenta(cell_velocity));
+    const std::vector<Vector<Dim>> of_points = bodies_->momenta(cell_velocity);
+    return as_numbers<Dim>(part_ ? part_->own(of_points) : of_points);
 }
 
 template <int Dim>
@@ -257,6 +268,7 @@ double Solid<Dim>::step_margin() const {
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                      \
+    template void Solid<Dim>::evaluate_contact(std::span<const double> q);                                         \
     template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                    \
     template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);     \
     template std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q);                     \

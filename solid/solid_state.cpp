@@ -16,20 +16,33 @@
 namespace abut::solid {
 namespace {
 
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 template <int Dim>
 std::string kind() {
     return "solid " + std::to_string(Dim) + "D";
 }
 
-/// Whatever could be told apart at little cost: the arrays inside are checked where they are read.
+/// Of places and masses of the points, whatever ranks they are on: the arrays inside are checked where they are read.
 template <int Dim>
-std::uint64_t fingerprint(const mesh::Mesh<Dim>& mesh, std::span<const double> masses) {
-    Checksum checksum;
-    for (const Vector<Dim>& vertex : mesh.vertices) checksum.add_values(std::span<const double>(vertex.data(), Dim));
-    checksum.add_values(masses);
-    return checksum.value();
+std::uint64_t fingerprint(std::span<const Vector<Dim>> rest, std::span<const double> masses, const dynamics::Ranks* ranks) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < masses.size(); ++i) {
+        Checksum checksum;
+        const std::int32_t number = ranks ? ranks->numbers()[i] : static_cast<std::int32_t>(i);
+        checksum.add_values(std::span(&number, 1));
+        checksum.add_values(std::span<const double>(rest[i].data(), Dim));
+        checksum.add_values(masses.subspan(i, 1));
+        sum += checksum.value();
+    }
+    if (!ranks) return sum;
+    constexpr int half = 32;  // of the bits: so many fit into a double
+    const std::vector<double> halves = ranks->gather(std::vector{
+        static_cast<double>(sum >> half), static_cast<double>(sum & ((std::uint64_t{1} << half) - 1))});
+    sum = 0;
+    for (std::size_t i = 0; i < halves.size(); i += 2)
+        sum += (static_cast<std::uint64_t>(halves[i]) << half) + static_cast<std::uint64_t>(halves[i + 1]);
+    return sum;
 }
 
 }  // namespace
@@ -37,7 +50,7 @@ std::uint64_t fingerprint(const mesh::Mesh<Dim>& mesh, std::span<const double> m
 template <int Dim>
 std::vector<std::byte> Solid<Dim>::state() const {
     StateWriter state(kind<Dim>(), version);
-    state.put(fingerprint(mesh_, masses()));
+    state.put(fingerprint<Dim>(rest_positions(), masses(), ranks()));
     state.put(time_);
     state.put(work_);
     state.put(evaluations_);
@@ -63,7 +76,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
 template <int Dim>
 void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const double> q) {
     StateReader state(bytes, kind<Dim>(), version);
-    if (state.get<std::uint64_t>() != fingerprint(mesh_, masses()))
+    if (state.get<std::uint64_t>() != fingerprint<Dim>(rest_positions(), masses(), ranks()))
         throw BadInput(mesh_.name +
                        ": the saved state is of bodies of another mesh or of other masses. Restore it where mesh, "
                        "materials and kinematics are the same.");
@@ -80,7 +93,7 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
         throw BadInput(mesh_.name + ": the saved state is of a solid " + (contact_ ? "without" : "with") +
                        " contact, and this one is not.");
     if (contact_) {
-        const auto u = as_vectors<Dim>(q);
+        const auto u = state_here(q);
         frames_->stand_at(of_cells(u));
         contact_->restore(state.get_all<std::byte>(), u, time_);
         std::vector<BodyImpulse<Dim>> impulses(static_cast<std::size_t>(state.get<std::int32_t>()));
@@ -99,14 +112,27 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
 
 template <int Dim>
 void Loads<Dim>::save(StateWriter& state) const {
-    put_all<Dim>(state, end_.displacement);
-    put_all<Dim>(state, end_.traction);
+    if (!part_ || !has_conditions_) {
+        put_all<Dim>(state, end_.displacement);
+        put_all<Dim>(state, end_.traction);
+    } else {
+        put_all<Dim>(state, part_->gather_faces(end_.displacement));
+        put_all<Dim>(state, part_->gather_faces(end_.traction));
+    }
 }
 
 template <int Dim>
 void Loads<Dim>::restore(StateReader& state) {
-    take_all<Dim>(state, end_.displacement);
-    take_all<Dim>(state, end_.traction);
+    if (!part_ || !has_conditions_) {
+        take_all<Dim>(state, end_.displacement);
+        take_all<Dim>(state, end_.traction);
+    } else {
+        std::vector<Vector<Dim>> of_all(part_->n_all_faces());
+        take_all<Dim>(state, of_all);
+        end_.displacement = part_->faces_here(mesh_, of_all);
+        take_all<Dim>(state, of_all);
+        end_.traction = part_->faces_here(mesh_, of_all);
+    }
     start_ = end_;
 }
 

@@ -1,6 +1,7 @@
 #include "abut/solid/ccg/ccg.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -36,7 +37,7 @@ struct Ccg<Dim>::Impl {
     CcgArrays<Dim> arrays;
     FiniteCells<Dim> finite;
     CcgSweeps<Dim> sweeps;
-    MotionBound<Dim> motion_bound;
+    std::optional<MotionBound<Dim>> motion_bound;
     IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
     IdVector<BoundaryFace, double> boundary_measure;
     std::vector<std::vector<Vector<Dim>>> outside;  // tractions by face, of each traction condition; empty: not from outside
@@ -55,8 +56,9 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
              form),
       finite(mesh, face_conditions, kinematics),
-      sweeps(arrays, finite),
-      motion_bound(arrays) {
+      sweeps(arrays, finite) {
+    const auto all = solid::boundary_faces(mesh);
+    motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
     for (const std::int32_t f : arrays.boundary_faces) {
         boundary_centroid.push_back(mesh.face_centroid[f]);
         boundary_measure.push_back(mesh.face_measure[f]);
@@ -213,11 +215,24 @@ Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
 template <int Dim>
 double Ccg<Dim>::potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                            const FaceCorrections<Dim>& corrections) {
-    const double stored = impl_->sweeps.stored_energy(u, load, corrections);
+    const std::vector<double> energy = cell_energies(u, load, corrections);
+    const double stored = ordered_sum(std::ssize(energy), 0.0, [&](std::ptrdiff_t c) { return energy[c]; });
     double work = 0.0;
-    for (std::size_t b = 0; b < load.traction.size(); ++b)
-        work += load.traction[b].dot(impl_->sweeps.face_displacement(static_cast<BoundaryFace>(b)));
+    for (std::size_t b = 0; b < load.traction.size(); ++b) work += traction_work(static_cast<BoundaryFace>(b), load);
     return stored - work;
+}
+
+template <int Dim>
+std::vector<double> Ccg<Dim>::cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                            const FaceCorrections<Dim>& corrections) {
+    std::vector<double> energy(static_cast<std::size_t>(n_cells()));
+    impl_->sweeps.cell_energies(u, load, corrections, energy);
+    return energy;
+}
+
+template <int Dim>
+double Ccg<Dim>::traction_work(BoundaryFace face, const BoundaryLoad<Dim>& load) const {
+    return load.traction[static_cast<std::size_t>(face)].dot(impl_->sweeps.face_displacement(face));
 }
 
 template <int Dim>
@@ -262,19 +277,29 @@ contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const BoundaryFace> face
 }
 
 template <int Dim>
+void Ccg<Dim>::compute_only(std::span<const std::int32_t> cells) {
+    impl_->sweeps.compute_only(solid::region_of_cells(impl_->arrays, cells));
+}
+
+template <int Dim>
+void Ccg<Dim>::watch_only(std::span<const BoundaryFace> faces) {
+    impl_->motion_bound.emplace(impl_->arrays, faces);
+}
+
+template <int Dim>
 double Ccg<Dim>::motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                               std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to) {
-    return impl_->motion_bound(u_from, load_from, u_to, load_to);
+    return (*impl_->motion_bound)(u_from, load_from, u_to, load_to);
 }
 
 template <int Dim>
 double Ccg<Dim>::motion_amplification() const {
-    return impl_->motion_bound.amplification();
+    return impl_->motion_bound->amplification();
 }
 
 template <int Dim>
 double Ccg<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const {
-    return impl_->motion_bound.corner_amplification(face, arm);
+    return impl_->motion_bound->corner_amplification(face, arm);
 }
 
 template <int Dim>

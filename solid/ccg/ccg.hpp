@@ -126,6 +126,11 @@ public:
     /// V(u, û + delta) less the work of tractions [J].
     [[nodiscard]] double potential(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                    const FaceCorrections<Dim>& corrections);
+    /// Its terms: the elastic and stabilisation energy of each cell (n_cells) [J].
+    [[nodiscard]] std::vector<double> cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                                    const FaceCorrections<Dim>& corrections);
+    /// And the work of the traction on a boundary face, in the state that `cell_energies` was called for last [J].
+    [[nodiscard]] double traction_work(BoundaryFace face, const BoundaryLoad<Dim>& load) const;
 
     /// What `evaluate_faces` needs for these boundary faces.
     [[nodiscard]] Region<Dim> region_of_faces(std::span<const BoundaryFace> faces) const;
@@ -147,6 +152,11 @@ public:
     /// Q_ff' among these boundary faces: how the gradients of `evaluate_faces` answer to corrections. docs/method.md, Time.
     [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const BoundaryFace> faces) const;
 
+    /// From now on `gradient` and its like give dV/du_c of these cells alone, increasing, and boundary gradients of their
+    /// faces: what no such value depends on is left out, chunk by chunk, and holds what it held.
+    void compute_only(std::span<const std::int32_t> cells);
+    /// From now on the two below look at these boundary faces alone, not at all.
+    void watch_only(std::span<const BoundaryFace> faces);
     /// How far a boundary face has moved at most from one state to another [m]; a close bound, much cheaper than the motion.
     [[nodiscard]] double motion_bound(std::span<const Vector<Dim>> u_from, const BoundaryLoad<Dim>& load_from,
                                       std::span<const Vector<Dim>> u_to, const BoundaryLoad<Dim>& load_to);

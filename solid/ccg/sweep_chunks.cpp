@@ -50,6 +50,8 @@ void CcgSweeps<Dim>::set_chunks() {
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size());
     begin_chunk(a.n_cells(), a.n_cells());
 
+    // y of a face is written over its displacement, which the sweep before last reads: both sides have their gradients when
+    // `face_gradients` of a chunk runs, since it needs the stresses of both, and these need them.
     std::array<std::vector<std::vector<std::int32_t>>, n_stages - 1> needs;
     for (auto& stage : needs) stage.resize(static_cast<std::size_t>(n_chunks));
     const auto need = [&](Stage stage, std::int32_t cell, std::int32_t of_cell) {
@@ -83,6 +85,28 @@ void CcgSweeps<Dim>::set_chunks() {
 }
 
 template <int Dim>
+void CcgSweeps<Dim>::compute_only(const Region<Dim>& region) {
+    const std::size_t n_chunks = chunks_.size() - 1;
+    const auto want = [&](Stage stage, std::int32_t cell) {
+        const auto behind = std::ranges::upper_bound(chunks_, cell, {}, &Chunk::cell);
+        is_wanted_[stage][static_cast<std::size_t>(behind - chunks_.begin()) - 1] = true;
+    };
+    is_wanted_[loading].clear();
+    for (const Stage stage : {reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients})
+        is_wanted_[stage].assign(n_chunks, false);
+    for (const std::int32_t f : region.reconstructed) want(reconstruction, arrays_.face_cells[f][0]);
+    for (const BoundaryFace b : region.reconstructed_boundary) want(reconstruction, arrays_.cell_of(b));
+    for (const std::int32_t c : region.displacement_gradient_cells) want(displacement_gradients, c);
+    for (const std::int32_t c : region.stress_cells) want(stresses, c);
+    for (const std::int32_t f : region.energy_gradient_faces) want(face_gradients, arrays_.face_cells[f][0]);
+    for (const BoundaryFace b : region.faces) want(face_gradients, arrays_.cell_of(b));
+    for (const std::int32_t c : region.cells) {
+        want(face_gradients, c);
+        want(cell_gradients, c);
+    }
+}
+
+template <int Dim>
 void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
     region.chunks.clear();
     if (region.cells.size() < one_chunk) {  // all in one: it costs no more than its cells
@@ -108,6 +132,7 @@ void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
 
 #define ABUT_INSTANTIATE(Dim)                   \
     template void CcgSweeps<Dim>::set_chunks(); \
+    template void CcgSweeps<Dim>::compute_only(const Region<Dim>&); \
     template void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>&) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

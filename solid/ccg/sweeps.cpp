@@ -119,6 +119,9 @@ void CcgSweeps<Dim>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Di
                                 const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     schedule_.run([&](int stage, std::int32_t chunk) {
+        if (const auto& wanted = is_wanted_[static_cast<std::size_t>(stage)];
+            !wanted.empty() && !wanted[static_cast<std::size_t>(chunk)])
+            return;
         switch (stage) {
             case loading:
                 for (std::int32_t c = chunks_[chunk].cell; c < chunks_[chunk + 1].cell; ++c) load_cell(c);
@@ -139,14 +142,14 @@ void CcgSweeps<Dim>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Di
 }
 
 template <int Dim>
-double CcgSweeps<Dim>::stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                                     const FaceCorrections<Dim>& corrections) {
+void CcgSweeps<Dim>::cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                   const FaceCorrections<Dim>& corrections, std::span<double> result) {
     const PlacedCorrections placed(*this, corrections);
     load_displacement(u);
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
     parallel_tasks(n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
     parallel_tasks(n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k, load); });
-    return ordered_sum(arrays_.n_cells(), 0.0, [&](std::ptrdiff_t c) { return energy(c); });
+    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
 }
 
 template <int Dim>

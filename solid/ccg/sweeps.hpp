@@ -1,5 +1,6 @@
 #pragma once
 // Private to the sources of this layer.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -53,11 +54,13 @@ public:
     /// The same of u; the arrays of displacements are exchanged.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
-    /// V without the work of the loads [J].
-    [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                                       const FaceCorrections<Dim>& corrections);
+    /// V by cell, without the work of the loads (n_cells) [J].
+    void cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                       const FaceCorrections<Dim>& corrections, std::span<double> result);
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
+    /// From now on `gradient` and its like compute the values of this region alone (`region_of_cells`), by whole chunks.
+    void compute_only(const Region<Dim>& region);
     /// Sets Region::chunks, which `evaluate_cells` needs.
     void divide_into_chunks(Region<Dim>& region) const;
     void evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
@@ -186,6 +189,7 @@ private:
     std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
     bool has_change_ = false;
     std::vector<Chunk> chunks_;  // one more at the end
+    std::array<std::vector<bool>, n_stages> is_wanted_;  // chunks; empty: all are
     SweepSchedule<n_stages> schedule_;
 };
 

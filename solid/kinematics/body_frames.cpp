@@ -107,6 +107,10 @@ BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const d
     weighted_arm_.resize(4 * rest.size());
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         body_.resize(static_cast<std::size_t>(begin_[body + 1]), static_cast<std::int32_t>(body));
+        if (begin_[body] == begin_[body + 1]) {  // of a part of a mesh, which has none of its cells
+            mass_.push_back(0.0);
+            continue;
+        }
         const Vector<Dim> origin = rest[begin_[body]];
         double mass = 0.0;
         Vector<Dim> moment = Vector<Dim>::Zero();

@@ -1,0 +1,191 @@
+#include "abut/solid/rank_faces.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace abut::solid {
+namespace {
+
+/// Reads numbers one after the other.
+class Reader {
+public:
+    explicit Reader(std::span<const double> values) : values_(values) {}
+    [[nodiscard]] bool is_done() const { return values_.empty(); }
+    double next() {
+        const double value = values_.front();
+        values_ = values_.subspan(1);
+        return value;
+    }
+    template <class Integer>
+    Integer next_as() {
+        return static_cast<Integer>(next());
+    }
+    template <class Array>
+    Array next_array() {
+        Array array;
+        for (double& value : array.reshaped()) value = next();
+        return array;
+    }
+
+private:
+    std::span<const double> values_;
+};
+
+template <class Array>
+void append(std::vector<double>& values, const Array& array) {
+    for (const double value : array.reshaped()) values.push_back(value);
+}
+
+}  // namespace
+
+template <int Dim>
+RankFaces<Dim>::RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg) : part_(part) {
+    std::vector<double> mine{0.0, 0.0};  // faces left out, faces; then the faces
+    for (std::size_t i = 0; i < part.own_faces().size(); ++i) {
+        const BoundaryFace face = part.own_faces()[i];
+        const bool is_prescribed = !ccg.prescribed()[face].isZero(0.0);
+        ++mine[is_prescribed ? 0 : 1];
+        if (!is_prescribed) append_own(mesh, ccg, face, part.face_keys()[i], mine);
+    }
+    take_all(part.ranks().gather(mine));
+    find_here(mesh);
+}
+
+template <int Dim>
+void RankFaces<Dim>::append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg, BoundaryFace face, std::int64_t key,
+                                std::vector<double>& values) const {
+    const std::int32_t in_mesh = mesh_face(mesh, face);
+    const auto corners = mesh.face_vertices[in_mesh];
+    values.insert(values.end(), {static_cast<double>(key), static_cast<double>(mesh.cell_body[cell_of(mesh, face)]),
+                                 cell_depth(mesh, in_mesh), ccg.normal_stiffness(face), static_cast<double>(corners.size())});
+    for (const std::int32_t v : corners) append(values, mesh.vertices[v]);
+}
+
+template <int Dim>
+void RankFaces<Dim>::take_all(std::span<const double> values) {
+    Reader reader(values);
+    for (int rank = 0; !reader.is_done(); ++rank) {
+        n_left_out_ += reader.next_as<std::int64_t>();
+        for (auto left = reader.next_as<std::int64_t>(); left > 0; --left) {
+            Face& face = faces_.emplace_back();
+            face.key = reader.next_as<std::int64_t>();
+            face.owner = rank;
+            face.body = reader.next_as<std::int32_t>();
+            face.cell_depth = reader.next();
+            face.stiffness = reader.next();
+            face.corners.resize(reader.next_as<std::size_t>());
+            for (Vector<Dim>& corner : face.corners) corner = reader.next_array<Vector<Dim>>();
+        }
+    }
+    std::ranges::sort(faces_, {}, &Face::key);
+    std::vector<std::size_t> all(faces_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    all_by_owner_ = by_owner(all);
+}
+
+/// Faces with the same key. Where the part ends inside a body it has others, of which the surface knows nothing.
+template <int Dim>
+void RankFaces<Dim>::find_here(const mesh::Mesh<Dim>& mesh) {
+    here_.assign(faces_.size(), no_face);
+    for (const BoundaryFace b : boundary_faces(mesh)) {
+        const std::int64_t key = part_.key_of(mesh, b);
+        const auto found = std::ranges::lower_bound(faces_, key, {}, &Face::key);
+        if (found != faces_.end() && found->key == key) here_[static_cast<std::size_t>(found - faces_.begin())] = b;
+    }
+}
+
+/// Indices of some faces, given by their place in the surface, in the order in which `gather` brings them.
+template <int Dim>
+std::vector<std::size_t> RankFaces<Dim>::by_owner(std::span<const std::size_t> faces) const {
+    std::vector<std::size_t> order(faces.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return faces_[faces[i]].owner; });
+    return order;
+}
+
+template <int Dim>
+void RankFaces<Dim>::append_to(contact::Surface<Dim>& surface, std::vector<BoundaryFace>& boundary) const {
+    for (const Face& face : faces_) surface.append(face.corners, face.cell_depth, face.stiffness, face.body);
+    boundary.insert(boundary.end(), here_.begin(), here_.end());
+}
+
+template <int Dim>
+void RankFaces<Dim>::gather_displacement(std::span<const Vector<Dim>> of_boundary,
+                                         std::span<Vector<Dim>> of_surface) const {
+    std::vector<double> mine;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+        if (faces_[i].owner == part_.ranks().rank()) append(mine, of_boundary[static_cast<std::size_t>(here_[i])]);
+    const std::vector<double> all = part_.ranks().gather(mine);
+    Reader reader(all);
+    for (const std::size_t i : all_by_owner_) of_surface[i] = reader.next_array<Vector<Dim>>();
+}
+
+template <int Dim>
+void RankFaces<Dim>::set_listed(std::span<const contact::SurfaceFace> listed) {
+    listed_.clear();
+    own_listed_.clear();
+    for (const contact::SurfaceFace face : listed) {
+        const auto i = static_cast<std::size_t>(face);
+        listed_.push_back(i);
+        if (faces_[i].owner == part_.ranks().rank()) own_listed_.push_back(here_[i]);
+    }
+    listed_by_owner_ = by_owner(listed_);
+}
+
+template <int Dim>
+void RankFaces<Dim>::gather_listed(std::span<const Vector<Dim>> own_displacement, std::span<const Vector<Dim>> own_gradient,
+                                   std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient) const {
+    if (listed_.empty()) return;
+    std::vector<double> mine;
+    for (std::size_t i = 0; i < own_displacement.size(); ++i) {
+        append(mine, own_displacement[i]);
+        append(mine, own_gradient[i]);
+    }
+    const std::vector<double> all = part_.ranks().gather(mine);
+    Reader reader(all);
+    for (const std::size_t i : listed_by_owner_) {
+        displacement[i] = reader.next_array<Vector<Dim>>();
+        gradient[i] = reader.next_array<Vector<Dim>>();
+    }
+}
+
+template <int Dim>
+contact::FaceCoupling<Dim> RankFaces<Dim>::gather_coupling(const contact::FaceCoupling<Dim>& here) const {
+    std::vector<std::size_t> in_list;  // of the rows here
+    for (std::size_t i = 0; i < listed_.size(); ++i)
+        if (here_[listed_[i]] != no_face) in_list.push_back(i);
+    std::vector<double> mine;  // rows of own faces: number of columns; columns with their blocks
+    for (std::size_t row = 0; row < in_list.size(); ++row) {
+        if (faces_[listed_[in_list[row]]].owner != part_.ranks().rank()) continue;
+        mine.push_back(here.offsets[row + 1] - here.offsets[row]);
+        for (auto k = static_cast<std::size_t>(here.offsets[row]); k < static_cast<std::size_t>(here.offsets[row + 1]); ++k) {
+            mine.push_back(static_cast<double>(in_list[static_cast<std::size_t>(here.columns[k])]));
+            append(mine, here.blocks[k]);
+        }
+    }
+    struct Row {
+        std::vector<std::int32_t> columns;
+        std::vector<Matrix<Dim>> blocks;
+    };
+    std::vector<Row> rows(listed_.size());
+    const std::vector<double> all = part_.ranks().gather(mine);
+    Reader reader(all);
+    for (const std::size_t i : listed_by_owner_)
+        for (auto left = reader.next_as<std::int32_t>(); left > 0; --left) {
+            rows[i].columns.push_back(reader.next_as<std::int32_t>());
+            rows[i].blocks.push_back(reader.next_array<Matrix<Dim>>());
+        }
+    contact::FaceCoupling<Dim> coupling;
+    for (const Row& row : rows) {
+        coupling.columns.insert(coupling.columns.end(), row.columns.begin(), row.columns.end());
+        coupling.blocks.insert(coupling.blocks.end(), row.blocks.begin(), row.blocks.end());
+        coupling.offsets.push_back(static_cast<std::int32_t>(coupling.columns.size()));
+    }
+    return coupling;
+}
+
+template class RankFaces<2>;
+template class RankFaces<3>;
+
+}  // namespace abut::solid

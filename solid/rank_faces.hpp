@@ -1,0 +1,65 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/contact/step.hpp"
+#include "abut/contact/surface.hpp"
+#include "abut/solid/ccg/ccg.hpp"
+#include "abut/solid/rank_part.hpp"
+
+namespace abut::solid {
+
+/// The contact surface of a solid on several ranks: each has all of its faces, and evaluates those of its own cells. What it
+/// evaluates is gathered on all, so that contact is the same everywhere. Constructor and all that gathers are calls of all
+/// ranks.
+template <int Dim>
+class RankFaces {
+public:
+    /// All arguments must outlive it. Faces with a prescribed displacement are left out.
+    RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg);
+
+    [[nodiscard]] std::int64_t n_left_out() const { return n_left_out_; }  ///< of all ranks
+    /// Appends all faces in the order of the whole mesh; and of each the boundary face here, `no_face` if there is none.
+    void append_to(contact::Surface<Dim>& surface, std::vector<BoundaryFace>& boundary) const;
+
+    /// û of all faces of the surface [m], from that of the boundary faces here.
+    void gather_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const;
+
+    /// These faces are listed from now on, increasing.
+    void set_listed(std::span<const contact::SurfaceFace> listed);
+    /// Those that are evaluated here, increasing.
+    [[nodiscard]] std::span<const BoundaryFace> own_listed() const { return own_listed_; }
+    /// û [m] and y [N] of all listed faces, from those that are evaluated here.
+    void gather_listed(std::span<const Vector<Dim>> own_displacement, std::span<const Vector<Dim>> own_gradient,
+                       std::span<Vector<Dim>> displacement, std::span<Vector<Dim>> gradient) const;
+    /// Of all listed faces, from that of those which have a boundary face here (`Ccg::coupling`).
+    [[nodiscard]] contact::FaceCoupling<Dim> gather_coupling(const contact::FaceCoupling<Dim>& here) const;
+
+private:
+    struct Face {
+        std::int64_t key;
+        int owner;
+        std::int32_t body;
+        double cell_depth, stiffness;
+        std::vector<Vector<Dim>> corners;
+    };
+    void append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg, BoundaryFace face, std::int64_t key,
+                    std::vector<double>& values) const;
+    void take_all(std::span<const double> values);
+    void find_here(const mesh::Mesh<Dim>& mesh);
+    [[nodiscard]] std::vector<std::size_t> by_owner(std::span<const std::size_t> faces) const;
+
+    const RankPart<Dim>& part_;
+    std::int64_t n_left_out_ = 0;
+    std::vector<Face> faces_;                   // in the order of the whole mesh
+    std::vector<BoundaryFace> here_;            // of each; none: it is on other ranks alone
+    std::vector<std::size_t> all_by_owner_;     // faces as `gather` brings them: rank after rank
+    std::vector<std::size_t> listed_;           // in the surface
+    std::vector<std::size_t> listed_by_owner_;  // as `gather` brings them, in the list
+    std::vector<BoundaryFace> own_listed_;
+};
+
+}  // namespace abut::solid

@@ -1,0 +1,103 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "abut/dynamics/ranks.hpp"
+#include "abut/solid/bodies.hpp"
+#include "abut/solid/boundary_face.hpp"
+
+namespace abut::solid {
+
+/// What one of several ranks has of a solid: its own cells, which are the points of its system, among those of its part of
+/// the mesh, and the way between arrays by own cell and arrays by cell of the part.
+template <int Dim>
+class RankPart {
+public:
+    /// All arguments must outlive it. A call of all ranks.
+    RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies);
+
+    [[nodiscard]] const dynamics::Ranks& ranks() const { return ranks_; }
+    [[nodiscard]] std::span<const std::int32_t> own_cells() const { return ranks_.positions(); }
+    /// Boundary faces of own cells, increasing: they are boundary faces of the whole mesh, too.
+    [[nodiscard]] std::span<const BoundaryFace> own_faces() const { return own_faces_; }
+    /// Of these, increasing as their numbers among the boundary faces of the whole mesh do.
+    [[nodiscard]] std::span<const std::int64_t> face_keys() const { return face_keys_; }
+    /// The key of a boundary face here; another one than that of every boundary face of the whole mesh where the part ends.
+    [[nodiscard]] std::int64_t key_of(const mesh::Mesh<Dim>& mesh, BoundaryFace face) const;
+    /// The numbers of all cells here in the whole mesh, increasing (n_cells).
+    [[nodiscard]] std::span<const double> cell_numbers() const { return cell_numbers_; }
+    /// Values of all boundary faces of the whole mesh, in their order, from those of the boundary faces here. A call of all ranks.
+    [[nodiscard]] std::vector<Vector<Dim>> gather_faces(std::span<const Vector<Dim>> of_faces) const;
+    /// The other way round, which needs no other rank; 0 for a face that the whole mesh does not have.
+    [[nodiscard]] std::vector<Vector<Dim>> faces_here(const mesh::Mesh<Dim>& mesh,
+                                                      std::span<const Vector<Dim>> of_all) const;
+    [[nodiscard]] std::size_t n_all_faces() const { return all_face_keys_.size(); }  ///< boundary faces of the whole mesh
+    /// Where the cells of each body begin among all cells, one more at the end (n_bodies + 1).
+    [[nodiscard]] std::span<const std::int32_t> body_begin() const { return body_begin_; }
+
+    // Of own cells
+    [[nodiscard]] std::span<const Vector<Dim>> rest() const { return rest_; }
+    [[nodiscard]] std::span<const double> masses() const { return masses_; }
+    [[nodiscard]] std::span<const double> inverse_masses() const { return inverse_masses_; }
+    [[nodiscard]] std::span<const std::int32_t> body_of_cells() const { return body_; }
+
+    // By cell of the part, from values of own cells: calls of all ranks
+
+    /// A state; valid until the next call.
+    [[nodiscard]] std::span<const Vector<Dim>> state(std::span<const Vector<Dim>> q) { return fill(q, state_); }
+    /// Both ends of a step, valid until the next call; the start is exchanged only where it is not the end of the call before.
+    [[nodiscard]] std::pair<std::span<const Vector<Dim>>, std::span<const Vector<Dim>>> step(
+        std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
+    [[nodiscard]] std::vector<Vector<Dim>> filled(std::span<const Vector<Dim>> q) const;
+    /// The other way round, which needs no other rank.
+    [[nodiscard]] std::vector<Vector<Dim>> own(std::span<const Vector<Dim>> of_part) const;
+
+    /// To be written by cell of the part; `take_result` copies what belongs to own cells.
+    [[nodiscard]] std::span<Vector<Dim>> result() { return result_; }
+    void take_result(std::span<Vector<Dim>> of_own) const;
+
+    // Sums of all ranks, with the bits of one
+
+    /// Of values by cell of the part: `ordered_sum` over all cells.
+    template <class Term>
+    [[nodiscard]] double sum_of_cells(const Term& term) const {
+        const auto own = own_cells();
+        return dynamics::sum_over(ranks_, {}, std::ssize(own), 0.0,
+                                  [&](std::ptrdiff_t i) { return term(own[static_cast<std::size_t>(i)]); });
+    }
+    /// start + term of each boundary face, one after the other.
+    template <class Term>
+    [[nodiscard]] double fold_faces(double start, const Term& term) const {
+        std::vector<double> terms;
+        terms.reserve(own_faces_.size());
+        for (const BoundaryFace face : own_faces_) terms.push_back(term(face));
+        return ranks_.fold(start, face_keys_, terms);
+    }
+    /// Whether one rank says yes.
+    [[nodiscard]] bool any(bool here) const { return ranks_.largest(here ? 1.0 : 0.0) > 0.0; }
+
+private:
+    std::span<const Vector<Dim>> fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const;
+    void check(const mesh::Mesh<Dim>& mesh) const;
+    void set_body_begin(std::int32_t n_bodies);
+    void order_faces();
+    [[nodiscard]] std::size_t position_of(std::int64_t key) const;
+
+    const dynamics::Ranks& ranks_;
+    std::vector<double> cell_numbers_;
+    std::vector<BoundaryFace> own_faces_;
+    std::vector<std::int64_t> face_keys_;
+    std::vector<std::int64_t> all_face_keys_;     // of all ranks, increasing
+    std::vector<std::size_t> gathered_position_;  // among these, of each face as `gather` brings them
+    std::vector<std::int32_t> body_begin_;
+    std::vector<Vector<Dim>> rest_;
+    std::vector<double> masses_, inverse_masses_;
+    std::vector<std::int32_t> body_;
+    std::vector<Vector<Dim>> state_, start_, end_, result_;
+};
+
+}  // namespace abut::solid
