@@ -19,6 +19,7 @@ public:
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// Throws BadInput if the row cannot be written.
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
+    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
     /// The run is complete: gives the file its name. Throws BadInput if it cannot.
     void finish();
 

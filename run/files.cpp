@@ -102,6 +102,12 @@ void refuse_directory(const fs::path& directory, const std::string& reason) {
                     directory.string(), reason));
 }
 
+std::string in_csv(std::string name) {
+    std::ranges::replace_if(
+        name, [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, '_');
+    return name;
+}
+
 std::string cannot_be_written(const fs::path& path, const std::string& reason) {
     return fmt::format("{}: cannot be written{}{}. Check permissions and free space of its folder.", path.string(),
                        reason.empty() ? "" : ": ", reason);

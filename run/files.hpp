@@ -28,6 +28,10 @@ void move_file(const std::filesystem::path& from, const std::filesystem::path& t
 /// Throws BadInput: the folder of --out cannot be written to, why, and what to do.
 [[noreturn]] void refuse_directory(const std::filesystem::path& directory, const std::string& reason);
 
+/// A name as it stands in a table of comma-separated values: commas, quotation marks and line ends would break it, and become
+/// underscores.
+[[nodiscard]] std::string in_csv(std::string name);
+
 /// What is said wherever a file cannot be written.
 [[nodiscard]] std::string cannot_be_written(const std::filesystem::path& path, const std::string& reason = "");
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
+
+#include "abut/run/files.hpp"
 
 namespace abut::run {
 
@@ -14,6 +17,7 @@ void ForceFile<Dim>::look_up(const Scene<Dim>& scene, const RunResult<Dim>& resu
     names_ = scene.mesh.body_names;
     for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i)
         names_.push_back(i < scene.outputs.obstacles.size() ? scene.outputs.obstacles[i] : fmt::format("obstacle_{}", i));
+    for (std::string& name : names_) name = in_csv(name);
     interval_ = scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval;
     n_steps_ = result.steps;
 }
@@ -28,9 +32,14 @@ void ForceFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 }
 
 template <int Dim>
+bool ForceFile<Dim>::wants_look(std::int64_t step) const {
+    return std::isnan(time_) || step % interval_ == 0 || step == n_steps_;
+}
+
+template <int Dim>
 void ForceFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     const bool is_start = std::isnan(time_);
-    if (!is_start && run.steps % interval_ != 0 && run.steps != n_steps_) return;
+    if (!wants_look(run.steps)) return;
     const double seconds = run.time - time_;
     time_ = run.time;
     for (const solid::BodyImpulse<Dim>& pair : solid.contact_impulses()) {

@@ -27,6 +27,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Throws BadInput if rows cannot be written.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    [[nodiscard]] bool wants_look(std::int64_t step) const override;
     void save(StateWriter& state) override;
     /// Throws BadInput if rows that were written are gone.
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;

@@ -125,10 +125,14 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
 
 template <int Dim>
 void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+    if (wants_look(run.steps)) write(run, solid);
+}
+
+template <int Dim>
+bool Frames<Dim>::wants_look(std::int64_t step) const {
     const std::int64_t frame = series_->n_frames();
-    if (frame >= n_frames_) return;
     const std::int64_t intervals = std::max<std::int64_t>(1, n_frames_ - 1);
-    if (run.steps * intervals >= frame * n_steps_) write(run, solid);
+    return frame < n_frames_ && step * intervals >= frame * n_steps_;
 }
 
 template <int Dim>

@@ -25,6 +25,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Writes a frame if one is due at this step.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    [[nodiscard]] bool wants_look(std::int64_t step) const override;
     void save(StateWriter& state) override;
     [[nodiscard]] bool has_pairs() const { return pairs_.has_value(); }  ///< whether SERIES_pairs is written
     /// Throws BadInput if frames that were written are gone.

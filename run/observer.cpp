@@ -20,13 +20,28 @@ void Observers<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& 
 }
 
 template <int Dim>
+bool Observers<Dim>::wants_look(std::int64_t step) const {
+    return std::ranges::any_of(observers_, [&](const Observer<Dim>& observer) { return observer.wants_look(step); });
+}
+
+template <int Dim>
+void Observers<Dim>::progress(std::int64_t step, double time) {
+    for (Observer<Dim>& observer : observers_) observer.progress(step, time);
+}
+
+template <int Dim>
 bool Observers<Dim>::asks_to_stop() const {
     return std::ranges::any_of(observers_, [](const Observer<Dim>& observer) { return observer.asks_to_stop(); });
 }
 
 template <int Dim>
 void Observers<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid) {
-    for (Observer<Dim>& observer : observers_) observer.fail(failure, solid);
+    for (Observer<Dim>& observer : observers_) {
+        try {
+            observer.fail(failure, solid);
+        } catch (...) {  // the others are told all the same, and what the run throws follows
+        }
+    }
 }
 
 template <int Dim>

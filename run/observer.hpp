@@ -11,7 +11,7 @@
 namespace abut::run {
 
 /// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run; a run that it asks to stop
-/// ends well, earlier.
+/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it.
 template <int Dim>
 class Observer {
 public:
@@ -21,6 +21,10 @@ public:
     /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
     virtual void record(const dynamics::LedgerEntry<Dim>&, const RunResult<Dim>&) {}
     virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
+    /// Whether `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the whole
+    /// of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
+    [[nodiscard]] virtual bool wants_look(std::int64_t /*step*/) const { return true; }
+    virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step
     /// Asked at the start and after each step but the last, before that is recorded: true makes it the last one.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
     /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here.
@@ -50,6 +54,8 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    void progress(std::int64_t step, double time) override;
     [[nodiscard]] bool asks_to_stop() const override;
     void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;

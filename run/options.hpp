@@ -43,6 +43,7 @@ struct RunOptions {
     bool filter = false;        ///< energy-neutral filter of the parasitic mode, near the contact
     int restart = 0;            ///< steps between neutral restarts, which clear that mode everywhere; 0: none
     int threads = 0;            ///< at most; 0: all. The results do not depend on it
+    int ranks = 0;              ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
     std::filesystem::path out;  ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;           ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
     int frames = 21;            ///< of the VTU series of ResultFiles, the first and the last included; 0: none

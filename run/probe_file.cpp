@@ -12,6 +12,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/cell_velocity.hpp"
+#include "abut/run/files.hpp"
 #include "abut/run/frames.hpp"
 
 namespace abut::run {
@@ -29,13 +30,6 @@ std::vector<std::string> columns_of(const std::string& name) {
             columns.push_back(fmt::format("{}.stress_{}", name, component));
     columns.push_back(name + ".von_mises");
     return columns;
-}
-
-/// A component with a comma or a quotation mark would break the table.
-std::string in_csv(std::string name) {
-    std::ranges::replace_if(
-        name, [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, '_');
-    return name;
 }
 
 /// In the order of the columns.
@@ -132,8 +126,13 @@ void ProbeFile<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result
 }
 
 template <int Dim>
+bool ProbeFile<Dim>::wants_look(std::int64_t step) const {
+    return step % interval_ == 0 || step == n_steps_;
+}
+
+template <int Dim>
 void ProbeFile<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-    if (run.steps % interval_ != 0 && run.steps != n_steps_) return;
+    if (!wants_look(run.steps)) return;
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
     const auto displacement = solid.cell_displacement(run.q);
     const auto velocity = cell_velocity(run, solid);

@@ -71,10 +71,16 @@ void ResultFiles<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>
 }
 
 template <int Dim>
+bool ResultFiles<Dim>::wants_look(std::int64_t step) const {
+    return (probes_ && probes_->wants_look(step)) || (forces_ && forces_->wants_look(step)) ||
+           (frames_ && frames_->wants_look(step));
+}
+
+template <int Dim>
 void ResultFiles<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid) {
     try {
         failed_ = " In the same folder " + write_failure(out_, name_, failure, solid);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         failed_ = std::string(" Where it failed could not be written: ") + error.what();
     }
 }

@@ -40,6 +40,7 @@ public:
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    [[nodiscard]] bool wants_look(std::int64_t step) const override;
     void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;

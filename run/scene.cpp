@@ -32,12 +32,11 @@ std::vector<Vector<Dim>> centroids(const mesh::Mesh<Dim>& mesh) {
     return sums;
 }
 
-/// Of cells, beside the velocity of their body [m/s].
+/// Of the cells of `mesh`, the scene's or a part of it, beside the velocity of their body [m/s].
 template <int Dim>
-std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene) {
-    const mesh::Mesh<Dim>& mesh = scene.mesh;
+std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::Mesh<Dim>& mesh) {
     std::vector<Vector<Dim>> added(mesh.cell_centroid.size(), Vector<Dim>::Zero());
-    const auto middles = scene.spin.empty() ? std::vector<Vector<Dim>>() : centroids(mesh);
+    const auto middles = scene.spin.empty() ? std::vector<Vector<Dim>>() : centroids(scene.mesh);
     for (std::size_t cell = 0; cell < added.size(); ++cell) {
         const Vector<Dim>& x = mesh.cell_centroid[cell];
         const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
@@ -69,7 +68,7 @@ template <int Dim>
 std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     if (!scene.displacement) return std::vector<double>(solid.size(), 0.0);
     std::vector<Vector<Dim>> of_cells;
-    for (const Vector<Dim>& x : scene.mesh.cell_centroid) of_cells.push_back(scene.displacement(x));
+    for (const Vector<Dim>& x : solid.mesh().cell_centroid) of_cells.push_back(scene.displacement(x));
     return solid.displacement_of_points(of_cells);
 }
 
@@ -84,7 +83,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
         throw BadInput(
             "Scene::spin, Scene::added_velocity: a rigid body takes its spin from velocities of its cells at rest, and "
             "Scene::displacement moves it from there. Turn its mesh instead, and leave the displacement out.");
-    const std::vector<double> added = solid.momentum_of_points(added_velocities(scene));
+    const std::vector<double> added = solid.momentum_of_points(added_velocities(scene, solid.mesh()));
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] += added[i];
     return momentum;
 }

@@ -92,7 +92,7 @@ struct RunResult {
 /// What the solid of a scene is made with. Throws BadInput for BodyKinematics::automatic, which choose_kinematics resolves.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
-/// Of the points of the scene's solid, (n_points, Dim) [m].
+/// Of the points of the scene's solid, on several ranks of those of this one, (n_points, Dim) [m].
 template <int Dim>
 [[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
 /// Of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities or

@@ -19,6 +19,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/memm_async.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/dynamics/ranks.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/pilot.hpp"
 #include "abut/run/run_identity.hpp"
@@ -68,29 +69,47 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions optio
     return solid;
 }
 
+/// What is not made for several ranks, before anything is set up.
+template <int Dim>
+void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, const RunOptions& options) {
+    if (options.kinematics == BodyKinematics::automatic)
+        dynamics::refuse_ranks(ranks, "a pilot run (--kinematics automatic)");
+    if (options.integrator == SolidIntegrator::memm_async) dynamics::refuse_ranks(ranks, "local steps (memm_async)");
+    if (options.filter) dynamics::refuse_ranks(ranks, "the filter");
+    if (options.restart != 0) dynamics::refuse_ranks(ranks, "a neutral restart");
+    if (scene.after_step) dynamics::refuse_ranks(ranks, "a scene that looks at each step (Scene::after_step)");
+}
+
 /// What a run begins from, whatever its integrator.
 template <int Dim>
 struct Start {
-    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot)
-        : solid(scene.mesh, solid_options(scene, options, pilot)) {
+    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>* share)
+        : solid(share ? share->part : scene.mesh, solid_options(scene, options, pilot), share ? &share->ranks : nullptr) {
         result.pilot = std::move(pilot);
+        dynamics::agreed(solid.ranks(), [&] {
+            if (share && share->ranks.rank() == 0) whole.emplace(scene.mesh, solid_options(scene, options, {}));
+        });
         result.stable = dynamics::stable_step(solid);
         result.finest_dt = result.dt = choose_step(options, result.stable.dt);
         if (options.integrator == SolidIntegrator::memm_async) set_local_steps(options);
         result.steps = choose_steps(options, scene.time, result.dt);
-        result.stencils = solid.ccg().stencil_report();
-        result.boundary_stencils = solid.ccg().boundary().report;
+        const solid::Solid<Dim>& seen = whole ? *whole : solid;
+        result.stencils = seen.ccg().stencil_report();
+        result.boundary_stencils = seen.ccg().boundary().report;
         result.contact_faces_left_out = solid.contact_faces_left_out();
         const auto& kinematics = solid.options().kinematics;
         result.all_may_turn =
             !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
         result.blind_corners = solid.blind_corners();
         result.unseen_edges = solid.unseen_edges();
-        q = displacement_at_start(scene, solid);
-        momentum = momentum_at_start(scene, solid);
+        dynamics::agreed(solid.ranks(), [&] {
+            q = displacement_at_start(scene, solid);
+            momentum = momentum_at_start(scene, solid);
+        });
     }
 
     solid::Solid<Dim> solid;
+    std::optional<solid::Solid<Dim>> whole;  // on rank 0 of several, for observers
     RunResult<Dim> result;
     std::vector<double> q;
     std::vector<double> momentum;
@@ -115,7 +134,11 @@ template <int Dim>
 double gauge(const Scene<Dim>& scene, const RunOptions& options, const Start<Dim>& start) {
     if (!std::isnan(options.gauge)) return options.gauge;
     if (scene.energy_scale.value > 0.0) return 2.0 * scene.energy_scale.value;  // V may sink by that scale
-    return 0.5 * dynamics::mass_product(start.momentum, start.solid.inverse_mass(), start.momentum);
+    const std::vector<double>& p = start.momentum;
+    const auto inverse_mass = start.solid.inverse_mass();
+    if (const dynamics::Ranks* ranks = start.solid.ranks())
+        return 0.5 * dynamics::mass_product_over(*ranks, p, inverse_mass, p);
+    return 0.5 * dynamics::mass_product(p, inverse_mass, p);
 }
 
 /// One run, from the first step to the last.
@@ -128,6 +151,7 @@ public:
           options_(options),
           observer_(observer),
           solid_(start.solid),
+          whole_(start.whole),
           result_(start.result),
           filter_(solid_),
           integrator_(std::move(integrator)),
@@ -140,28 +164,34 @@ public:
     }
 
     void run(const Checkpoint* from) {
-        result_.start = solid::body_motions<Dim>(integrator_, solid_);
+        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            result_.start = solid::body_motions<Dim>(run, solid);
+        });
         if (from)
             resume(*from);
         else
             begin();
         while (integrator_.steps() < result_.steps) {
             step();
-            const bool stops = integrator_.steps() < result_.steps && observer_.asks_to_stop();
+            const bool stops = integrator_.steps() < result_.steps && first_says([&] { return observer_.asks_to_stop(); });
             const bool records = integrator_.steps() % options_.interval == 0 || integrator_.steps() == result_.steps;
             if (records) record();
-            observer_.look(integrator_, solid_);
-            if (observer_.wants_checkpoint(integrator_.steps(), stops)) observer_.keep(checkpoint());
+            look();
+            if (first_says([&] { return observer_.wants_checkpoint(integrator_.steps(), stops); })) keep();
             if (stops) stop(records);
         }
-        result_.end = solid::body_motions<Dim>(integrator_, solid_);
+        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            result_.end = solid::body_motions<Dim>(run, solid);
+        });
         result_.local_rotations = solid_.local_rotations(integrator_.q());
         result_.finite = solid_.finite_extremes();
         result_.contact = solid_.contact_report();
         result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();
         result_.times = difference(solid_.times(), times_of_setup_);
-        if (scene_.findings) result_.findings = scene_.findings(result_);
+        on_first([&] {
+            if (scene_.findings) result_.findings = scene_.findings(result_);
+        });
     }
 
 private:
@@ -169,7 +199,7 @@ private:
         try {
             integrator_.step();
         } catch (const Error& error) {
-            fail_at(error.facts());
+            fail_at(error);
             throw_again(error, at_this_step(error.what()));
         } catch (const std::exception& error) {
             throw std::runtime_error(at_this_step(error.what()));
@@ -177,11 +207,70 @@ private:
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
     }
 
+    // Observers are those of rank 0: the others take part where the whole is brought together.
+
+    /// Calls body() on rank 0, and agrees with the others on how it ended.
+    template <class Body>
+    void on_first(const Body& body) {
+        const dynamics::Ranks* ranks = solid_.ranks();
+        dynamics::agreed(ranks, [&] {
+            if (!ranks || ranks->rank() == 0) body();
+        });
+    }
+    /// What rank 0 says, on all.
+    template <class Question>
+    [[nodiscard]] bool first_says(const Question& question) {
+        bool answer = false;
+        on_first([&] { answer = question(); });
+        const dynamics::Ranks* ranks = solid_.ranks();
+        return ranks ? ranks->largest(answer ? 1.0 : 0.0) > 0.0 : answer;
+    }
+    /// A state with the points of all ranks, on rank 0; without points on the others.
+    [[nodiscard]] dynamics::IntegratorState whole_of(dynamics::IntegratorState state) const {
+        if (const dynamics::Ranks* ranks = solid_.ranks())
+            for (auto* values : {&state.q, &state.p_before, &state.p_after}) *values = ranks->collect(*values, Dim);
+        return state;
+    }
+    /// The other way round, where all ranks have it.
+    [[nodiscard]] dynamics::IntegratorState own_of(dynamics::IntegratorState state) const {
+        const dynamics::Ranks* ranks = solid_.ranks();
+        if (!ranks) return state;
+        const auto n_points = static_cast<std::size_t>(ranks->n_points());
+        for (auto* values : {&state.q, &state.p_before, &state.p_after}) {
+            if (values->size() != n_points * Dim) return state;  // of another solid: whoever restores it says so
+            std::vector<double> own;
+            for (const std::int32_t number : ranks->numbers())
+                own.insert(own.end(), values->begin() + number * Dim, values->begin() + (number + 1) * Dim);
+            *values = std::move(own);
+        }
+        return state;
+    }
+    /// Calls see(run, solid) with the present state of the whole, on rank 0.
+    template <class See>
+    void show(const See& see) {
+        if (!solid_.ranks()) return see(dynamics::RunView<Dim>(integrator_), solid_);
+        const dynamics::IntegratorState state = whole_of(integrator_.state());
+        const std::vector<std::byte> memory = solid_.state();
+        on_first([&] {
+            whole_->restore(memory, state.q);
+            see(dynamics::RunView<Dim>(state), *whole_);
+        });
+    }
+    void look() {
+        if (first_says([&] { return observer_.wants_look(integrator_.steps()); }))
+            show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) { observer_.look(run, solid); });
+        on_first([&] { observer_.progress(integrator_.steps(), integrator_.time()); });
+    }
+    void keep() {
+        const Checkpoint kept = checkpoint();
+        on_first([&] { observer_.keep(kept); });
+    }
+
     void begin() {
-        observer_.begin(scene_, result_);
-        const bool stops = observer_.asks_to_stop();
+        on_first([&] { observer_.begin(scene_, result_); });
+        const bool stops = first_says([&] { return observer_.asks_to_stop(); });
         record();
-        observer_.look(integrator_, solid_);
+        look();
         if (stops) stop(true);
     }
 
@@ -194,7 +283,7 @@ private:
 
     [[nodiscard]] Checkpoint checkpoint() {
         Checkpoint checkpoint{.run = identity(scene_, result_),
-                              .motion = integrator_.state(),
+                              .motion = whole_of(integrator_.state()),
                               .solid = solid_.state(),
                               .ledger = {},
                               .restarts = restart_ ? restart_->report() : dynamics::RestartReport{},
@@ -204,15 +293,17 @@ private:
             const std::vector<double> values = dynamics::ledger_values(entry);
             checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
         }
-        StateWriter state(observers_kind, 1);
-        observer_.save(state);
-        checkpoint.observers = std::move(state).finish();
+        on_first([&] {
+            StateWriter state(observers_kind, 1);
+            observer_.save(state);
+            checkpoint.observers = std::move(state).finish();
+        });
         return checkpoint;
     }
 
     void resume(const Checkpoint& from) {
         require_same_run(from.run, identity(scene_, result_));
-        integrator_.restore(from.motion);
+        dynamics::agreed(solid_.ranks(), [&] { integrator_.restore(own_of(from.motion)); });
         solid_.restore(from.solid, integrator_.q());
         make_restart({.period = options_.restart, .steps_before = integrator_.steps(), .report_before = from.restarts});
         const std::size_t n = dynamics::ledger_columns<Dim>().size();
@@ -223,9 +314,11 @@ private:
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_.steps();
         keep_sound();
-        StateReader state(from.observers, observers_kind, 1);
-        observer_.resume(scene_, result_, state);
-        state.finish();
+        on_first([&] {
+            StateReader state(from.observers, observers_kind, 1);
+            observer_.resume(scene_, result_, state);
+            state.finish();
+        });
     }
 
     void make_restart(const dynamics::RestartOptions& options) {
@@ -238,12 +331,28 @@ private:
     }
 
     /// Where a step has no end.
-    void fail_at(const ErrorFacts& facts) {
-        Failure failure{.sound = sound_, .lost = nullptr, .cells = {}};
-        for (const std::int64_t cell : {facts.cell, std::int64_t{solid_.cell_of_contact_face(facts.face_1)},
-                                        std::int64_t{solid_.cell_of_contact_face(facts.face_2)}})
+    void fail_at(const Error& error) {
+        ErrorFacts facts = error.facts();
+        // A rank numbers cells and faces of its own; those of contact are the same on all.
+        if (solid_.ranks()) facts.cell = ErrorFacts::none;
+        if (solid_.ranks() && error.kind() != ErrorKind::too_deep) facts = {};
+        const dynamics::IntegratorState sound = whole_of(sound_);
+        const solid::Solid<Dim>& seen = whole_ ? *whole_ : solid_;
+        Failure failure{.sound = sound, .lost = nullptr, .cells = {}};
+        for (const std::int64_t cell : {facts.cell, std::int64_t{seen.cell_of_contact_face(facts.face_1)},
+                                        std::int64_t{seen.cell_of_contact_face(facts.face_2)}})
             if (cell >= 0 && cell < scene_.mesh.n_cells()) failure.cells.push_back(static_cast<std::int32_t>(cell));
-        observer_.fail(failure, solid_);
+        tell(failure);
+    }
+
+    /// The error of the run counts, not one of those who are told of it.
+    void tell(const Failure& failure) {
+        on_first([&] {
+            try {
+                observer_.fail(failure, whole_ ? *whole_ : solid_);
+            } catch (...) {
+            }
+        });
     }
 
     /// What `fail` needs, without allocation from one record to the next.
@@ -252,6 +361,7 @@ private:
         copy(integrator_.q(), sound_.q);
         copy(integrator_.p_before(), sound_.p_before);
         copy(integrator_.p_after(), sound_.p_after);
+        was_sound_ = true;
         sound_.dt = result_.dt;
         sound_.time = integrator_.time();
         sound_.steps = integrator_.steps();
@@ -273,7 +383,7 @@ private:
         }
         const auto& entries = result_.ledger.entries();
         if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
-        observer_.record(entries.back(), result_);
+        on_first([&] { observer_.record(entries.back(), result_); });
         const double scale = std::max(entries.front().energy, result_.scale.value);
         check_alive(entries.back(), scale);
         if (entries.size() == 1 || entries.back().energy <= sound_factor * std::max(scale, entries.back().pseudo_energy))
@@ -282,10 +392,15 @@ private:
 
     void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) {
         if (std::isfinite(entry.pseudo_energy) && entry.energy <= divergence_factor * scale) return;
-        const dynamics::IntegratorState lost = integrator_.state();
-        if (sound_.q.empty()) sound_ = lost;  // it never was
-        const WorstCell worst = worst_cell(lost, solid_);
-        observer_.fail({.sound = sound_, .lost = &lost, .cells = {worst.cell}}, solid_);
+        if (!was_sound_) sound_ = integrator_.state();
+        const dynamics::IntegratorState sound = whole_of(sound_), lost = whole_of(integrator_.state());
+        WorstCell worst;
+        on_first([&] { worst = worst_cell<Dim>(lost, whole_ ? *whole_ : solid_); });
+        tell({.sound = sound, .lost = &lost, .cells = {worst.cell}});
+        on_first([&] { refuse(entry, scale, worst); });
+    }
+
+    [[noreturn]] void refuse(const dynamics::LedgerEntry<Dim>& entry, double scale, const WorstCell& worst) const {
         throw Diverged(fmt::format("step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J and H~ {:.3g} J; {:g} times "
                                    "{:.3g} J is allowed. Worst is {}, with {:.3g} m/s. Steps are {:.4g} s long, stable are "
                                    "{:.4g} s: lower --cfl or --dt.",
@@ -298,11 +413,13 @@ private:
     const RunOptions& options_;
     Observer<Dim>& observer_;
     solid::Solid<Dim>& solid_;
+    std::optional<solid::Solid<Dim>>& whole_;  // Start::whole
     RunResult<Dim>& result_;
     dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     Integrator integrator_;
     dynamics::IntegratorState sound_;   // Failure::sound, except what only the scheme knows
+    bool was_sound_ = false;            // once at least
     solid::SolidTimes times_of_setup_;  // the start-up of the scheme, in the seconds of set-up already
 };
 
@@ -330,7 +447,8 @@ void simulate(const Scene<Dim>& scene, const RunOptions& options, Start<Dim>& st
 }  // namespace
 
 template <int Dim>
-RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from) {
+RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
+                        const Share<Dim>* share) {
     check(given);
     const RunOptions options = with_defaults<Dim>(given);
     std::optional<global_control> threads;
@@ -342,12 +460,16 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
         const Stopwatch whole(seconds.total);
         {
             const Stopwatch watch(seconds.setup);
-            if (scene.contact)
-                mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase,
-                                  scene.solid.ignored_pairs);
+            const dynamics::Ranks* ranks = share ? &share->ranks : nullptr;
+            if (ranks) check_for_ranks(ranks, scene, options);
+            dynamics::agreed(ranks, [&] {
+                if (scene.contact && (!ranks || ranks->rank() == 0))
+                    mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase,
+                                      scene.solid.ignored_pairs);
+            });
             std::optional<PilotReport> pilot;
             if (options.kinematics == BodyKinematics::automatic) pilot = choose_kinematics(scene, options);
-            start.emplace(scene, options, std::move(pilot));
+            start.emplace(scene, options, std::move(pilot), share);
         }
         RunResult<Dim>& result = start->result;
         result.options = options;
@@ -359,7 +481,7 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
     return std::move(start->result);
 }
 
-template RunResult<2> simulate<2>(const Scene<2>&, const RunOptions&, Observer<2>&, const Checkpoint*);
-template RunResult<3> simulate<3>(const Scene<3>&, const RunOptions&, Observer<3>&, const Checkpoint*);
+template RunResult<2> simulate<2>(const Scene<2>&, const RunOptions&, Observer<2>&, const Checkpoint*, const Share<2>*);
+template RunResult<3> simulate<3>(const Scene<3>&, const RunOptions&, Observer<3>&, const Checkpoint*, const Share<3>*);
 
 }  // namespace abut::run

@@ -2,6 +2,7 @@
 #include "abut/run/observer.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"
+#include "abut/run/share.hpp"
 
 namespace abut::run {
 
@@ -19,9 +20,13 @@ namespace abut::run {
 /// `from`: the run goes on after this checkpoint, which an observer of the same scene under the same options has kept, with
 /// the same observers; the rest has the bits that it would have had, and so do the ledger and what observers write. Throws
 /// BadInput for one of other options, sizes, masses or steps; functions of a scene (paths, loads) are taken to be the same.
+/// `share`: several ranks run the scene together, each with its share, and all call this. What comes out has the bits of one
+/// rank, whatever their number: the result (but times, and what is of the whole mesh, that is complete on rank 0 alone: motion
+/// of the bodies, stencils, findings), what the observer of rank 0 sees, checkpoints, which may go from one number of ranks to
+/// another. Throws BadInput on all for what is not made for several ranks (docs/ranks.md), and where one of them has an error.
 template <int Dim>
 [[nodiscard]] RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options, Observer<Dim>& observer,
-                                      const Checkpoint* from = nullptr);
+                                      const Checkpoint* from = nullptr, const Share<Dim>* share = nullptr);
 template <int Dim>
 [[nodiscard]] RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options = {}) {
     Observer<Dim> nobody;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,18 @@ TEST_CASE("a run that diverges names a cell of the body that is unstable, and sh
     CHECK(witness.sound.steps > 0);
     CHECK(witness.sound.steps < witness.lost.steps);
     CHECK(fastest(witness.lost) > 10.0 * fastest(witness.sound));
+}
+
+TEST_CASE("an observer that fails to look at a failure hides neither the error nor the failure from others", "[run][failure]") {
+    struct Clumsy : run::Observer<2> {
+        void fail(const run::Failure&, const abut::solid::Solid<2>&) override { throw std::bad_alloc(); }
+    } clumsy;
+    const run::Scene<2> scene = coarse_and_fine();
+    Witness witness;
+    run::Observers<2> both{clumsy, witness};
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, unstable_options(scene), both)), abut::Diverged);
+    CHECK(witness.failures == 1);
+    CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(scene, unstable_options(scene), clumsy)), abut::Diverged);
 }
 
 TEST_CASE("a step that cannot be ended names the cells whose faces the error names", "[run][failure]") {
