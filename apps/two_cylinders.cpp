@@ -232,7 +232,8 @@ int run_slipping_cylinders(int argc, char** argv) {
         .series = "cylinders",
         .footer =
             "A pair of values, one for the left and one for the right body, is separated by a comma: "
-            "--young 1,100. Units are SI. Ctrl-C ends a run after its present step; its files are complete until there."};
+            "--young 1,100. Units are SI. Ctrl-C ends a run after its present step; its files are complete until there.",
+        .takes_ranks = true};
     CylinderOptions scene;
     run::RunOptions options{.out = "out/" + program.name};
     const auto add_options = [&](CLI::App& app) {

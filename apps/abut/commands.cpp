@@ -1,7 +1,6 @@
 #include "apps/abut/commands.hpp"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -19,8 +18,10 @@
 #include "apps/abut/restart.hpp"
 #include "apps/abut/sweep.hpp"
 #include "apps/detect/detect.hpp"
+#include "apps/support/command_line.hpp"
 #include "apps/support/preset.hpp"
 #include "apps/support/program.hpp"
+#include "apps/support/rank_session.hpp"
 #include "apps/support/run_options.hpp"
 #include "apps/support/run_scene.hpp"
 
@@ -35,6 +36,7 @@ struct CommandLine {
     fs::path new_file;
     fs::path results;
     int threads = 0;
+    int ranks = 0;
     std::vector<std::string> set;
     std::vector<std::string> sweep;
     run::RunOptions options;
@@ -55,7 +57,8 @@ const Program abut_program{.name = "abut",
                            .footer =
                                "abut run --help lists the options of a run, abut help the topics. Units are SI. Exit codes: "
                                "0 good, 1 an error, with "
-                               "its message, 130 or 143 ended by SIGINT or SIGTERM."};
+                               "its message, 130 or 143 ended by SIGINT or SIGTERM.",
+                           .takes_ranks = true};
 
 void add_scene_options(CLI::App& command, CommandLine& line) {
     command.add_option("scene", line.scene, "the scene, a TOML file")->required()->type_name("FILE");
@@ -90,6 +93,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
         ->required()
         ->type_name("DIR");
     add_count(*line.restart, "--threads", line.threads, "threads; 0: as the run had. The results do not depend on it", 0);
+    add_ranks_option(*line.restart, line.ranks);
     add_message_options(*line.restart, line.messages);
     line.make = app.add_subcommand("new", "writes a commented scene to start from");
     line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
@@ -134,7 +138,7 @@ void run_file(const Program& program, const input::SceneFile& file, const Restar
 }
 
 /// The command line of the run is read once more.
-void restart_run(const Program& program, const fs::path& results, int threads) {
+void restart_run(const Program& program, const fs::path& results, int threads, int ranks) {
     const Restart restart = read_restart(results);
     std::vector<char*> words;
     std::vector<std::string> arguments = restart.arguments;
@@ -150,6 +154,7 @@ void restart_run(const Program& program, const fs::path& results, int threads) {
         of_run.out = results;
         of_run.resume = true;
         if (threads > 0) of_run.threads = threads;
+        of_run.ranks = ranks;
     };
     run_file(program, input::SceneFile(scene_for_restart(results), over), &restart);
 }
@@ -178,14 +183,16 @@ int run_abut(int argc, char** argv) {
     const auto add_options = [&](CLI::App& app) { add_commands(app, line); };
     return run_program(program, argc, argv, add_options, [&] {
         program.messages = line.messages;
+        if (!line.run->parsed() && !line.restart->parsed()) refuse_ranks("this command");
         if (line.run->parsed() && !line.sweep.empty()) {
+            refuse_ranks("--sweep");
             run_sweep(line.scene, overrides(argc, argv, line), read_sweeps(line.sweep), program.messages,
                       [&](const input::SceneFile& file) { run_file(program, file, nullptr); });
         } else if (line.run->parsed()) {
             const Restart restart{fs::absolute(line.scene), {argv, argv + argc}};
             run_file(program, input::SceneFile(line.scene, overrides(argc, argv, line)), &restart);
         } else if (line.restart->parsed())
-            restart_run(program, line.results, line.threads);
+            restart_run(program, line.results, line.threads, line.ranks);
         else if (line.check->parsed())
             check_file(line.scene, overrides(argc, argv, line));
         else if (line.make->parsed())

@@ -65,17 +65,17 @@ void JsonLines<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const run::
 }
 
 template <int Dim>
-void JsonLines<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&) {
+void JsonLines<Dim>::progress(std::int64_t step, double time) {
     const auto now = Clock::now();
-    if (run.steps == 0) return;
+    if (step == 0) return;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    time_left_.add(run.steps, elapsed);
-    if (run.steps < n_steps_ && now - last_ < between_lines) return;
+    time_left_.add(step, elapsed);
+    if (step < n_steps_ && now - last_ < between_lines) return;
     last_ = now;
     print_line({{"event", "progress"},
-                {"step", run.steps},
+                {"step", step},
                 {"steps", n_steps_},
-                {"time", run.time},
+                {"time", time},
                 {"seconds", elapsed},
                 {"seconds_left", time_left_.seconds()}});
 }

@@ -21,7 +21,8 @@ public:
     /// "record": an entry of the ledger, in the names of energy.csv.
     void record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>& result) override;
     /// "progress", twice a second at most.
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void progress(std::int64_t step, double time) override;
+    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
     /// A "warning" for each that the finished run shows, and "end".
     void end(const run::RunResult<Dim>& result, int exit_code);
 

@@ -21,6 +21,7 @@ class RunLog : public run::Observer<Dim> {
 public:
     void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>& result) override;
+    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
 
 private:
     bool warned_ = false;

@@ -11,6 +11,7 @@
 
 #include "apps/support/command_line.hpp"
 #include "apps/support/json_lines.hpp"
+#include "apps/support/rank_session.hpp"
 #include "apps/support/signals.hpp"
 #include "apps/support/terminal.hpp"
 
@@ -26,11 +27,13 @@ int report_errors(const Program& program, const std::function<void()>& body) {
     try {
         spdlog::set_default_logger(spdlog::stdout_color_mt(program.name));
         spdlog::set_pattern("[%T] %v");
+        if (!program.takes_ranks) refuse_ranks(program.name.c_str());
         body();
         return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}", for_terminal(fmt::format("{}: error: {}\n", program.name, error.what()), STDERR_FILENO));
         if (program.messages == Messages::json) json_error(error, 1);
+        if (rank_session()) rank_session()->leave_with_error();
         return 1;
     }
 }
@@ -39,6 +42,7 @@ int report_errors(const Program& program, const std::function<void()>& body) {
 
 int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
                 const std::function<void()>& body) {
+    const std::unique_ptr<ranks::Session> ranks = join_ranks();
     CLI::App app(program.purpose, program.name);
     app.formatter(std::make_shared<HelpFormatter>());
     app.failure_message(message_of);

@@ -18,6 +18,7 @@ struct Program {
     /// Files that a restart needs, name and text: run::ResultFiles::keep_beside_checkpoints.
     std::vector<std::pair<std::string, std::string>> beside_checkpoints{};
     Messages messages = Messages::normal;  ///< while it runs a scene
+    bool takes_ranks = false;              ///< whether several ranks can run it together (run_scene)
 };
 
 /// The body of a main function: reads the command line and then calls `body`. One message on standard error and 1 if either

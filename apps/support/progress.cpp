@@ -61,8 +61,8 @@ void ShowProgress<Dim>::record(const dynamics::LedgerEntry<Dim>&, const run::Run
 }
 
 template <int Dim>
-void ShowProgress<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>&) {
-    if (run.steps > 0) progress_->show(run.steps, run.time, drift_);
+void ShowProgress<Dim>::progress(std::int64_t step, double time) {
+    if (step > 0) progress_->show(step, time, drift_);
 }
 
 template class ShowProgress<2>;

@@ -37,7 +37,8 @@ class ShowProgress : public run::Observer<Dim> {
 public:
     void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override;
     void record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>& result) override;
-    void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
+    void progress(std::int64_t step, double time) override;
+    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
 
 private:
     std::optional<Progress> progress_;

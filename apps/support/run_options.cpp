@@ -122,6 +122,14 @@ void add_compression_limit(CLI::App& app, run::RunOptions& options) {
     add_number(app, "--compression-limit", options.contact.compression_limit, help, {.above = 0.0})->group("Contact");
 }
 
+void add_ranks_option(CLI::App& app, int& ranks) {
+    add_count(app, "--ranks", ranks,
+              "ranks that the scene is shared out to, on this machine; 0: one, or those that mpirun has started. The results "
+              "do not depend on it",
+              0)
+        ->group("Output");
+}
+
 void add_output_options(CLI::App& app, run::RunOptions& options) {
     app.add_option("--out", options.out, "folder of all results; made if it is not there, refused while another run has it")
         ->type_name("DIR")
@@ -139,7 +147,9 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
     app.add_flag("--resume", options.resume,
                  "goes on from the last checkpoint in the folder of --out; by default a run begins at its start")
         ->group("Output");
-    grouped(add_count(app, "--threads", options.threads, "threads; 0: all. The results do not depend on it", 0));
+    grouped(add_count(app, "--threads", options.threads,
+                      "threads, of each rank where there are several; 0: all. The results do not depend on it", 0));
+    add_ranks_option(app, options.ranks);
 }
 
 nlohmann::ordered_json to_json(const run::Value& value) {

@@ -8,6 +8,9 @@
 
 namespace abut::apps {
 
+/// --ranks.
+void add_ranks_option(CLI::App& app, int& ranks);
+
 /// Groups of options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of
 /// the run is by default.
 void add_time_options(CLI::App& app, run::RunOptions& options, const std::string& default_of_time);

@@ -2,21 +2,26 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/run/checkpoint_folder.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
+#include "apps/support/rank_session.hpp"
 #include "apps/support/signals.hpp"
 
 namespace abut::apps {
@@ -27,7 +32,8 @@ using oneapi::tbb::global_control;
 /// A run that fails says what is left of it.
 template <int Dim>
 run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene<Dim>& scene, const run::RunOptions& options,
-                                  const run::Checkpoint* from, Messages messages, JsonLines<Dim>& lines) {
+                                  const run::Checkpoint* from, const run::Share<Dim>* share, Messages messages,
+                                  JsonLines<Dim>& lines) {
     RunLog<Dim> log;
     ShowProgress<Dim> progress;
     StopOnSignal<Dim> stop;
@@ -36,7 +42,7 @@ run::RunResult<Dim> simulate_into(run::ResultFiles<Dim>& files, const run::Scene
     if (messages == Messages::json) observers = {lines, files, stop};
     const auto with_rest = [&](const char* what) { return what + files.left_behind(); };
     try {
-        return run::simulate<Dim>(scene, options, observers, from);
+        return run::simulate<Dim>(scene, options, observers, from, share);
     } catch (const Error& error) {
         throw_again(error, with_rest(error.what()));
     } catch (const std::runtime_error& error) {
@@ -65,34 +71,90 @@ run::Scene<Dim> timed_scene(const std::function<run::Scene<Dim>()>& make_scene, 
     return make_scene();
 }
 
-}  // namespace
+/// A checkpoint that one rank could not read would let it go on from another one.
+void require_same_step(const std::optional<run::Checkpoint>& from) {
+    if (!rank_session()) return;
+    const ranks::Communicator& all = rank_session()->all();
+    const double step = from ? static_cast<double>(from->motion.steps) : -1.0, last = all.largest(step),
+                 first = -all.largest(-step);
+    if (first != last)
+        throw BadInput(fmt::format("the ranks have read different checkpoints, of steps {} and {}. Give all machines the same "
+                                   "folder of --out.",
+                                   first, last));
+}
 
+/// The threads of a machine are shared by the ranks on it.
+int threads_of(const run::RunOptions& options) {
+    const ranks::Session* session = rank_session();
+    if (options.threads > 0 || !session) return options.threads;
+    return std::max(1, oneapi::tbb::this_task_arena::max_concurrency() / session->ranks_on_this_machine());
+}
+
+/// On rank 0, or alone: files, messages and a closing table.
 template <int Dim>
-void run_scene(const Program& program, const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
-    set_log(program.messages);
-    std::optional<global_control> threads;  // for the mesh, too
-    if (options.threads > 0)
-        threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-
-    run::ResultFiles<Dim> files(options, program.name, program.series);
-    for (const auto& [name, text] : program.beside_checkpoints) files.keep_beside_checkpoints(name, text);
-    run::check(options);
-    const std::optional<run::Checkpoint> from = last_checkpoint(files, options);
+void run_and_write(const Program& program, const run::RunOptions& options,
+                   const std::function<run::Scene<Dim>()>& make_scene) {
+    std::optional<run::ResultFiles<Dim>> files;
+    std::optional<run::Checkpoint> from;
+    std::optional<run::Scene<Dim>> scene;
     double seconds = 0.0;
-    const run::Scene<Dim> scene = timed_scene(make_scene, seconds);
+    on_all([&] {
+        files.emplace(options, program.name, program.series);
+        for (const auto& [name, text] : program.beside_checkpoints) files->keep_beside_checkpoints(name, text);
+        run::check(options);
+        from = last_checkpoint(*files, options);
+    });
+    require_same_step(from);
+    on_all([&] { scene = timed_scene(make_scene, seconds); });
     const StopSignals signals;  // from here on there is something to save
     JsonLines<Dim> lines(program.name);
-    run::RunResult<Dim> result = simulate_into(files, scene, options, from ? &*from : nullptr, program.messages, lines);
+    const SceneShare<Dim> share(scene->mesh);
+    run::RunResult<Dim> result =
+        simulate_into(*files, *scene, options, from ? &*from : nullptr, share.get(), program.messages, lines);
     if (!result.complete)
         spdlog::warn("{}: the run ends after step {}; its files hold what was computed until then{}",
                      name_of_signal(noted_signal()), result.steps, how_to_go_on(options));
     result.seconds.mesh = seconds;
     result.seconds.total += seconds;
-    files.finish(scene, result);
+    files->finish(*scene, result);
     if (program.messages == Messages::json) lines.end(result, noted_signal() == 0 ? 0 : exit_code_of(noted_signal()));
     if (program.messages != Messages::normal) return;
     log_warnings(run::warnings_after(result));
-    fmt::print("{}{}", run::closing_table(program.name, scene, result), files.table());
+    fmt::print("{}{}", run::closing_table(program.name, *scene, result), files->table());
+}
+
+/// On the other ranks: the run alone. Each reads the checkpoint that rank 0 has found for itself.
+template <int Dim>
+void run_beside(const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
+    std::optional<run::Checkpoint> from;
+    std::optional<run::Scene<Dim>> scene;
+    on_all([&] {
+        run::check(options);
+        if (options.resume) from = run::CheckpointFolder(options.out / "checkpoints").last().checkpoint;
+    });
+    require_same_step(from);
+    on_all([&] { scene = make_scene(); });
+    const StopSignals signals;  // rank 0 decides
+    const SceneShare<Dim> share(scene->mesh);
+    run::Observer<Dim> nobody;
+    static_cast<void>(run::simulate<Dim>(*scene, options, nobody, from ? &*from : nullptr, share.get()));
+}
+
+}  // namespace
+
+template <int Dim>
+void run_scene(const Program& program, const run::RunOptions& given, const std::function<run::Scene<Dim>()>& make_scene) {
+    start_ranks(given.ranks);
+    set_log(program.messages);
+    run::RunOptions options = given;
+    options.threads = threads_of(given);
+    std::optional<global_control> threads;  // for the mesh, too
+    if (options.threads > 0)
+        threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+    if (rank_session() && rank_session()->all().rank() > 0)
+        run_beside<Dim>(options, make_scene);
+    else
+        run_and_write<Dim>(program, options, make_scene);
 }
 
 template void run_scene<2>(const Program&, const run::RunOptions&, const std::function<run::Scene<2>()>&);

@@ -35,6 +35,7 @@ template <int Dim>
 class StopOnSignal : public run::Observer<Dim> {
 public:
     [[nodiscard]] bool asks_to_stop() const override { return noted_signal() != 0; }
+    [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
 };
 
 }  // namespace abut::apps

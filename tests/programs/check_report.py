@@ -13,7 +13,15 @@ MEASURE = """<!DOCTYPE html><html><body style="margin:0">
 document.getElementById("page").onload = function () {
     const page = this.contentDocument, root = page.documentElement;
     const answer = {width: root.clientWidth, reaches: root.scrollWidth, height: root.scrollHeight, title: page.title,
-                    data: {}, pictures: [], outside: [], requests: performance.getEntriesByType("resource").map(e => e.name)};
+                    data: {}, pictures: [], outside: [], requests: []};
+    for (const e of page.querySelectorAll("*:not(a)"))  // a link is followed by its reader alone
+        for (const name of ["src", "srcset", "href", "xlink:href", "data", "poster", "background"]) {
+            const to = e.getAttribute(name);
+            if (to && !to.startsWith("#") && !to.startsWith("data:")) answer.requests.push(e.tagName + " " + to);
+        }
+    for (const text of [...page.querySelectorAll("style")].map(e => e.textContent)
+                           .concat([...page.querySelectorAll("[style]")].map(e => e.getAttribute("style"))))
+        if (/@import|url\(\s*["']?(?!#|data:)/.test(text)) answer.requests.push(text.slice(0, 80));
     for (const d of page.querySelectorAll("data[id]")) answer.data[d.id] = [d.getAttribute("value"), d.textContent];
     for (const svg of page.querySelectorAll("svg")) {
         const box = svg.getBoundingClientRect();
@@ -57,10 +65,10 @@ class Answer(html.parser.HTMLParser):
             self.text += data
 
 
-def look(browser, folder, width):
+def look(browser, folder, width, report="report.html"):
     """What a page shows in a window of that width [pixels]."""
     page = pathlib.Path(folder, "measure.html")
-    page.write_text(MEASURE.replace("WIDTH", str(width)))
+    page.write_text(MEASURE.replace("WIDTH", str(width)).replace("report.html", report))
     with tempfile.TemporaryDirectory() as profile:
         shown = subprocess.run(
             [browser, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--user-data-dir=" + profile,
@@ -100,7 +108,11 @@ def main():
                 assert picture["right"] <= page["width"] or picture["scrolls"], picture
                 assert picture["lines"] > 0, picture
                 assert not picture["clashes"], picture["clashes"]
-            assert all(name.startswith("file:") for name in page["requests"]), page["requests"]
+            assert not page["requests"], page["requests"]
+        # A page that asks for something is found out.
+        text = pathlib.Path(folder, "report.html").read_text().replace("</body>", '<img src="beside.png" alt=""/></body>')
+        pathlib.Path(folder, "asks.html").write_text(text)
+        assert look(browser, folder, 1280, "asks.html")["requests"], "a request of the page was not seen"
 
 
 main()

@@ -1,0 +1,54 @@
+#pragma once
+#include <exception>
+#include <memory>
+#include <optional>
+
+#include "abut/mesh/part.hpp"
+#include "abut/ranks/partition.hpp"
+#include "abut/ranks/session.hpp"
+#include "abut/run/share.hpp"
+
+namespace abut::apps {
+
+/// The ranks that this program is one of, from the first call on; null where it runs alone. Of all but rank 0 nothing is seen:
+/// their standard output and standard error are closed.
+[[nodiscard]] const ranks::Session* rank_session();
+/// To be called once, at the start of the program; the ranks end with what it returns. Null where it runs alone.
+[[nodiscard]] std::unique_ptr<ranks::Session> join_ranks();
+
+/// Starts the program anew where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started another
+/// number of them, or cannot be started.
+void start_ranks(int n_ranks);
+/// Throws BadInput where there are several: `what` is done by one.
+void refuse_ranks(const char* what);
+
+/// Calls body() on all ranks, or where the program runs alone; throws on all of them what one throws.
+template <class Body>
+void on_all(const Body& body) {
+    if (!rank_session()) return body();
+    std::exception_ptr error;
+    try {
+        body();
+    } catch (...) {
+        error = std::current_exception();
+    }
+    rank_session()->all().agree(error);
+}
+
+/// The share of this rank in a scene.
+template <int Dim>
+class SceneShare {
+public:
+    /// A call of all ranks; nothing is made where the program runs alone. Throws BadInput on all where their meshes differ, and
+    /// as mesh::part_of and ranks::PointRanks.
+    explicit SceneShare(const mesh::Mesh<Dim>& mesh);
+
+    [[nodiscard]] const run::Share<Dim>* get() const { return share_ ? &*share_ : nullptr; }  ///< null: alone
+
+private:
+    mesh::MeshPart<Dim> part_;
+    std::optional<ranks::PointRanks> points_;
+    std::optional<run::Share<Dim>> share_;
+};
+
+}  // namespace abut::apps
