@@ -120,7 +120,8 @@ int run(int argc, char** argv) {
                                           {[&] { solid.ccg().gradient(u, {}, {}, result); }})[0]
                       .least();
         if (!alone) continue;
-        std::vector<Vector<3>> u_alone(static_cast<std::size_t>(whole.n_cells()), Vector<3>::Constant(0.3)), r(u_alone.size());
+        std::vector<Vector<3>> u_alone(static_cast<std::size_t>(whole.n_cells()), Vector<3>::Constant(0.3)),
+            r(u_alone.size());
         seconds_alone = benchmark::time_in_turn(choices.repetitions, benchmark::Clock::processor,
                                                 {[&] { alone->ccg().gradient(u_alone, {}, {}, r); }})[0]
                             .least();
@@ -131,7 +132,8 @@ int run(int argc, char** argv) {
                here = of_ranks(points, static_cast<double>(part.mesh.n_cells())),
                neighbours = of_ranks(points, static_cast<double>(points.counts().neighbours_to)),
                sent = of_ranks(points, static_cast<double>(points.counts().sent)), times = of_ranks(points, seconds),
-               gathered = of_ranks(points, static_cast<double>(after.gathered_bytes - before.gathered_bytes) / choices.steps);
+               gathered =
+                   of_ranks(points, static_cast<double>(after.gathered_bytes - before.gathered_bytes) / choices.steps);
     if (all.rank() != 0) return 0;
     const auto per_step = [&](std::int64_t n) { return static_cast<double>(n) / choices.steps; };
     const double n = whole.n_cells();
@@ -139,19 +141,22 @@ int run(int argc, char** argv) {
     fmt::print("{:>5} {:>10} {:>10} {:>8} {:>11} {:>13} {:>12} {:>13}\n", "rank", "own", "copies", "copies/", "neighbours",
                "sent, B", "gathered, B", "operator, ms");
     for (std::size_t r = 0; r < own.size(); ++r)
-        fmt::print("{:>5} {:>10.0f} {:>10.0f} {:>7.1f}% {:>11.0f} {:>13.0f} {:>12.0f} {:>13.2f}\n", r, own[r], here[r] - own[r],
-                   100.0 * (here[r] - own[r]) / own[r], neighbours[r], 24.0 * sent[r], gathered[r], 1e3 * times[r]);
+        fmt::print("{:>5} {:>10.0f} {:>10.0f} {:>7.1f}% {:>11.0f} {:>13.0f} {:>12.0f} {:>13.2f}\n", r, own[r],
+                   here[r] - own[r], 100.0 * (here[r] - own[r]) / own[r], neighbours[r], 24.0 * sent[r], gathered[r],
+                   1e3 * times[r]);
     fmt::print("per step of rank 0: {:.2f} exchanges, {:.2f} gathers, {:.2f} reductions, {:.2f} sums\n",
                per_step(after.fills - before.fills), per_step(after.gathers - before.gathers),
                per_step(after.reductions - before.reductions), per_step(after.sums - before.sums));
-    fmt::print("operator: {:.1f} ns per cell alone; on all ranks together {:.2f} times that, the slowest {:.2f} times its share\n",
-               1e9 * seconds_alone / n, sum(times) / seconds_alone,
-               *std::ranges::max_element(times) * static_cast<double>(all.size()) / seconds_alone);
+    fmt::print(
+        "operator: {:.1f} ns per cell alone; on all ranks together {:.2f} times that, the slowest {:.2f} times its share\n",
+        1e9 * seconds_alone / n, sum(times) / seconds_alone,
+        *std::ranges::max_element(times) * static_cast<double>(all.size()) / seconds_alone);
     if (choices.bodies > 1) {
         const auto report = solid.contact_report();
-        fmt::print("contact: {} candidates, {} events, {} lists; contact {:.1f} ms, search {:.1f} ms, bulk {:.1f} ms of rank 0\n",
-                   report.candidates, report.events, report.rebuilds, 1e3 * solid.times().contact,
-                   1e3 * solid.times().search, 1e3 * solid.times().bulk);
+        fmt::print(
+            "contact: {} candidates, {} events, {} lists; contact {:.1f} ms, search {:.1f} ms, bulk {:.1f} ms of rank 0\n",
+            report.candidates, report.events, report.rebuilds, 1e3 * solid.times().contact, 1e3 * solid.times().search,
+            1e3 * solid.times().bulk);
     }
     nlohmann::json json = benchmark::circumstances(argc, argv);
     json["own"] = own, json["here"] = here, json["neighbours"] = neighbours, json["sent"] = sent, json["operator"] = times;

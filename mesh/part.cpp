@@ -18,9 +18,9 @@ void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers) {
                            std::to_string(mesh.n_cells()) + " cells. Give one per cell.",
                        {.value = static_cast<double>(owner.size()), .allowed = static_cast<double>(mesh.n_cells())});
     if (layers < 1)
-        throw BadInput(mesh.name + ": a part with " + std::to_string(layers) +
-                           " layers of copies is asked for, 1 at least is needed.",
-                       {.value = static_cast<double>(layers), .allowed = 1.0});
+        throw BadInput(
+            mesh.name + ": a part with " + std::to_string(layers) + " layers of copies is asked for, 1 at least is needed.",
+            {.value = static_cast<double>(layers), .allowed = 1.0});
     for (std::int32_t c = 1; c < mesh.n_cells(); ++c)
         if (mesh.cell_body[c] == mesh.cell_body[c - 1] && mesh.cell_faces[c].size() != mesh.cell_faces[c - 1].size())
             throw BadInput(mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])] +

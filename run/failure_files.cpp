@@ -65,7 +65,8 @@ void write_table(const std::filesystem::path& path, const mesh::Mesh<Dim>& mesh,
     std::ranges::stable_sort(order, {}, rank);
     std::string text = Dim == 2 ? "body,cell,x,y,speed\n" : "body,cell,x,y,z,speed\n";
     for (const std::size_t c : order) {
-        text += fmt::format("{},{}", in_csv(mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])]), mesh.cell_label[c]);
+        text +=
+            fmt::format("{},{}", in_csv(mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])]), mesh.cell_label[c]);
         for (const double x : position[c]) text += fmt::format(",{:.9g}", x);
         text += fmt::format(",{:.9g}\n", speed[c]);
     }

@@ -61,9 +61,9 @@ std::vector<double> BodyRotation<Dim>::angles(std::span<const Vector<Dim>> u) co
     for (std::size_t body = 0; body < bodies_.size(); ++body) {
         const auto& [centre, inverse] = bodies_[body];
         // sum m u (x - centre)^T
-        const Matrix<Dim> moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&, at = centre](std::size_t c) -> Matrix<Dim> {
-            return (masses_[c] * u[c]) * (rest_[c] - at).transpose();
-        });
+        const Matrix<Dim> moment = sum_of(
+            body, Matrix<Dim>(Matrix<Dim>::Zero()),
+            [&, at = centre](std::size_t c) -> Matrix<Dim> { return (masses_[c] * u[c]) * (rest_[c] - at).transpose(); });
         angles.push_back(rotation_angle<Dim>(nearest_rotation<Dim>(Matrix<Dim>::Identity() + moment * inverse)));
     }
     return angles;

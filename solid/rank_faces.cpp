@@ -57,8 +57,9 @@ void RankFaces<Dim>::append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg
                                 std::vector<double>& values) const {
     const std::int32_t in_mesh = mesh_face(mesh, face);
     const auto corners = mesh.face_vertices[in_mesh];
-    values.insert(values.end(), {static_cast<double>(key), static_cast<double>(mesh.cell_body[cell_of(mesh, face)]),
-                                 cell_depth(mesh, in_mesh), ccg.normal_stiffness(face), static_cast<double>(corners.size())});
+    values.insert(values.end(),
+                  {static_cast<double>(key), static_cast<double>(mesh.cell_body[cell_of(mesh, face)]),
+                   cell_depth(mesh, in_mesh), ccg.normal_stiffness(face), static_cast<double>(corners.size())});
     for (const std::int32_t v : corners) append(values, mesh.vertices[v]);
 }
 
@@ -111,8 +112,7 @@ void RankFaces<Dim>::append_to(contact::Surface<Dim>& surface, std::vector<Bound
 }
 
 template <int Dim>
-void RankFaces<Dim>::gather_displacement(std::span<const Vector<Dim>> of_boundary,
-                                         std::span<Vector<Dim>> of_surface) const {
+void RankFaces<Dim>::gather_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const {
     std::vector<double> mine;
     for (std::size_t i = 0; i < faces_.size(); ++i)
         if (faces_[i].owner == part_.ranks().rank()) append(mine, of_boundary[static_cast<std::size_t>(here_[i])]);
@@ -159,7 +159,8 @@ contact::FaceCoupling<Dim> RankFaces<Dim>::gather_coupling(const contact::FaceCo
     for (std::size_t row = 0; row < in_list.size(); ++row) {
         if (faces_[listed_[in_list[row]]].owner != part_.ranks().rank()) continue;
         mine.push_back(here.offsets[row + 1] - here.offsets[row]);
-        for (auto k = static_cast<std::size_t>(here.offsets[row]); k < static_cast<std::size_t>(here.offsets[row + 1]); ++k) {
+        for (auto k = static_cast<std::size_t>(here.offsets[row]); k < static_cast<std::size_t>(here.offsets[row + 1]);
+             ++k) {
             mine.push_back(static_cast<double>(in_list[static_cast<std::size_t>(here.columns[k])]));
             append(mine, here.blocks[k]);
         }

@@ -97,8 +97,7 @@ std::vector<Vector<Dim>> RankPart<Dim>::gather_faces(std::span<const Vector<Dim>
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> RankPart<Dim>::faces_here(const mesh::Mesh<Dim>& mesh,
-                                                   std::span<const Vector<Dim>> of_all) const {
+std::vector<Vector<Dim>> RankPart<Dim>::faces_here(const mesh::Mesh<Dim>& mesh, std::span<const Vector<Dim>> of_all) const {
     std::vector<Vector<Dim>> values;
     for (const BoundaryFace face : boundary_faces(mesh)) {
         const std::size_t position = position_of(key_of(mesh, face));

@@ -43,7 +43,8 @@ std::unique_ptr<ranks::Session> join_ranks() {
 void start_ranks(int n_ranks) {
     if (the_session) {
         if (const int size = the_session->all().size(); n_ranks > 0 && n_ranks != size)
-            throw BadInput(fmt::format("--ranks: {} are asked for, but mpirun has started {}. Leave --ranks out.", n_ranks, size));
+            throw BadInput(
+                fmt::format("--ranks: {} are asked for, but mpirun has started {}. Leave --ranks out.", n_ranks, size));
     } else if (n_ranks > 1) {
         ranks::start_on(n_ranks);
     }
@@ -61,7 +62,8 @@ SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh) {
     const double print = fingerprint(mesh), largest = all.largest(print), least = -all.largest(-print);
     on_all([&] {
         if (least != largest)
-            throw BadInput(mesh.name + ": the ranks have made different meshes of it. Save the mesh to a file, and read that.");
+            throw BadInput(mesh.name +
+                           ": the ranks have made different meshes of it. Save the mesh to a file, and read that.");
     });
     const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid);
     on_all([&] { part_ = mesh::part_of<Dim>(mesh, owner, all.rank()); });

@@ -123,10 +123,11 @@ void add_compression_limit(CLI::App& app, run::RunOptions& options) {
 }
 
 void add_ranks_option(CLI::App& app, int& ranks) {
-    add_count(app, "--ranks", ranks,
-              "ranks that the scene is shared out to, on this machine; 0: one, or those that mpirun has started. The results "
-              "do not depend on it",
-              0)
+    add_count(
+        app, "--ranks", ranks,
+        "ranks that the scene is shared out to, on this machine; 0: one, or those that mpirun has started. The results "
+        "do not depend on it",
+        0)
         ->group("Output");
 }
 

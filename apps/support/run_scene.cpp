@@ -78,9 +78,10 @@ void require_same_step(const std::optional<run::Checkpoint>& from) {
     const double step = from ? static_cast<double>(from->motion.steps) : -1.0, last = all.largest(step),
                  first = -all.largest(-step);
     if (first != last)
-        throw BadInput(fmt::format("the ranks have read different checkpoints, of steps {} and {}. Give all machines the same "
-                                   "folder of --out.",
-                                   first, last));
+        throw BadInput(
+            fmt::format("the ranks have read different checkpoints, of steps {} and {}. Give all machines the same "
+                        "folder of --out.",
+                        first, last));
 }
 
 /// The threads of a machine are shared by the ranks on it.

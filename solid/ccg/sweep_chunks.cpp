@@ -130,8 +130,8 @@ void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
              .energy_gradient_face = position(region.energy_gradient_faces, chunk.face)});
 }
 
-#define ABUT_INSTANTIATE(Dim)                   \
-    template void CcgSweeps<Dim>::set_chunks(); \
+#define ABUT_INSTANTIATE(Dim)                                       \
+    template void CcgSweeps<Dim>::set_chunks();                     \
     template void CcgSweeps<Dim>::compute_only(const Region<Dim>&); \
     template void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>&) const;
 ABUT_INSTANTIATE(2)

@@ -88,7 +88,8 @@ TEST_CASE("copies lie as many layers deep as were asked for", "[mesh][part]") {
         for (const Vector<2>& x : whole.cell_centroid) of_cells.push_back(x[0] < 10.0 ? 0 : 1);
         return of_cells;
     }();
-    for (const int layers : {1, 3, 8, 100}) CHECK(part_of<2>(whole, owner, 0, layers).mesh.n_cells() == std::min(20, 10 + layers));
+    for (const int layers : {1, 3, 8, 100})
+        CHECK(part_of<2>(whole, owner, 0, layers).mesh.n_cells() == std::min(20, 10 + layers));
     CHECK(part_of<2>(whole, owner, 7).mesh.n_cells() == 0);  // a rank without cells
 }
 

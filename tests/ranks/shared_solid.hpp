@@ -22,7 +22,9 @@ namespace abut::test {
 }
 
 /// Whether it is so on all ranks: a test that ends on one of them would leave the others waiting.
-[[nodiscard]] inline bool everywhere(const ranks::Communicator& all, bool here) { return all.largest(here ? 0.0 : 1.0) == 0.0; }
+[[nodiscard]] inline bool everywhere(const ranks::Communicator& all, bool here) {
+    return all.largest(here ? 0.0 : 1.0) == 0.0;
+}
 
 /// The part of a rank, with all that its solid needs.
 template <int Dim>
@@ -61,9 +63,8 @@ std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const 
 /// each step. Returns contact's figures at the end.
 template <int Dim, template <class> class Scheme = dynamics::Memm>
 contact::ContactReport check_same_bits(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole,
-                                       const solid::SolidOptions<Dim>& options,
-                                       std::span<const Vector<Dim>> body_velocity, int steps, std::span<const int> owner,
-                                       double waves = 0.01) {
+                                       const solid::SolidOptions<Dim>& options, std::span<const Vector<Dim>> body_velocity,
+                                       int steps, std::span<const int> owner, double waves = 0.01) {
     solid::Solid<Dim> alone(whole, options);
     SharedSolid<Dim> shared(all, whole, options, owner);
     solid::Solid<Dim>& solid = shared.solid;
@@ -95,8 +96,7 @@ contact::ContactReport check_same_bits(const ranks::Communicator& all, const mes
     CHECK(of_alone.rebuilds == report.rebuilds);
     CHECK(of_alone.missed_contacts == report.missed_contacts);
     CHECK(alone.contact_faces_left_out() == solid.contact_faces_left_out());
-    for (std::size_t i = 0; i < options.obstacles.size(); ++i)
-        CHECK(alone.obstacle_force(i) == solid.obstacle_force(i));
+    for (std::size_t i = 0; i < options.obstacles.size(); ++i) CHECK(alone.obstacle_force(i) == solid.obstacle_force(i));
     const auto impulses = alone.contact_impulses(), of_shared = solid.contact_impulses();
     REQUIRE(everywhere(all, impulses.size() == of_shared.size()));
     for (std::size_t i = 0; i < impulses.size(); ++i) CHECK(impulses[i].impulse == of_shared[i].impulse);

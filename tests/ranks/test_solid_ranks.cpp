@@ -66,8 +66,8 @@ TEST_CASE("parts have as many cells each, and every rank knows the same", "[rank
     CHECK_THROWS_AS(ranks::partition<3>(all, mesh.cell_centroid, weights), BadInput);
 }
 
-TEMPLATE_TEST_CASE_SIG("a free body with waves has the bits of one rank, step by step", "[ranks][solid]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("a free body with waves has the bits of one rank, step by step", "[ranks][solid]", ((int Dim), Dim),
+                       2, 3) {
     const ranks::Communicator all = test::world();
     const mesh::CellShape shape = Dim == 2 ? GENERATE(mesh::CellShape::triangle, mesh::CellShape::quadrangle)
                                            : GENERATE(mesh::CellShape::tetrahedron, mesh::CellShape::hexahedron);
@@ -85,27 +85,25 @@ TEMPLATE_TEST_CASE_SIG("loads, supports and gravity have the bits of one rank", 
     options.materials = {steel};
     options.acceleration = {-0.3 * Vector<Dim>::Unit(1)};
     options.body_load = [](const Vector<Dim>& x) -> Vector<Dim> { return 0.1 * std::sin(x[0]) * Vector<Dim>::Unit(0); };
-    options.boundary.dirichlet = {
-        {.group = "xmin", .history = [](double t, const Vector<Dim>&) -> Vector<Dim> {
-             return 0.01 * std::sin(5.0 * t) * Vector<Dim>::Unit(1);
-         }}};
-    options.boundary.traction = {
-        {.group = "ymax", .history = [](double t, const Vector<Dim>& x) -> Vector<Dim> {
-             return 0.02 * std::sin(3.0 * t + x[0]) * Vector<Dim>::Unit(1);
-         }}};
+    options.boundary.dirichlet = {{.group = "xmin", .history = [](double t, const Vector<Dim>&) -> Vector<Dim> {
+                                       return 0.01 * std::sin(5.0 * t) * Vector<Dim>::Unit(1);
+                                   }}};
+    options.boundary.traction = {{.group = "ymax", .history = [](double t, const Vector<Dim>& x) -> Vector<Dim> {
+                                      return 0.02 * std::sin(3.0 * t + x[0]) * Vector<Dim>::Unit(1);
+                                  }}};
     const std::vector<Vector<Dim>> velocity{Vector<Dim>::Zero()};
     check_same_bits<Dim>(all, mesh, options, velocity, 20, parts(all, mesh), 0.1);
 }
 
-TEMPLATE_TEST_CASE_SIG("two bodies that collide have the bits of one rank, pairs and lists included", "[ranks][solid][contact]",
-                       ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG("two bodies that collide have the bits of one rank, pairs and lists included",
+                       "[ranks][solid][contact]", ((int Dim), Dim), 2, 3) {
     const ranks::Communicator all = test::world();
     const auto mesh = two_round_bodies<Dim>();
     solid::SolidOptions<Dim> options;
     options.materials = {steel, {.young = 1.0, .poisson = 0.2, .density = 1.0}};
     options.contact = contact::ContactOptions{};
-    const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 160 : 80,
-                                             parts(all, mesh));
+    const auto report =
+        check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 160 : 80, parts(all, mesh));
     CHECK(report.events > 0);
     CHECK(report.rebuilds > 1);
 }
@@ -142,7 +140,8 @@ TEST_CASE("a rank without cells, and parts without any order, change no bit", "[
     std::vector<int> owner(static_cast<std::size_t>(mesh.n_cells()), 0);  // all on rank 0
     SECTION("all but one rank have none") {}
     SECTION("a body each") {
-        for (std::int32_t c = 0; c < mesh.n_cells(); ++c) owner[static_cast<std::size_t>(c)] = mesh.cell_body[c] % all.size();
+        for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
+            owner[static_cast<std::size_t>(c)] = mesh.cell_body[c] % all.size();
     }
     SECTION("scattered in rows") {
         for (std::int32_t c = 0; c < mesh.n_cells(); ++c) owner[static_cast<std::size_t>(c)] = c / 37 % all.size();
@@ -193,7 +192,8 @@ TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]")
     solid::SolidOptions<2> options;
     options.materials = {steel};
     options.kinematics = {GENERATE(solid::Kinematics::floating, solid::Kinematics::rigid, solid::Kinematics::finite)};
-    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("not made for a run on several ranks"));
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner),
+                      Catch::Contains("not made for a run on several ranks"));
     options.kinematics.clear();
     options.contact = contact::ContactOptions{};
     options.law = solid::ContactLaw::pair_potential;
