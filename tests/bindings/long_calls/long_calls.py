@@ -52,5 +52,4 @@ for i in range(rounds):
         contact.restore(state)
 growth = own_memory() - warm
 print(f"{rounds} rounds, {pairs} pairs, {refused} refused: {growth} kB more than the {warm} kB after {warm_up} rounds")
-# The system hands out pages of 4 kB, some of them late: a byte per round that is lost would be more than 64 kB.
-sys.exit(refused != rounds // 10 or pairs <= rounds // 2 or (rounds >= 100000 and growth > min(64, rounds // 2000)))
+sys.exit(refused != rounds // 10 or pairs <= rounds // 2 or (rounds >= 100000 and growth > 4))
