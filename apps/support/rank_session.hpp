@@ -16,7 +16,7 @@ namespace abut::apps {
 /// To be called once, at the start of the program; the ranks end with what it returns. Null where it runs alone.
 [[nodiscard]] std::unique_ptr<ranks::Session> join_ranks();
 
-/// Starts the program anew where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started another
+/// Starts the program again where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started another
 /// number of them, or cannot be started.
 void start_ranks(int n_ranks);
 /// Throws BadInput where there are several: `what` is done by one.
