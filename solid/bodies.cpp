@@ -180,7 +180,7 @@ bool Bodies<Dim>::any_finite() const {
 }
 
 template <int Dim>
-BodyFrames<Dim> Bodies<Dim>::frames() const {
+BodyFrames<Dim> Bodies<Dim>::frames(const RankPart<Dim>* part) const {
     std::vector<std::int32_t> begin{0};
     std::vector<bool> floating;
     for (const std::int32_t body : deformable_bodies_) {
@@ -188,7 +188,7 @@ BodyFrames<Dim> Bodies<Dim>::frames() const {
         begin.push_back(cells_of_body(deformable(), static_cast<std::int32_t>(begin.size()) - 1).second);
     }
     return BodyFrames<Dim>(deformable().cell_centroid, std::span(masses_).first(static_cast<std::size_t>(n_cells())),
-                           std::move(begin), std::move(floating), deformable().body_names);
+                           std::move(begin), std::move(floating), deformable().body_names, part);
 }
 
 template <int Dim>

@@ -43,8 +43,8 @@ public:
     [[nodiscard]] std::span<const double> inverse_masses() const { return inverse_masses_; }  ///< of degrees of freedom
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return body_; }      ///< in the mesh
 
-    /// Frames of the bodies that deform. Throws BadInput for one that has no width to turn about.
-    [[nodiscard]] BodyFrames<Dim> frames() const;
+    /// Frames of the bodies that deform; `part` as BodyFrames takes it. Throws BadInput for one that has no width to turn about.
+    [[nodiscard]] BodyFrames<Dim> frames(const RankPart<Dim>* part) const;
     /// The law of contact, `automatic` resolved. Throws BadInput for one that does not know bodies or obstacles that turn.
     [[nodiscard]] ContactLaw law() const;
 

@@ -11,16 +11,21 @@ namespace abut::solid {
 
 template <int Dim>
 CornerSurface<Dim>::CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
-                                  const Obstacles<Dim>& obstacles)
+                                  const Obstacles<Dim>& obstacles, const RankPart<Dim>* part)
     : bodies_(bodies),
       mesh_(bodies.deformable()),
       ccg_(ccg),
       frames_(frames),
       obstacles_(obstacles),
+      part_(part),
+      ranks_(part ? std::make_unique<RankFaces<Dim>>(*part, mesh_, ccg) : nullptr),
       places_(bodies.rigid().size()),
       u_(static_cast<std::size_t>(bodies.n_cells())) {
     faces_.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()) + bodies.rigid().size(), 0.0);
-    append_deformable();
+    if (ranks_)
+        append_deformable_of_ranks();
+    else
+        append_deformable();
     append_rigid();
     for (double& of_body : faces_.stiffness)
         if (of_body == 0.0) of_body = 1.0;  // all faces are prescribed: nothing touches it
@@ -28,18 +33,36 @@ CornerSurface<Dim>::CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, cons
 }
 
 template <int Dim>
-void CornerSurface<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body, double stiffness) {
-    std::vector<std::int32_t> corners;
-    for (const std::int32_t v : mesh.face_vertices[face]) {
-        corners.push_back(static_cast<std::int32_t>(rest_.size()));
-        rest_.push_back(mesh.vertices[v]);
+void CornerSurface<Dim>::add_face(std::span<const Vector<Dim>> corners, double depth, std::int32_t body, double stiffness) {
+    std::vector<std::int32_t> nodes;
+    for (const Vector<Dim>& corner : corners) {
+        nodes.push_back(static_cast<std::int32_t>(rest_.size()));
+        rest_.push_back(corner);
         face_of_.push_back(static_cast<std::int32_t>(faces_.body.size()));
     }
-    faces_.append_face(corners, cell_depth(mesh, face), body);
+    faces_.append_face(nodes, depth, body);
     corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
     stiffness_.push_back(stiffness);
     double& of_body = faces_.stiffness[static_cast<std::size_t>(body)];
     of_body = std::max(of_body, stiffness);
+}
+
+template <int Dim>
+void CornerSurface<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body, double stiffness) {
+    std::vector<Vector<Dim>> corners;
+    for (const std::int32_t v : mesh.face_vertices[face]) corners.push_back(mesh.vertices[v]);
+    add_face(corners, cell_depth(mesh, face), body, stiffness);
+}
+
+/// How far a corner moves in its frame at most when no cell moves by more than 1.
+template <int Dim>
+double CornerSurface<Dim>::amplification_of(BoundaryFace b) const {
+    const std::int32_t face = mesh_face(mesh_, b);
+    double largest = 0.0;
+    for (const std::int32_t v : mesh_.face_vertices[face])
+        largest =
+            std::max(largest, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
+    return largest;
 }
 
 template <int Dim>
@@ -53,15 +76,26 @@ void CornerSurface<Dim>::append_deformable() {
             ++faces_left_out_;
             continue;
         }
-        const std::int32_t face = mesh_face(mesh_, b);
-        double& amplification = amplification_.emplace_back(0.0);
-        for (const std::int32_t v : mesh_.face_vertices[face])
-            amplification = std::max(
-                amplification, ccg_.corner_amplification(b, Vector<Dim>(mesh_.vertices[v] - mesh_.face_centroid[face])));
-        append_face(mesh_, face, static_cast<std::int32_t>(body_of(b)), ccg_.normal_stiffness(b));
+        amplification_.push_back(amplification_of(b));
+        append_face(mesh_, mesh_face(mesh_, b), mesh_.cell_body[cell_of(mesh_, b)], ccg_.normal_stiffness(b));
         boundary_.push_back(b);
         mesh_boundary_.push_back(in_mesh[static_cast<std::size_t>(b)]);
     }
+}
+
+/// All bodies deform then.
+template <int Dim>
+void CornerSurface<Dim>::append_deformable_of_ranks() {
+    faces_left_out_ = ranks_->n_left_out();
+    std::vector<double> own;
+    for (std::size_t i = 0; i < ranks_->faces().size(); ++i) {
+        const auto& face = ranks_->faces()[i];
+        add_face(face.corners, face.cell_depth, face.body, face.stiffness);
+        boundary_.push_back(ranks_->here()[i]);
+        if (ranks_->is_own(i)) own.push_back(amplification_of(boundary_.back()));
+    }
+    mesh_boundary_ = boundary_;
+    amplification_ = ranks_->gather_numbers(own);
 }
 
 template <int Dim>
@@ -134,13 +168,26 @@ typename CornerSurface<Dim>::Listed CornerSurface<Dim>::list(std::span<const std
         else
             listed.rigid.push_back(node);
     sort_unique(listed.faces);
+    std::vector<BoundaryFace> own;
     for (const std::int32_t face : listed.faces) {
-        listed.boundary.push_back(boundary_[face]);
         for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n) listed.nodes.push_back(n);
+        const BoundaryFace b = boundary_[face];
+        if (b == no_face) continue;
+        listed.here.push_back(face);
+        listed.boundary.push_back(b);
+        if (ranks_ && !ranks_->is_own(static_cast<std::size_t>(face))) continue;
+        listed.own.push_back(face);
+        own.push_back(b);
+    }
+    if (ranks_) {
+        const std::vector<std::size_t> faces(listed.faces.begin(), listed.faces.end());
+        for (const std::size_t i : ranks_->by_owner(faces))
+            for (std::int32_t n = corner_offsets_[faces[i]]; n < corner_offsets_[faces[i] + 1]; ++n)
+                listed.gathered.push_back(n);
     }
     listed.nodes.insert(listed.nodes.end(), listed.rigid.begin(), listed.rigid.end());
     listed.nodes.insert(listed.nodes.end(), listed.obstacles.begin(), listed.obstacles.end());
-    listed.region = ccg_.region_of_tilted_faces(listed.boundary);
+    listed.region = ccg_.region_of_tilted_faces(own);
     return listed;
 }
 
@@ -154,20 +201,21 @@ typename CornerSurface<Dim>::Listed CornerSurface<Dim>::list_all() const {
 template <int Dim>
 void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>> q, std::span<const BodyFrame<Dim>> frames,
                                const BoundaryLoad<Dim>& load, double time, Points& x) {
-    displacement_.resize(listed.faces.size());
-    tilt_.resize(listed.faces.size());
+    displacement_.resize(listed.own.size());
+    tilt_.resize(listed.own.size());
     frames_.displacement(listed.region.input_cells, q, frames, u_);
     ccg_.evaluate_tilted_faces(listed.region, u_, load, displacement_, tilt_);
     parallel_each(
-        std::ssize(listed.faces),
+        std::ssize(listed.own),
         [&](std::ptrdiff_t i) {
-            const BoundaryFace b = listed.boundary[i];
-            const std::size_t body = body_of(b);
-            const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body);
-            for (std::int32_t n = corner_offsets_[listed.faces[i]]; n < corner_offsets_[listed.faces[i] + 1]; ++n)
-                x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - ccg_.centroid(b)));
+            const std::int32_t face = listed.own[i];
+            const std::size_t body = body_of(static_cast<std::size_t>(face));
+            const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body), centroid = ccg_.centroid(boundary_[face]);
+            for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
+                x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - centroid));
         },
         256);
+    if (ranks_) gather_nodes(listed, x);
     place_rigid(q);
     for (const std::int32_t n : listed.rigid) {
         const std::size_t body = rigid_of(face_of(n));
@@ -182,6 +230,19 @@ void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>
         }
         x[n] = placement(rest_[n]);
     }
+}
+
+/// Brings the nodes of all listed faces from where they are placed.
+template <int Dim>
+void CornerSurface<Dim>::gather_nodes(const Listed& listed, Points& x) {
+    if (listed.faces.empty()) return;
+    own_nodes_.clear();
+    for (const std::int32_t face : listed.own)
+        for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
+            own_nodes_.insert(own_nodes_.end(), x[n].begin(), x[n].end());
+    const std::vector<double> all = part_->ranks().gather(own_nodes_);
+    const auto positions = as_vectors<Dim>(std::span<const double>(all));
+    for (std::size_t i = 0; i < positions.size(); ++i) x[listed.gathered[i]] = positions[i];
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/obstacles.hpp"
+#include "abut/solid/rank_faces.hpp"
 
 namespace abut::solid {
 
@@ -27,15 +29,20 @@ public:
     /// Some faces, with all of their corners.
     struct Listed {
         std::vector<std::int32_t> faces;      // of bodies that deform, increasing
-        std::vector<BoundaryFace> boundary;   // the same
+        std::vector<std::int32_t> own;        // those that are placed here: all of them, unless there are ranks
+        std::vector<std::int32_t> here;       // those with a boundary face here: the same
+        std::vector<BoundaryFace> boundary;   // of `here`
+        std::vector<std::int32_t> gathered;   // nodes of `faces` as ranks bring them, rank after rank; empty on one rank
         std::vector<std::int32_t> rigid;      // nodes of rigid bodies, increasing
         std::vector<std::int32_t> obstacles;  // nodes of obstacles, increasing
         std::vector<std::int32_t> nodes;      // all of them, increasing
         Region<Dim> region;
     };
 
-    /// All must outlive it. Faces with a prescribed displacement are left out.
-    CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const Obstacles<Dim>& obstacles);
+    /// All must outlive it. Faces with a prescribed displacement are left out. `part` is null on one rank; on several each has all
+    /// faces, and `place` is a call of all ranks.
+    CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const Obstacles<Dim>& obstacles,
+                  const RankPart<Dim>* part);
 
     [[nodiscard]] contact::NodalSurface<Dim> for_contact() const;
     [[nodiscard]] std::int64_t faces_left_out() const { return faces_left_out_; }
@@ -55,11 +62,10 @@ public:
     [[nodiscard]] bool is_deformable(std::size_t face) const { return face < boundary_.size(); }
     [[nodiscard]] bool is_obstacle(std::size_t face) const { return face >= mesh_boundary_.size(); }
     [[nodiscard]] std::size_t rigid_of(std::size_t face) const { return rigid_of_[face - boundary_.size()]; }
-    [[nodiscard]] BoundaryFace boundary(std::size_t face) const { return boundary_[face]; }  ///< of one that deforms
-    [[nodiscard]] std::size_t body_of(BoundaryFace face) const {
-        return static_cast<std::size_t>(mesh_.cell_body[cell_of(mesh_, face)]);
-    }
-    /// In the numbering of the whole mesh; `no_face` of an obstacle.
+    /// Of one that deforms; `no_face`: it is on other ranks.
+    [[nodiscard]] BoundaryFace boundary(std::size_t face) const { return boundary_[face]; }
+    [[nodiscard]] std::size_t body_of(std::size_t face) const { return static_cast<std::size_t>(faces_.body[face]); }
+    /// In the numbering of the mesh; `no_face` of an obstacle, and of a face on other ranks.
     [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const {
         return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
     }
@@ -81,6 +87,10 @@ public:
 
 private:
     void append_deformable();
+    void append_deformable_of_ranks();
+    void add_face(std::span<const Vector<Dim>> corners, double depth, std::int32_t body, double stiffness);
+    [[nodiscard]] double amplification_of(BoundaryFace face) const;
+    void gather_nodes(const Listed& listed, Points& x);
     void append_rigid();
     void append_obstacles();
     void append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body, double stiffness);
@@ -90,6 +100,8 @@ private:
     Ccg<Dim>& ccg_;
     const BodyFrames<Dim>& frames_;
     const Obstacles<Dim>& obstacles_;
+    const RankPart<Dim>* part_;
+    std::unique_ptr<RankFaces<Dim>> ranks_;  // null on one rank
     contact::NodalFaceArrays<Dim> faces_;
     std::vector<double> stiffness_;  // of each face
     Points rest_;
@@ -106,6 +118,7 @@ private:
     std::vector<Vector<Dim>> u_;  // work arrays: of all cells, and of listed faces
     std::vector<Vector<Dim>> displacement_;
     std::vector<Matrix<Dim>> tilt_;
+    std::vector<double> own_nodes_;  // and what is gathered of them
 };
 
 }  // namespace abut::solid

@@ -56,14 +56,15 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
 
 template <int Dim>
 PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
-                                              const BodyFrames<Dim>& frames, SolidTimes& times)
+                                              const BodyFrames<Dim>& frames, SolidTimes& times, const RankPart<Dim>* part)
     : bodies_(bodies),
       ccg_(ccg),
       loads_(loads),
       frames_(frames),
       times_(times),
+      ranks_(part ? &part->ranks() : nullptr),
       obstacles_(bodies.deformable_options().obstacles),
-      corners_(bodies, ccg, frames, obstacles_),
+      corners_(bodies, ccg, frames, obstacles_, part),
       contact_(corners_.for_contact(), nodal_options(bodies)),
       all_(corners_.list_all()),
       x_0_(corners_.rest()),
@@ -203,8 +204,8 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
     rigid_pushes_.assign(bodies_.rigid().size(), {});
     const contact::NodalStep<Dim>& step = contact_.last();
     if (!step.is_active()) return;
-    face_gradient_.resize(listed_.faces.size(), Vector<Dim>::Zero());
-    cell_moment_.resize(listed_.faces.size(), Matrix<Dim>::Zero());
+    face_gradient_.resize(listed_.here.size(), Vector<Dim>::Zero());
+    cell_moment_.resize(listed_.here.size(), Matrix<Dim>::Zero());
     std::size_t at = 0;  // nodes and faces are in the same order
     for (std::size_t i = 0; i < step.nodes.size(); ++i) {
         const std::int32_t node = step.nodes[i];
@@ -216,13 +217,13 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
             rigid_pushes_[rigid].add(p, rest - bodies_.rigid().rest_centre(rigid));
             continue;
         }
-        while (static_cast<std::size_t>(listed_.faces[at]) != face) ++at;
-        const BoundaryFace b = listed_.boundary[at];
-        const std::size_t body = corners_.body_of(b);
+        const std::size_t body = corners_.body_of(face);
+        pushes_[body].add(p, 0.5 * (x_0[node] - frames_.start()[body].centre + x_1[node] - frames_.end()[body].centre));
+        while (at < listed_.here.size() && static_cast<std::size_t>(listed_.here[at]) < face) ++at;
+        if (at == listed_.here.size() || static_cast<std::size_t>(listed_.here[at]) != face) continue;  // of other ranks
         const Vector<Dim> in_frame = frames_.step(body).force_turn().transpose() * p;
         face_gradient_[at] += in_frame;
-        cell_moment_[at] += in_frame * (rest - ccg_.centroid(b)).transpose();
-        pushes_[body].add(p, 0.5 * (x_0[node] - frames_.start()[body].centre + x_1[node] - frames_.end()[body].centre));
+        cell_moment_[at] += in_frame * (rest - ccg_.centroid(listed_.boundary[at])).transpose();
     }
 }
 
@@ -256,6 +257,7 @@ void PairPotentialDriver<Dim>::add_impulses(double dt) {
 template <int Dim>
 void PairPotentialDriver<Dim>::keep_touching_faces() {
     touching_.clear();
+    if (ranks_) return;  // for `patches`, which ranks do not have
     for (const contact::PairStep<Dim>& pair : contact_.last().pairs) {
         TouchingPoints<Dim> touching{corners_.points_of(pair.face_1), corners_.points_of(pair.face_2), Vector<Dim>::Zero(),
                                      pair.normal};

@@ -64,8 +64,9 @@ double PairPotentialDriver<Dim>::distance_in_frame(const Listed& listed, std::sp
                                                    const Watch& watch) {
     const std::vector<std::int32_t>& cells = listed.region.input_cells;
     frames_.displacement(cells, q, frames_.end(), u_);
-    return std::sqrt(
-        largest(std::ssize(cells), [&](std::ptrdiff_t i) { return (u_[cells[i]] - watch.u[i]).squaredNorm(); }));
+    const double here =
+        largest(std::ssize(cells), [&](std::ptrdiff_t i) { return (u_[cells[i]] - watch.u[i]).squaredNorm(); });
+    return std::sqrt(ranks_ ? ranks_->largest(here) : here);
 }
 
 /// Places the nodes near other bodies at the end of the step; what is far must not have come near. Where faces move without
@@ -98,8 +99,7 @@ typename PairPotentialDriver<Dim>::Watch PairPotentialDriver<Dim>::watch_from(co
         if (corners_.is_of_obstacle(n)) break;
         const std::size_t face = corners_.face_of(n);
         const bool deforms = corners_.is_deformable(face);
-        const std::size_t body =
-            deforms ? corners_.body_of(corners_.boundary(face)) : frames_.n_bodies() + corners_.rigid_of(face);
+        const std::size_t body = deforms ? corners_.body_of(face) : frames_.n_bodies() + corners_.rigid_of(face);
         const Vector<Dim>& centre = deforms ? watch.frames[body].centre : watch.places[corners_.rigid_of(face)].centre;
         watch.radius[body] = larger(watch.radius[body], (x[n] - centre).squaredNorm());
     }

@@ -96,13 +96,20 @@ void RankFaces<Dim>::find_here(const mesh::Mesh<Dim>& mesh) {
     }
 }
 
-/// Indices of some faces, given by their place in the surface, in the order in which `gather` brings them.
 template <int Dim>
 std::vector<std::size_t> RankFaces<Dim>::by_owner(std::span<const std::size_t> faces) const {
     std::vector<std::size_t> order(faces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return faces_[faces[i]].owner; });
     return order;
+}
+
+template <int Dim>
+std::vector<double> RankFaces<Dim>::gather_numbers(std::span<const double> of_own) const {
+    const std::vector<double> all = part_.ranks().gather(of_own);
+    std::vector<double> of_faces(faces_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) of_faces[all_by_owner_[i]] = all[i];
+    return of_faces;
 }
 
 template <int Dim>
@@ -115,7 +122,7 @@ template <int Dim>
 void RankFaces<Dim>::gather_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const {
     std::vector<double> mine;
     for (std::size_t i = 0; i < faces_.size(); ++i)
-        if (faces_[i].owner == part_.ranks().rank()) append(mine, of_boundary[static_cast<std::size_t>(here_[i])]);
+        if (is_own(i)) append(mine, of_boundary[static_cast<std::size_t>(here_[i])]);
     const std::vector<double> all = part_.ranks().gather(mine);
     Reader reader(all);
     for (const std::size_t i : all_by_owner_) of_surface[i] = reader.next_array<Vector<Dim>>();
@@ -128,7 +135,7 @@ void RankFaces<Dim>::set_listed(std::span<const contact::SurfaceFace> listed) {
     for (const contact::SurfaceFace face : listed) {
         const auto i = static_cast<std::size_t>(face);
         listed_.push_back(i);
-        if (faces_[i].owner == part_.ranks().rank()) own_listed_.push_back(here_[i]);
+        if (is_own(i)) own_listed_.push_back(here_[i]);
     }
     listed_by_owner_ = by_owner(listed_);
 }
@@ -157,7 +164,7 @@ contact::FaceCoupling<Dim> RankFaces<Dim>::gather_coupling(const contact::FaceCo
         if (here_[listed_[i]] != no_face) in_list.push_back(i);
     std::vector<double> mine;  // rows of own faces: number of columns; columns with their blocks
     for (std::size_t row = 0; row < in_list.size(); ++row) {
-        if (faces_[listed_[in_list[row]]].owner != part_.ranks().rank()) continue;
+        if (!is_own(listed_[in_list[row]])) continue;
         mine.push_back(here.offsets[row + 1] - here.offsets[row]);
         for (auto k = static_cast<std::size_t>(here.offsets[row]); k < static_cast<std::size_t>(here.offsets[row + 1]);
              ++k) {

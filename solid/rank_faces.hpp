@@ -18,12 +18,29 @@ namespace abut::solid {
 template <int Dim>
 class RankFaces {
 public:
+    struct Face {
+        std::int64_t key;
+        int owner;
+        std::int32_t body;
+        double cell_depth, stiffness;
+        std::vector<Vector<Dim>> corners;  // at rest
+    };
+
     /// All arguments must outlive it. Faces with a prescribed displacement are left out.
     RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg);
 
     [[nodiscard]] std::int64_t n_left_out() const { return n_left_out_; }  ///< of all ranks
     /// Appends all faces in the order of the whole mesh; and of each the boundary face here, `no_face` if there is none.
     void append_to(contact::Surface<Dim>& surface, std::vector<BoundaryFace>& boundary) const;
+
+    [[nodiscard]] std::span<const Face> faces() const { return faces_; }  ///< in the order of the whole mesh
+    /// Of each, the boundary face here; `no_face`: it is on other ranks alone.
+    [[nodiscard]] std::span<const BoundaryFace> here() const { return here_; }
+    [[nodiscard]] bool is_own(std::size_t face) const { return faces_[face].owner == part_.ranks().rank(); }
+    /// Places in a list of faces, in the order in which `gather` brings what their owners give, each in the order of the list.
+    [[nodiscard]] std::vector<std::size_t> by_owner(std::span<const std::size_t> faces) const;
+    /// A number of each face, from those of the own faces in their order.
+    [[nodiscard]] std::vector<double> gather_numbers(std::span<const double> of_own) const;
 
     /// û of all faces of the surface [m], from that of the boundary faces here.
     void gather_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const;
@@ -39,18 +56,10 @@ public:
     [[nodiscard]] contact::FaceCoupling<Dim> gather_coupling(const contact::FaceCoupling<Dim>& here) const;
 
 private:
-    struct Face {
-        std::int64_t key;
-        int owner;
-        std::int32_t body;
-        double cell_depth, stiffness;
-        std::vector<Vector<Dim>> corners;
-    };
     void append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg, BoundaryFace face, std::int64_t key,
                     std::vector<double>& values) const;
     void take_all(std::span<const double> values);
     void find_here(const mesh::Mesh<Dim>& mesh);
-    [[nodiscard]] std::vector<std::size_t> by_owner(std::span<const std::size_t> faces) const;
 
     const RankPart<Dim>& part_;
     std::int64_t n_left_out_ = 0;

@@ -46,6 +46,7 @@ RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies)
     for (auto* array : {&state_, &start_, &end_}) array->assign(n_part, Vector<Dim>::Constant(std::nan("")));
     result_.assign(n_part, Vector<Dim>::Zero());
     set_body_begin(mesh.n_bodies());
+    find_first_cells();
 }
 
 template <int Dim>
@@ -115,6 +116,33 @@ void RankPart<Dim>::set_body_begin(std::int32_t n_bodies) {
     for (std::size_t i = 0; i < of_ranks.size(); ++i)
         body_begin_[i % counts.size() + 1] += static_cast<std::int32_t>(of_ranks[i]);
     for (std::size_t body = 0; body < counts.size(); ++body) body_begin_[body + 1] += body_begin_[body];
+}
+
+template <int Dim>
+void RankPart<Dim>::find_first_cells() {
+    const auto numbers = ranks_.numbers();
+    for (const std::int32_t begin : body_begin_)
+        own_begin_.push_back(static_cast<std::int32_t>(std::ranges::lower_bound(numbers, begin) - numbers.begin()));
+    std::vector<double> mine;  // bodies
+    for (std::size_t body = 0; body + 1 < body_begin_.size(); ++body) {
+        const auto own = own_cells_of(body);
+        if (own.empty() || numbers[static_cast<std::size_t>(own_begin_[body])] != body_begin_[body]) continue;
+        own_first_cells_.push_back(own.front());
+        mine.push_back(static_cast<double>(body));
+    }
+    for (const double body : ranks_.gather(mine)) gathered_body_.push_back(static_cast<std::size_t>(body));
+}
+
+template <int Dim>
+std::vector<Vector<Dim>> RankPart<Dim>::of_first_cells(std::span<const Vector<Dim>> of_part) const {
+    std::vector<double> mine;
+    for (const std::int32_t cell : own_first_cells_)
+        for (const double value : of_part[static_cast<std::size_t>(cell)]) mine.push_back(value);
+    const std::vector<double> all = ranks_.gather(mine);
+    const auto vectors = as_vectors<Dim>(std::span<const double>(all));
+    std::vector<Vector<Dim>> of_bodies(body_begin_.size() - 1, Vector<Dim>::Zero());
+    for (std::size_t i = 0; i < vectors.size(); ++i) of_bodies[gathered_body_[i]] = vectors[i];
+    return of_bodies;
 }
 
 template <int Dim>

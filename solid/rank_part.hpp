@@ -22,6 +22,11 @@ public:
 
     [[nodiscard]] const dynamics::Ranks& ranks() const { return ranks_; }
     [[nodiscard]] std::span<const std::int32_t> own_cells() const { return ranks_.positions(); }
+    /// Of these, those of a body.
+    [[nodiscard]] std::span<const std::int32_t> own_cells_of(std::size_t body) const {
+        const auto begin = static_cast<std::size_t>(own_begin_[body]), end = static_cast<std::size_t>(own_begin_[body + 1]);
+        return own_cells().subspan(begin, end - begin);
+    }
     /// Boundary faces of own cells, increasing: they are boundary faces of the whole mesh, too.
     [[nodiscard]] std::span<const BoundaryFace> own_faces() const { return own_faces_; }
     /// Of these, increasing as their numbers among the boundary faces of the whole mesh do.
@@ -77,6 +82,15 @@ public:
         for (const BoundaryFace face : own_faces_) terms.push_back(term(face));
         return ranks_.fold(start, face_keys_, terms);
     }
+    /// Of values by cell of the part: `ordered_sum` over the cells of a body.
+    template <class Value, class Term>
+    [[nodiscard]] Value sum_of_body(std::size_t body, const Value& zero, const Term& term) const {
+        const auto own = own_cells_of(body);
+        return dynamics::sum_over(ranks_, {.first = body_begin_[body], .last = body_begin_[body + 1]}, std::ssize(own), zero,
+                                  [&](std::ptrdiff_t i) { return term(own[static_cast<std::size_t>(i)]); });
+    }
+    /// Those of the first cell of each body (n_bodies), from values by cell of the part. A call of all ranks.
+    [[nodiscard]] std::vector<Vector<Dim>> of_first_cells(std::span<const Vector<Dim>> of_part) const;
     /// Whether one rank says yes.
     [[nodiscard]] bool any(bool here) const { return ranks_.largest(here ? 1.0 : 0.0) > 0.0; }
 
@@ -84,6 +98,7 @@ private:
     std::span<const Vector<Dim>> fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const;
     void check(const mesh::Mesh<Dim>& mesh) const;
     void set_body_begin(std::int32_t n_bodies);
+    void find_first_cells();
     void order_faces();
     [[nodiscard]] std::size_t position_of(std::int64_t key) const;
 
@@ -94,6 +109,9 @@ private:
     std::vector<std::int64_t> all_face_keys_;     // of all ranks, increasing
     std::vector<std::size_t> gathered_position_;  // among these, of each face as `gather` brings them
     std::vector<std::int32_t> body_begin_;
+    std::vector<std::int32_t> own_begin_;        // among own cells, of each body, one more at the end
+    std::vector<std::int32_t> own_first_cells_;  // first cells of bodies that are own ones
+    std::vector<std::size_t> gathered_body_;     // as `gather` brings the first cells of all ranks
     std::vector<Vector<Dim>> rest_;
     std::vector<double> masses_, inverse_masses_;
     std::vector<std::int32_t> body_;

@@ -32,10 +32,7 @@ inline constexpr double same_time = 1e-6;  // of a step: sums of steps are round
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks* ranks, const Bodies<Dim>& bodies) {
     const SolidOptions<Dim>& options = bodies.options();
-    if (!std::ranges::all_of(options.kinematics, [](Kinematics k) { return k == Kinematics::small; }))
-        dynamics::refuse_ranks(ranks, "a body that turns, bends or is rigid");
-    if (options.contact && bodies.law() == ContactLaw::pair_potential)
-        dynamics::refuse_ranks(ranks, "contact by the pair potential");
+    if (bodies.any_rigid()) dynamics::refuse_ranks(ranks, "a rigid body");
     if (!options.springs.empty() || !options.moments.empty()) dynamics::refuse_ranks(ranks, "a spring or a moment");
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
@@ -69,7 +66,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
                                                 deformable.kinematics);
                             })),
-      frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames())),
+      frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(part_.get()))),
       point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_)),
       all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
       rigid_force_(bodies_->rigid_forces()),
@@ -93,7 +90,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
     if (!options_.contact) return;
     if (bodies_->law() == ContactLaw::pair_potential) {
-        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_);
+        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, part_.get());
     } else {
         auto driver = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, part_.get());
         reconstruction_ = driver.get();
@@ -232,8 +229,9 @@ double Solid<Dim>::potential_here(std::span<const Vector<Dim>> u) {
 template <int Dim>
 double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u) {
     const BoundaryLoad<Dim>& load = loads_->end();
-    if (!part_) return ccg_.potential(in_frames(u, all_cells_), load, corrections());
-    const std::vector<double> of_cells = ccg_.cell_energies(u, load, corrections());
+    const auto in_frame = in_frames(u, all_cells_);
+    if (!part_) return ccg_.potential(in_frame, load, corrections());
+    const std::vector<double> of_cells = ccg_.cell_energies(in_frame, load, corrections());
     const double stored = part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
     if (options_.boundary.dirichlet.empty() && options_.boundary.traction.empty()) return stored;
     return stored - part_->fold_faces(0.0, [&](BoundaryFace face) { return ccg_.traction_work(face, load); });

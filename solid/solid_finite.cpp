@@ -1,12 +1,15 @@
 // What bodies of Kinematics::finite need of a solid beside their operators.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/rank_part.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -15,6 +18,34 @@ namespace {
 constexpr double least_determinant = 0.1;   // det F of a cell
 constexpr double tiny_displacement = 1e-8;  // of the size of a cell
 
+/// Where bodies of Kinematics::finite are deformed most, and how to name the cell.
+struct Extremes {
+    FiniteExtremes values{};  // the cell in the whole mesh
+    std::int64_t label = 0;   // of that cell
+    std::size_t body = 0;
+};
+
+/// Of all ranks, from those of each.
+Extremes of_ranks(const dynamics::Ranks& ranks, const Extremes& here) {
+    const std::vector<double> all =
+        ranks.gather(std::vector{here.values.determinant, here.values.strain, static_cast<double>(here.values.cell),
+                                 static_cast<double>(here.label), static_cast<double>(here.body)});
+    Extremes extremes;
+    FiniteExtremes& values = extremes.values;
+    for (std::size_t i = 0; i < all.size(); i += 5) {
+        values.strain = std::max(values.strain, all[i + 1]);
+        const double determinant = all[i];
+        const auto cell = static_cast<std::int32_t>(all[i + 2]);
+        if (cell < 0 || (determinant >= values.determinant && !(determinant == values.determinant && cell < values.cell)))
+            continue;
+        values.determinant = determinant;
+        values.cell = cell;
+        extremes.label = static_cast<std::int64_t>(all[i + 3]);
+        extremes.body = static_cast<std::size_t>(all[i + 4]);
+    }
+    return extremes;
+}
+
 }  // namespace
 
 /// Gradients of bodies of Kinematics::finite are linear for tiny displacements alone; powers of two cost no digits.
@@ -22,9 +53,14 @@ template <int Dim>
 void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result) {
     if (!bodies_->any_finite()) return ccg_.gradient(u, ccg_.load_free(), {}, result);
     const mesh::Mesh<Dim>& part = bodies_->deformable();
-    double largest = 0.0;
+    double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
     for (const Vector<Dim>& of_cell : u) largest = larger(largest, of_cell.cwiseAbs().maxCoeff());
-    const double size = std::pow(std::ranges::min(part.cell_measure), 1.0 / Dim);
+    for (const double measure : part.cell_measure) smallest = std::min(smallest, measure);
+    if (part_) {
+        largest = part_->ranks().largest(largest);
+        smallest = -part_->ranks().largest(-smallest);
+    }
+    const double size = std::pow(smallest, 1.0 / Dim);
     const double scale = largest > 0.0 ? std::exp2(std::floor(std::log2(tiny_displacement * size / largest))) : 1.0;
     in_frames_.resize(u.size());
     for (std::size_t c = 0; c < u.size(); ++c) in_frames_[c] = scale * u[c];
@@ -36,21 +72,28 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
 template <int Dim>
 void Solid<Dim>::require_no_collapse() {
     if (!bodies_->any_finite()) return;
-    FiniteExtremes now = ccg_.finite_extremes();
-    finite_extremes_.strain = std::max(finite_extremes_.strain, now.strain);
-    if (now.cell < 0) return;
-    now.cell = bodies_->mesh_cell(now.cell);
-    if (!(now.determinant >= finite_extremes_.determinant)) {
-        finite_extremes_.determinant = now.determinant;
-        finite_extremes_.cell = now.cell;
+    Extremes now{ccg_.finite_extremes(part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_))};
+    if (now.values.cell >= 0) {
+        const auto cell = static_cast<std::size_t>(bodies_->mesh_cell(now.values.cell));
+        now.label = mesh_.cell_label[cell];
+        now.body = static_cast<std::size_t>(mesh_.cell_body[cell]);
+        now.values.cell = static_cast<std::int32_t>(part_ ? part_->cell_numbers()[cell] : static_cast<double>(cell));
     }
-    if (now.determinant > least_determinant) return;
-    throw Diverged(mesh_.name + ": cell " + std::to_string(mesh_.cell_label[now.cell]) + " of body '" +
-                       mesh_.body_names[mesh_.cell_body[now.cell]] + "', of Kinematics::finite, has collapsed: det F is " +
-                       number(now.determinant) + ", more than " + number(least_determinant) +
+    if (part_) now = of_ranks(part_->ranks(), now);
+    const auto& [determinant, strain, cell] = now.values;
+    finite_extremes_.strain = std::max(finite_extremes_.strain, strain);
+    if (cell < 0) return;
+    if (!(determinant >= finite_extremes_.determinant)) {
+        finite_extremes_.determinant = determinant;
+        finite_extremes_.cell = cell;
+    }
+    if (determinant > least_determinant) return;
+    throw Diverged(mesh_.name + ": cell " + std::to_string(now.label) + " of body '" + mesh_.body_names[now.body] +
+                       "', of Kinematics::finite, has collapsed: det F is " + number(determinant) + ", more than " +
+                       number(least_determinant) +
                        " is needed (0: a free face is stretched too far). Load it less, refine its mesh, or take a shorter "
                        "time step if it is noise that grows.",
-                   {.cell = now.cell, .value = now.determinant, .allowed = least_determinant});
+                   {.cell = cell, .value = determinant, .allowed = least_determinant});
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                    \

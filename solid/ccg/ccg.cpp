@@ -313,8 +313,8 @@ Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
 }
 
 template <int Dim>
-FiniteExtremes Ccg<Dim>::finite_extremes() const {
-    return impl_->sweeps.finite_extremes();
+FiniteExtremes Ccg<Dim>::finite_extremes(std::span<const std::int32_t> cells) const {
+    return impl_->sweeps.finite_extremes(cells);
 }
 
 template <int Dim>

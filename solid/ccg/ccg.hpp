@@ -171,8 +171,8 @@ public:
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;
     [[nodiscard]] Matrix<Dim> stress(std::int32_t cell) const;
 
-    /// At the end of the step or in the state that `gradient` was called for last.
-    [[nodiscard]] FiniteExtremes finite_extremes() const;
+    /// Of these cells, increasing, at the end of the step or in the state that `gradient` was called for last.
+    [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
 
     /// Of interior faces only; `boundary` has that of the others.
     [[nodiscard]] const StencilReport& stencil_report() const;

@@ -105,7 +105,7 @@ CellStretch CcgSweeps<Dim>::end_stretch(std::ptrdiff_t c) const {
 }
 
 template <int Dim>
-FiniteExtremes CcgSweeps<Dim>::finite_extremes() const {
+FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t> cells) const {
     const auto take = [](FiniteExtremes& extremes, const FiniteExtremes& other) {
         if (!(other.determinant >= extremes.determinant)) {  // or not a number
             extremes.determinant = other.determinant;
@@ -113,9 +113,9 @@ FiniteExtremes CcgSweeps<Dim>::finite_extremes() const {
         }
         extremes.strain = std::max(extremes.strain, other.strain);
     };
-    std::vector<FiniteExtremes> of_part(static_cast<std::size_t>((arrays_.n_cells() + parallel_grain - 1) / parallel_grain));
-    parallel_parts(arrays_.cells.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
-        for (auto c = static_cast<std::int32_t>(begin); c < static_cast<std::int32_t>(end); ++c) {
+    std::vector<FiniteExtremes> of_part((cells.size() + parallel_grain - 1) / parallel_grain);
+    parallel_parts(cells.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
+        for (const std::int32_t c : cells.subspan(begin, end - begin)) {
             if (!finite_.contains(c)) continue;
             const auto [determinant, strain] = end_stretch(c);
             take(of_part[begin / parallel_grain], {determinant, strain, c});
@@ -144,7 +144,7 @@ Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t c) const {
     template void CcgSweeps<Dim>::set_finite_stress(std::ptrdiff_t);                                      \
     template void CcgSweeps<Dim>::add_moments(std::int32_t, std::int32_t);                                \
     template std::pair<Vector<Dim>, Matrix<Dim>> CcgSweeps<Dim>::tilted_face(BoundaryFace) const;         \
-    template FiniteExtremes CcgSweeps<Dim>::finite_extremes() const;                                      \
+    template FiniteExtremes CcgSweeps<Dim>::finite_extremes(std::span<const std::int32_t>) const;         \
     template Matrix<Dim> CcgSweeps<Dim>::cauchy_stress(std::int32_t) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -71,7 +71,7 @@ public:
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
 
     /// See Ccg.
-    [[nodiscard]] FiniteExtremes finite_extremes() const;
+    [[nodiscard]] FiniteExtremes finite_extremes(std::span<const std::int32_t> cells) const;
 
     // Of the last call; displacement gradients and stresses of simplices are made from face and cell displacements.
     [[nodiscard]] Vector<Dim> face_displacement(BoundaryFace b) const {
@@ -188,7 +188,7 @@ private:
     LargeArray<double> g_change_;
     std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
     bool has_change_ = false;
-    std::vector<Chunk> chunks_;  // one more at the end
+    std::vector<Chunk> chunks_;                          // one more at the end
     std::array<std::vector<bool>, n_stages> is_wanted_;  // chunks; empty: all are
     SweepSchedule<n_stages> schedule_;
 };

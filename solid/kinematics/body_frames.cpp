@@ -10,6 +10,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/solid/rank_part.hpp"
 
 namespace abut::solid {
 namespace {
@@ -34,50 +35,6 @@ Register4 load_four(const LargeArray<double>& values, std::ptrdiff_t i) {
     return four;
 }
 
-/// Sums of a (x) (b, 1) over points: a row of four per component of a.
-template <int Dim>
-struct Moments {
-    std::array<Register4, Dim> row{};
-
-    void add(Lanes<Dim> a, Register4 b) {
-        for (int k = 0; k < Dim; ++k) row[k] += a[k] * b;
-    }
-    Moments& operator+=(const Moments& other) {
-        for (int k = 0; k < Dim; ++k) row[k] += other.row[k];
-        return *this;
-    }
-    [[nodiscard]] Matrix<Dim> product() const {
-        Matrix<Dim> m;
-        for (int k = 0; k < Dim; ++k)
-            for (int j = 0; j < Dim; ++j) m(k, j) = row[k][j];
-        return m;
-    }
-    [[nodiscard]] Vector<Dim> sum() const {
-        Vector<Dim> s;
-        for (int k = 0; k < Dim; ++k) s[k] = row[k][Dim];
-        return s;
-    }
-};
-
-/// Over points [begin, end), in blocks of fixed size.
-template <int Dim, class Add>
-Moments<Dim> sum_moments(std::int32_t begin, std::int32_t end, const Add& add) {
-    const std::ptrdiff_t n_blocks = (end - begin + parallel_grain - 1) / parallel_grain;
-    const auto sum_of_block = [&](std::ptrdiff_t block) {
-        Moments<Dim> sum;
-        const std::ptrdiff_t first = begin + block * parallel_grain;
-        for (std::ptrdiff_t i = first; i < std::min<std::ptrdiff_t>(end, first + parallel_grain); ++i) add(sum, i);
-        return sum;
-    };
-    if (n_blocks == 1) return sum_of_block(0);
-    std::vector<Moments<Dim>> sums(static_cast<std::size_t>(n_blocks));
-    parallel_each(
-        n_blocks, [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); }, 4);
-    Moments<Dim> total;
-    for (const Moments<Dim>& sum : sums) total += sum;
-    return total;
-}
-
 /// (a, 1)
 template <int Dim>
 Register4 with_one(Lanes<Dim> a) {
@@ -96,8 +53,10 @@ double largest_bits(double a, double b) {
 
 template <int Dim>
 BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses,
-                            std::vector<std::int32_t> begin, std::vector<bool> turns, std::span<const std::string> names)
-    : begin_(std::move(begin)),
+                            std::vector<std::int32_t> begin, std::vector<bool> turns, std::span<const std::string> names,
+                            const RankPart<Dim>* part)
+    : part_(part),
+      begin_(std::move(begin)),
       turns_(std::move(turns)),
       any_turns_(std::ranges::find(turns_, true) != turns_.end()),
       rest_(turns_.size()),
@@ -105,44 +64,137 @@ BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const d
       lambda_(turns_.size(), AxialVector<Dim>::Zero()) {
     arm_.resize(lane_width<Dim> * rest.size());
     weighted_arm_.resize(4 * rest.size());
-    for (std::size_t body = 0; body < turns_.size(); ++body) {
+    mass_.resize(turns_.size());
+    for (std::size_t body = 0; body < turns_.size(); ++body)
         body_.resize(static_cast<std::size_t>(begin_[body + 1]), static_cast<std::int32_t>(body));
-        if (begin_[body] == begin_[body + 1]) {  // of a part of a mesh, which has none of its cells
-            mass_.push_back(0.0);
-            continue;
-        }
-        const Vector<Dim> origin = rest[begin_[body]];
-        double mass = 0.0;
-        Vector<Dim> moment = Vector<Dim>::Zero();
+    set_rest(rest, masses);
+    for (std::size_t body = 0; body < turns_.size(); ++body)
+        if (turns_[body]) require_width<Dim>(rest_[body].moment, names[body]);
+    start_ = end_ = state_ = rest_;
+}
+
+template <int Dim>
+void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<const double> masses) {
+    const std::vector<Vector<Dim>> origins = of_first_points(rest);
+    for (std::size_t body = 0; body < turns_.size(); ++body) {
+        BodyFrame<Dim>& frame = rest_[body];
+        mass_[body] = sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses[i]; });
+        const Vector<Dim> moment = sum_of(body, Vector<Dim>(Vector<Dim>::Zero()), [&](std::ptrdiff_t i) -> Vector<Dim> {
+            return masses[i] * (rest[i] - origins[body]);
+        });
+        frame.centre = origins[body] + moment / mass_[body];
         for (std::int32_t i = begin_[body]; i < begin_[body + 1]; ++i) {
-            mass += masses[i];
-            moment += masses[i] * (rest[i] - origin);
-        }
-        mass_.push_back(mass);
-        rest_[body].centre = origin + moment / mass;
-        rest_[body].moment.setZero();
-        for (std::int32_t i = begin_[body]; i < begin_[body + 1]; ++i) {
-            const Vector<Dim> arm = rest[i] - rest_[body].centre;
-            rest_[body].moment += masses[i] * arm * arm.transpose();
+            const Vector<Dim> arm = rest[i] - frame.centre;
             store(load_packed<Dim>(arm), arm_, i);
             for (int k = 0; k < Dim; ++k) weighted_arm_[4 * i + k] = masses[i] * arm[k];
             weighted_arm_[4 * i + Dim] = masses[i];
         }
-        if (turns_[body]) require_width<Dim>(rest_[body].moment, names[body]);
+        frame.moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::ptrdiff_t i) -> Matrix<Dim> {
+            const Vector<Dim> arm = rest[i] - frame.centre;
+            return masses[i] * arm * arm.transpose();
+        });
     }
-    start_ = end_ = state_ = rest_;
 }
+
+// Sums and loops over the points of a body ---------------------------------------------------------------------------
+
+/// Of each body its first point among those of all ranks.
+template <int Dim>
+std::vector<Vector<Dim>> BodyFrames<Dim>::of_first_points(std::span<const Vector<Dim>> of_points) const {
+    if (part_) return part_->of_first_cells(of_points);
+    std::vector<Vector<Dim>> first;
+    for (std::size_t body = 0; body < turns_.size(); ++body) first.push_back(of_points[begin_[body]]);
+    return first;
+}
+
+/// Of term(point) in blocks of fixed size, whatever ranks they are on.
+template <int Dim>
+template <class Value, class Term>
+Value BodyFrames<Dim>::sum_of(std::size_t body, const Value& zero, const Term& term) const {
+    if (part_) return part_->sum_of_body(body, zero, term);
+    return ordered_sum(begin_[body + 1] - begin_[body], zero, [&](std::ptrdiff_t i) { return term(begin_[body] + i); });
+}
+
+/// Sums of a (x) (b, 1) over points: a row of four per component of a.
+template <int Dim>
+struct BodyFrames<Dim>::Moments {
+    using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;
+    std::array<Register4, Dim> row{};
+
+    void add(const std::pair<Lanes<Dim>, Register4>& factors) {
+        for (int k = 0; k < Dim; ++k) row[k] += factors.first[k] * factors.second;
+    }
+    Moments& operator+=(const Moments& other) {
+        for (int k = 0; k < Dim; ++k) row[k] += other.row[k];
+        return *this;
+    }
+    [[nodiscard]] Sums all() const {
+        Sums sums;
+        for (int k = 0; k < Dim; ++k)
+            for (int j = 0; j <= Dim; ++j) sums(k, j) = row[k][j];
+        return sums;
+    }
+    [[nodiscard]] Matrix<Dim> product() const { return all().template leftCols<Dim>(); }
+    [[nodiscard]] Vector<Dim> sum() const { return all().col(Dim); }
+};
+
+/// `factors(point)`: a, and (b, 1). Blocks as those of `sum_of`.
+template <int Dim>
+template <class Factors>
+auto BodyFrames<Dim>::sum_moments(std::size_t body, const Factors& factors) const -> Moments {
+    if (part_) {
+        const auto sums = part_->sum_of_body(body, typename Moments::Sums(Moments::Sums::Zero()), [&](std::int32_t i) {
+            Moments term;
+            term.add(factors(i));
+            return term.all();
+        });
+        Moments total;
+        for (int k = 0; k < Dim; ++k)
+            for (int j = 0; j <= Dim; ++j) total.row[k][j] = sums(k, j);
+        return total;
+    }
+    const std::int32_t begin = begin_[body], end = begin_[body + 1];
+    const std::ptrdiff_t n_blocks = (end - begin + parallel_grain - 1) / parallel_grain;
+    const auto sum_of_block = [&](std::ptrdiff_t block) {
+        Moments sum;
+        const std::ptrdiff_t first = begin + block * parallel_grain;
+        for (std::ptrdiff_t i = first; i < std::min<std::ptrdiff_t>(end, first + parallel_grain); ++i) sum.add(factors(i));
+        return sum;
+    };
+    if (n_blocks == 1) return sum_of_block(0);
+    std::vector<Moments> sums(static_cast<std::size_t>(n_blocks));
+    parallel_each(
+        n_blocks, [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); }, 4);
+    Moments total;
+    for (const Moments& sum : sums) total += sum;
+    return total;
+}
+
+/// Calls of_point(point) for all points of a body, or those of this rank.
+template <int Dim>
+template <class Body>
+void BodyFrames<Dim>::for_each_wanted(std::size_t body, const Body& of_point) const {
+    if (part_) {
+        const auto own = part_->own_cells_of(body);
+        parallel_each(std::ssize(own), [&](std::ptrdiff_t at) { of_point(own[static_cast<std::size_t>(at)]); });
+        return;
+    }
+    const std::ptrdiff_t begin = begin_[body];
+    parallel_each(begin_[body + 1] - begin, [&](std::ptrdiff_t at) { of_point(begin + at); });
+}
+
+// Places of the frames -----------------------------------------------------------------------------------------------
 
 /// Displacements enter by their differences to that of the first point: a body far from where it began loses no digits.
 template <int Dim>
 void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const {
+    const std::vector<Vector<Dim>> origins = of_first_points(q);
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         if (!turns_[body]) continue;
-        const Lanes<Dim> origin = load_packed<Dim>(q[begin_[body]]);
-        const Moments<Dim> sums = sum_moments<Dim>(begin_[body], begin_[body + 1], [&](Moments<Dim>& sum, std::ptrdiff_t i) {
-            sum.add(load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
-        });
-        frames[body].centre = rest_[body].centre + q[begin_[body]] + sums.sum() / mass_[body];
+        const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
+        const Moments sums = sum_moments(
+            body, [&](std::ptrdiff_t i) { return std::pair(load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i)); });
+        frames[body].centre = rest_[body].centre + origins[body] + sums.sum() / mass_[body];
         frames[body].moment = rest_[body].moment + sums.product();
         frames[body].turn = nearest_rotation<Dim>(frames[body].moment);
     }
@@ -232,6 +284,7 @@ double BodyFrames<Dim>::take_midpoints(std::span<const Vector<Dim>> q_0, std::sp
         };
         farthest = larger(farthest, largest((n + parallel_grain - 1) / parallel_grain, take_block, 4));
     }
+    if (part_) farthest = part_->ranks().largest(farthest);
     return std::sqrt(farthest);
 }
 
@@ -240,10 +293,8 @@ void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const
                                std::span<const BodyPush<Dim>> pushes, std::span<const Vector<Dim>> force,
                                std::span<Vector<Dim>> gradient) {
     for (std::size_t body = 0; body < turns_.size(); ++body) {
-        const std::int32_t begin = begin_[body], end = begin_[body + 1];
         if (!turns_[body]) {
-            parallel_each(end - begin, [&](std::ptrdiff_t at) {
-                const std::ptrdiff_t i = begin + at;
+            for_each_wanted(body, [&](std::ptrdiff_t i) {
                 gradient[i] = force.empty() ? Vector<Dim>(-gradient[i]) : Vector<Dim>(force[i] - gradient[i]);
             });
             continue;
@@ -252,17 +303,16 @@ void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const
         const Matrix<Dim>& turn = steps_[body].mean_turn();
         const Vector<Dim> mean_centre = 0.5 * (start()[body].centre + this->end()[body].centre);
         const Lanes<Dim> shift = load_packed<Dim>(Vector<Dim>(mean_centre - rest_[body].centre));
-        const Moments<Dim> sums = sum_moments<Dim>(begin, end, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+        const Moments sums = sum_moments(body, [&](std::ptrdiff_t i) {
             const Lanes<Dim> moved = 0.5 * (load_packed<Dim>(q_0[i]) + load_packed<Dim>(q_1[i])) - shift;
-            sum.add(load_packed<Dim>(gradient[i]), with_one(rest_arm(i) + moved));
+            return std::pair(load_packed<Dim>(gradient[i]), with_one(rest_arm(i) + moved));
         });
         lambda_[body] = steps_[body].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.product())));
         // dV/dx = turn f + (turn hat(lambda)) m X' + m missing
         const LaneTensor<Dim> turning = load_packed<Dim>(turn);
         const LaneTensor<Dim> carrying = load_packed<Dim>(Matrix<Dim>(turn * hat<Dim>(lambda_[body])));
         const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.sum()) / mass_[body]));
-        parallel_each(end - begin, [&](std::ptrdiff_t at) {
-            const std::ptrdiff_t i = begin + at;
+        for_each_wanted(body, [&](std::ptrdiff_t i) {
             const Register4 weighted = load_four(weighted_arm_, i);
             Lanes<Dim> sum = turning * load_packed<Dim>(gradient[i]) + weighted[Dim] * missing;
             for (int k = 0; k < Dim; ++k) sum += weighted[k] * carrying.col[k];

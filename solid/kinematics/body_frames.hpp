@@ -10,6 +10,9 @@
 
 namespace abut::solid {
 
+template <int Dim>
+class RankPart;
+
 /// Gradients p = dV/dx of points of a body that move with the points of its system, as corners of faces do, summed up.
 template <int Dim>
 struct BodyPush {
@@ -31,9 +34,11 @@ template <int Dim>
 class BodyFrames {
 public:
     /// Points of body b are [begin[b], begin[b + 1]); `turns`: whether its frame moves. Throws BadInput for a body
-    /// that turns in space while its points lie on a line, or in a point.
+    /// that turns in space while its points lie on a line, or in a point. `part`: on several ranks, of whose part of the mesh
+    /// these points are; it must outlive this then, all that places the frames and `take_midpoints` and `to_force` are calls
+    /// of all ranks, and only the gradients of own cells become forces. Null on one rank.
     BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
-               std::vector<bool> turns, std::span<const std::string> names);
+               std::vector<bool> turns, std::span<const std::string> names, const RankPart<Dim>* part = nullptr);
 
     [[nodiscard]] std::size_t n_bodies() const { return turns_.size(); }
     [[nodiscard]] bool any_turns() const { return any_turns_; }
@@ -72,14 +77,24 @@ public:
     [[nodiscard]] Vector<Dim> point_to_space(std::int32_t point, const Vector<Dim>& gradient) const;
 
 private:
+    struct Moments;
     void place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const;
     void stand_in(const std::vector<BodyFrame<Dim>>& frames);
     void set_steps();
+    void set_rest(std::span<const Vector<Dim>> rest, std::span<const double> masses);
+    [[nodiscard]] std::vector<Vector<Dim>> of_first_points(std::span<const Vector<Dim>> of_points) const;
+    template <class Value, class Term>
+    [[nodiscard]] Value sum_of(std::size_t body, const Value& zero, const Term& term) const;
+    template <class Factors>
+    [[nodiscard]] Moments sum_moments(std::size_t body, const Factors& factors) const;
+    template <class Body>
+    void for_each_wanted(std::size_t body, const Body& of_point) const;
     [[nodiscard]] Lanes<Dim> rest_arm(std::ptrdiff_t point) const { return load_packed<Dim>(arm_, point); }
     class IntoFrame;
 
     LargeArray<double> arm_;           // X', packed, by point
     LargeArray<double> weighted_arm_;  // (m X', m), four numbers per point
+    const RankPart<Dim>* part_;
     std::vector<std::int32_t> begin_;
     std::vector<bool> turns_;
     bool any_turns_ = false;

@@ -12,6 +12,7 @@
 #include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/copy_layers.hpp"
 #include "abut/solid/solid.hpp"
 #include "ranks/world.hpp"
 
@@ -48,13 +49,23 @@ struct SharedSolid {
     }
 };
 
-/// Velocities of the bodies, and what else differs from cell to cell: waves.
+/// What makes velocities differ from cell to cell.
+struct Stir {
+    double waves = 0.01;  ///< their amplitude [m/s]
+    double spin = 0.0;    ///< of all bodies about the third axis [rad/s]
+};
+
+/// Velocities of the bodies, and what else differs from cell to cell.
 template <int Dim>
-std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity, double waves) {
+std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity,
+                                const Stir& stir) {
     std::vector<double> momentum = solid::uniform_momentum<Dim>(solid, body_velocity);
     for (std::size_t i = 0; i < momentum.size(); ++i) {
         const Vector<Dim>& x = solid.rest_positions()[i / Dim];
-        momentum[i] += waves * solid.masses()[i / Dim] * std::sin(7.0 * x.sum() + static_cast<double>(i % Dim));
+        double velocity = stir.waves * std::sin(7.0 * x.sum() + static_cast<double>(i % Dim));
+        if (i % Dim == 0) velocity -= stir.spin * x[1];
+        if (i % Dim == 1) velocity += stir.spin * x[0];
+        momentum[i] += solid.masses()[i / Dim] * velocity;
     }
     return momentum;
 }
@@ -64,15 +75,15 @@ std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const 
 template <int Dim, template <class> class Scheme = dynamics::Memm>
 contact::ContactReport check_same_bits(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole,
                                        const solid::SolidOptions<Dim>& options, std::span<const Vector<Dim>> body_velocity,
-                                       int steps, std::span<const int> owner, double waves = 0.01) {
+                                       int steps, std::span<const int> owner, const Stir& stir = {}) {
     solid::Solid<Dim> alone(whole, options);
-    SharedSolid<Dim> shared(all, whole, options, owner);
+    SharedSolid<Dim> shared(all, whole, options, owner, solid::copy_layers(options.kinematics));
     solid::Solid<Dim>& solid = shared.solid;
     const auto stable = dynamics::stable_step(alone), of_ranks = dynamics::stable_step(solid);
     CHECK(stable.dt == of_ranks.dt);
     CHECK(stable.omega_max == of_ranks.omega_max);
-    const std::vector<double> p_0 = momentum_of<Dim>(alone, body_velocity, waves),
-                              p_0_here = momentum_of<Dim>(solid, body_velocity, waves);
+    const std::vector<double> p_0 = momentum_of<Dim>(alone, body_velocity, stir),
+                              p_0_here = momentum_of<Dim>(solid, body_velocity, stir);
     REQUIRE(everywhere(all, same_bits(shared.own(p_0), p_0_here)));
     const double dt = 0.9 * stable.dt;
     Scheme<solid::Solid<Dim>> run(alone, std::vector<double>(alone.size(), 0.0), p_0, dt),
