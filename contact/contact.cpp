@@ -28,13 +28,13 @@ constexpr std::uint32_t state_version = 4;
 template <int Dim>
 class Contact<Dim>::Implementation {
 public:
-    Implementation(SurfaceView<Dim> surface, const ContactOptions& options)
+    Implementation(SurfaceView<Dim> surface, const ContactOptions& options, Sharing* sharing)
         : surface_(surface),
           options_(checked(options)),
-          candidates_(surface, options.search),
+          candidates_(surface, options.search, sharing),
           admission_(surface_, list_, options.area),
-          pieces_(options),
-          law_(options) {}
+          pieces_(options, sharing),
+          law_(options, sharing) {}
 
     const ContactStep<Dim>& step(const HostStep<Dim>& host) {
         check_host_step(surface_, host);
@@ -275,8 +275,8 @@ private:
 };
 
 template <int Dim>
-Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options)
-    : implementation_(std::make_unique<Implementation>(surface, options)) {}
+Contact<Dim>::Contact(SurfaceView<Dim> surface, const ContactOptions& options, Sharing* sharing)
+    : implementation_(std::make_unique<Implementation>(surface, options, sharing)) {}
 template <int Dim>
 Contact<Dim>::~Contact() = default;
 template <int Dim>

@@ -10,6 +10,7 @@
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/sharing.hpp"
 #include "abut/contact/step.hpp"
 #include "abut/contact/surface.hpp"
 
@@ -47,9 +48,9 @@ struct HostStep {
 template <int Dim>
 class Contact {
 public:
-    /// Keeps the view: the host's arrays must outlive it. Throws BadInput naming what is wrong: a surface that `check`
-    /// refuses, or an option out of range.
-    explicit Contact(SurfaceView<Dim> surface, const ContactOptions& options = {});
+    /// Keeps the view: the host's arrays must outlive it, and `sharing` as well, which is null where nobody shares the work.
+    /// Throws BadInput naming what is wrong: a surface that `check` refuses, or an option out of range.
+    explicit Contact(SurfaceView<Dim> surface, const ContactOptions& options = {}, Sharing* sharing = nullptr);
     ~Contact();
     Contact(Contact&&) noexcept;
     Contact& operator=(Contact&&) noexcept;

@@ -33,12 +33,13 @@ double quarter_weight_cosine(const geometry::FacingFade& facing) {
 template <int Dim>
 class NodalContact<Dim>::Implementation {
 public:
-    Implementation(NodalSurface<Dim>&& surface, NodalOptions&& options)
+    Implementation(NodalSurface<Dim>&& surface, NodalOptions&& options, Sharing* sharing)
         : surface_(std::move(surface)),
           options_(checked(std::move(options))),
-          candidates_(surface_.facets().view(), options_.search),
-          pairs_(options_.facing),
-          law_(options_.events) {
+          sharing_(sharing),
+          candidates_(surface_.facets().view(), options_.search, sharing),
+          pairs_(options_.facing, sharing),
+          law_(options_.events, sharing) {
         find_least_force_size();
     }
     Implementation(const Implementation&) = delete;  // the search has a view of the surface
@@ -128,7 +129,7 @@ public:
     void surface_replaced(NodalSurface<Dim>&& surface, std::span<const std::int32_t> old_face_of) {
         PairStore store = carried_over(store_, surface_, surface, old_face_of);
         std::vector<std::int32_t> new_facets = facets_that_come(new_facets_, surface_, surface, old_face_of);
-        CandidateSearch<Dim> candidates(surface.facets().view(), options_.search);
+        CandidateSearch<Dim> candidates(surface.facets().view(), options_.search, sharing_);
         candidates.restore_skin(candidates_.next_skin());
         // The views of the new search are of arrays that stay where they are when the surface is moved.
         surface_ = std::move(surface);
@@ -284,6 +285,7 @@ private:
 
     NodalSurface<Dim> surface_;
     NodalOptions options_;
+    Sharing* sharing_;  // null: nobody shares the work
     CandidateSearch<Dim> candidates_;
     bool has_searched_ = false;  // once at least: the run has begun
     bool list_holds_ = false;    // the last search came to its end
@@ -307,8 +309,8 @@ void detail::check_force_size(std::int64_t given, std::int32_t needed) {
 }
 
 template <int Dim>
-NodalContact<Dim>::NodalContact(NodalSurface<Dim> surface, NodalOptions options)
-    : implementation_(std::make_unique<Implementation>(std::move(surface), std::move(options))) {}
+NodalContact<Dim>::NodalContact(NodalSurface<Dim> surface, NodalOptions options, Sharing* sharing)
+    : implementation_(std::make_unique<Implementation>(std::move(surface), std::move(options), sharing)) {}
 template <int Dim>
 NodalContact<Dim>::~NodalContact() = default;
 template <int Dim>

@@ -13,6 +13,7 @@
 #include "abut/contact/options.hpp"
 #include "abut/contact/report.hpp"
 #include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/sharing.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
@@ -53,8 +54,8 @@ struct NodalStableStep {
 template <int Dim>
 class NodalContact {
 public:
-    /// Throws BadInput for an option out of range.
-    explicit NodalContact(NodalSurface<Dim> surface, NodalOptions options = {});
+    /// `sharing` must outlive it; null: nobody shares the work. Throws BadInput for an option out of range.
+    explicit NodalContact(NodalSurface<Dim> surface, NodalOptions options = {}, Sharing* sharing = nullptr);
     ~NodalContact();
     NodalContact(NodalContact&&) noexcept;
     NodalContact& operator=(NodalContact&&) noexcept;

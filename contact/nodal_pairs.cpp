@@ -45,6 +45,27 @@ geometry::PairOutlook<Dim> outlook_of(const geometry::PairOutlook<Dim>& found) {
     return nothing;
 }
 
+/// All that is asked of it: of one that may not act, whether it is apart.
+template <int Dim>
+void write_outlook(const geometry::PairOutlook<Dim>& outlook, ShareWriter& out) {
+    out.put(outlook.may_act);
+    out.put(outlook.is_apart);
+    if (!outlook.may_act) return;
+    out.put(outlook.normal);
+    out.put(outlook.aside);
+    out.put(outlook.aside_allowance);
+}
+
+template <int Dim>
+void read_outlook(geometry::PairOutlook<Dim>& outlook, ShareReader& in) {
+    outlook.may_act = in.get<bool>();
+    outlook.is_apart = in.get<bool>();
+    if (!outlook.may_act) return;
+    outlook.normal = in.get<Vector<Dim>>();
+    outlook.aside = in.get<Vector<Dim>>();
+    outlook.aside_allowance = in.get<double>();
+}
+
 BodyPair in_order(std::int32_t body_1, std::int32_t body_2) { return {std::min(body_1, body_2), std::max(body_1, body_2)}; }
 
 /// Index of a value in a sorted list that has it.
@@ -87,16 +108,29 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const F
 template <int Dim>
 void NodalPairs<Dim>::look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, double reach) {
     outlooks_.resize(pairs_.size());
-    parallel_each(
-        std::ssize(pairs_),
-        [&](std::ptrdiff_t p) {
-            const NodalPair<Dim>& pair = pairs_[p];
-            const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
-            double farthest = reach;
-            for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
-            outlooks_[p] = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression_ * pair.admission_depth);
+    const auto look = [&](const IndexRange& range) {
+        parallel_each(
+            static_cast<std::ptrdiff_t>(range.size()),
+            [&](std::ptrdiff_t i) {
+                const std::size_t p = range.begin + static_cast<std::size_t>(i);
+                const NodalPair<Dim>& pair = pairs_[p];
+                const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
+                double farthest = reach;
+                for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
+                outlooks_[p] = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression_ * pair.admission_depth);
+            },
+            grain);
+    };
+    if (!shared_.is_worth(pairs_.size())) return look({0, pairs_.size()});
+    shared_.run(
+        pairs_.size(),
+        [&](const IndexRange& mine, ShareWriter& out) {
+            look(mine);
+            for (std::size_t p = mine.begin; p < mine.end; ++p) write_outlook(outlooks_[p], out);
         },
-        grain);
+        [&](const IndexRange& range, ShareReader& in) {
+            for (std::size_t p = range.begin; p < range.end; ++p) read_outlook(outlooks_[p], in);
+        });
 }
 
 template <int Dim>

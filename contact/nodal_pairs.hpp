@@ -12,6 +12,7 @@
 #include "abut/contact/admission.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/shared_work.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
 namespace abut::contact {
@@ -48,7 +49,8 @@ struct BodyPair {
 template <int Dim>
 class NodalPairs {
 public:
-    explicit NodalPairs(const geometry::FacingFade& facing) : facing_(facing) {}
+    explicit NodalPairs(const geometry::FacingFade& facing, Sharing* sharing = nullptr)
+        : facing_(facing), shared_(sharing) {}
 
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
     /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
@@ -80,6 +82,7 @@ private:
     [[nodiscard]] bool is_pruned_at(PointsView<Dim> x) const;
 
     geometry::FacingFade facing_;
+    SharedWork shared_;
     std::vector<NodalPair<Dim>> pairs_;
     double compression_ = 0.0;  // |g|/D up to which pairs can act
     std::vector<std::int32_t> nodes_;

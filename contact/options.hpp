@@ -39,7 +39,8 @@ struct CandidateOptions {
     int self_contact_rings = 1;
     /// [-] > 0: a face that moves farther within a step than this times the extent of all surfaces together has diverged
     double largest_motion = 1.0;
-    /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list
+    /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list; where parts share a search
+    /// (Sharing), of each of them
     geometry::SearchLimits limits;
     /// Pairs of bodies of the surface, in either order, that pass through each other: none of their faces are candidates
     std::vector<std::array<std::int32_t, 2>> ignored_bodies = {};

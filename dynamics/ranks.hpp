@@ -22,12 +22,13 @@ struct Summands {
 /// The ranks that the points of a system are shared out to, as one of them sees them; a system on one rank has none of this
 /// (a null pointer). The points of a rank are numbered in the order of their numbers among all points.
 ///
-/// Every function but the first five is a call of all ranks together: each waits until the others call the same.
+/// Every function but the first six is a call of all ranks together: each waits until the others call the same.
 class Ranks {
 public:
     virtual ~Ranks() = default;
 
-    [[nodiscard]] virtual int rank() const = 0;  ///< this one, from 0
+    [[nodiscard]] virtual int rank() const = 0;     ///< this one, from 0
+    [[nodiscard]] virtual int n_ranks() const = 0;  ///< with this one
     /// Of this rank's points among all, increasing (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> numbers() const = 0;
     /// Of this rank's points among the cells of its part of the mesh, increasing (n_owned).
@@ -47,6 +48,8 @@ public:
     [[nodiscard]] virtual std::vector<double> collect(std::span<const double> values, int width) const = 0;
     /// The values of all ranks on all of them, rank after rank.
     [[nodiscard]] virtual std::vector<double> gather(std::span<const double> values) const = 0;
+    /// The bytes of all ranks on all of them, rank after rank; they stay until the next call.
+    [[nodiscard]] virtual std::span<const std::byte> gather_bytes(std::span<const std::byte> mine) const = 0;
     /// The largest of all ranks; NaN if one is.
     [[nodiscard]] virtual double largest(double value) const = 0;
     /// Returns where no rank brings an error. Else it throws on all ranks the error of the first rank that has one: on the

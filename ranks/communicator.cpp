@@ -53,6 +53,26 @@ std::vector<int> offsets_of(const std::vector<int>& counts) {
     return offsets;
 }
 
+std::span<const std::byte> BytesOfRanks::gather(const Communicator& communicator, std::span<const std::byte> mine) {
+    const auto n_ranks = static_cast<std::size_t>(communicator.size());
+    const auto size = static_cast<std::int64_t>(mine.size());
+    sizes_.resize(n_ranks);
+    require(MPI_Allgather(&size, 1, MPI_INT64_T, sizes_.data(), 1, MPI_INT64_T, handle(communicator)), "MPI_Allgather");
+    counts_.clear();
+    offsets_.clear();
+    std::size_t total = 0;
+    for (const std::int64_t n : sizes_) {
+        offsets_.push_back(as_count(total));
+        counts_.push_back(as_count(static_cast<std::size_t>(n)));
+        total += static_cast<std::size_t>(n);
+    }
+    all_.resize(static_cast<std::size_t>(as_count(total)));
+    require(MPI_Allgatherv(mine.data(), counts_[static_cast<std::size_t>(communicator.rank())], MPI_BYTE, all_.data(),
+                           counts_.data(), offsets_.data(), MPI_BYTE, handle(communicator)),
+            "MPI_Allgatherv");
+    return all_;
+}
+
 Communicator::Impl::~Impl() {
     if (comm != MPI_COMM_NULL && is_running()) MPI_Comm_free(&comm);
 }

@@ -56,7 +56,7 @@ void agreed(const Communicator& communicator, const Body& body) {
 
 template <class T>
 requires(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::int64_t>)
-[[nodiscard]] MPI_Datatype type_of() {
+    [[nodiscard]] MPI_Datatype type_of() {
     if constexpr (std::is_same_v<T, double>) return MPI_DOUBLE;
     if constexpr (std::is_same_v<T, std::int32_t>) return MPI_INT32_T;
     if constexpr (std::is_same_v<T, std::int64_t>) return MPI_INT64_T;
@@ -123,6 +123,18 @@ template <class T>
             "MPI_Allgatherv");
     return result;
 }
+
+/// All bytes of all ranks, on all of them. An instance keeps them from call to call.
+class BytesOfRanks {
+public:
+    /// Valid until the next call. Throws LimitExceeded on all ranks where MPI cannot take as many.
+    [[nodiscard]] std::span<const std::byte> gather(const Communicator& communicator, std::span<const std::byte> mine);
+
+private:
+    std::vector<std::int64_t> sizes_;
+    std::vector<int> counts_, offsets_;
+    std::vector<std::byte> all_;
+};
 
 /// What rank `root` has, on all ranks.
 template <class T>

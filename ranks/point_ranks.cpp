@@ -97,6 +97,7 @@ struct PointRanks::Impl {
     Exchange exchange;
     OrderedSums sums;
     Traffic traffic;
+    BytesOfRanks bytes;
 
     Impl(const Communicator& all, SharedPoints shared)
         : communicator(all),
@@ -111,6 +112,7 @@ PointRanks::PointRanks(const Communicator& communicator, SharedPoints points)
 PointRanks::~PointRanks() = default;
 
 int PointRanks::rank() const { return impl_->communicator.rank(); }
+int PointRanks::n_ranks() const { return impl_->communicator.size(); }
 std::span<const std::int32_t> PointRanks::numbers() const { return impl_->points.numbers; }
 std::span<const std::int32_t> PointRanks::positions() const { return impl_->points.position; }
 std::int32_t PointRanks::n_points() const { return impl_->points.n_points; }
@@ -156,6 +158,13 @@ std::vector<double> PointRanks::gather(std::span<const double> values) const {
     ++impl_->traffic.gathers;
     std::vector<double> all = gather_to_all<double>(impl_->communicator, values).values;
     impl_->traffic.gathered_bytes += static_cast<std::int64_t>((all.size() - values.size()) * sizeof(double));
+    return all;
+}
+
+std::span<const std::byte> PointRanks::gather_bytes(std::span<const std::byte> mine) const {
+    ++impl_->traffic.gathers;
+    const auto all = impl_->bytes.gather(impl_->communicator, mine);
+    impl_->traffic.gathered_bytes += static_cast<std::int64_t>(all.size() - mine.size());
     return all;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -42,6 +43,7 @@ public:
     ~PointRanks() override;
 
     [[nodiscard]] int rank() const override;
+    [[nodiscard]] int n_ranks() const override;
     [[nodiscard]] std::span<const std::int32_t> numbers() const override;
     [[nodiscard]] std::span<const std::int32_t> positions() const override;
     [[nodiscard]] std::int32_t n_points() const override;
@@ -52,6 +54,7 @@ public:
                               std::span<const double> terms) const override;
     [[nodiscard]] std::vector<double> collect(std::span<const double> values, int width) const override;
     [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override;
+    [[nodiscard]] std::span<const std::byte> gather_bytes(std::span<const std::byte> mine) const override;
     [[nodiscard]] double largest(double value) const override;
     void agree(const std::exception_ptr& error) const override;
 

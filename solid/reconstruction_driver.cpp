@@ -36,8 +36,9 @@ ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, con
       obstacles_(options.obstacles),
       ranks_(part ? std::make_unique<RankFaces<Dim>>(*part, mesh, ccg) : nullptr),
       watch_(ccg, part ? &part->ranks() : nullptr) {
+    if (part) sharing_.emplace(part->ranks());
     build_surface();
-    contact_.emplace(surface_.view(), options_);
+    make_contact();
 }
 
 template <int Dim>
@@ -242,7 +243,7 @@ void ReconstructionDriver<Dim>::require_valid_at(std::span<const Vector<Dim>> q,
                          " m is allowed in a state that no step has reached. Step there, make a Solid for every run, or "
                          "raise CandidateOptions::skin.",
                      {.value = motion, .allowed = 0.5 * contact_->skin()});
-    if (!has_stepped_) contact_.emplace(surface_.view(), options_);
+    if (!has_stepped_) make_contact();
     search(q, q, time, 0.0);
 }
 

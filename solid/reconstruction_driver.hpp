@@ -16,6 +16,7 @@
 #include "abut/solid/loads.hpp"
 #include "abut/solid/options.hpp"
 #include "abut/solid/rank_faces.hpp"
+#include "abut/solid/rank_sharing.hpp"
 
 namespace abut::solid {
 
@@ -27,7 +28,7 @@ template <int Dim>
 class ReconstructionDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; where the time goes is added to `times`. `part` is null on one rank; on several
-    /// each does all pairs, from faces that are evaluated where their cells are. Throws as contact::Contact.
+    /// faces are evaluated where their cells are, and each does its share of the pairs. Throws as contact::Contact.
     ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
                          const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>* part);
 
@@ -87,6 +88,7 @@ public:
 
 private:
     void build_surface();
+    void make_contact() { contact_.emplace(surface_.view(), options_, sharing_ ? &*sharing_ : nullptr); }
     void append_faces();
     [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::SurfaceFace> faces);
     [[nodiscard]] bool is_of_obstacle(contact::SurfaceFace face) const {
@@ -114,6 +116,7 @@ private:
     contact::Surface<Dim> surface_;                  // deformable faces, then those of the obstacles
     std::vector<BoundaryFace> boundary_of_surface_;  // of each deformable surface face; `no_face`: it is on other ranks
     std::unique_ptr<RankFaces<Dim>> ranks_;          // null on one rank
+    std::optional<RankSharing> sharing_;             // likewise
     std::int64_t faces_left_out_ = 0;
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;

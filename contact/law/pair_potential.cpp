@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "abut/base/parallel.hpp"
 
@@ -14,6 +15,21 @@ using geometry::PairRest;
 
 constexpr std::ptrdiff_t grain = 64;                 // pairs that are worth a task
 constexpr double far_tilted = -0.76604444311897803;  // n_1 . n_2 of faces that are 20 degrees away from n: -cos(40 degrees)
+
+/// visit(value) for all that a mean gradient has.
+template <class MeanGradient, class Visit>
+void for_each_value(MeanGradient& found, const Visit& visit) {
+    auto& [energy_0, energy_1, gap_0, gap_1, gradient, area, active_share, correction, events] = found;
+    visit(energy_0);
+    visit(energy_1);
+    visit(gap_0);
+    visit(gap_1);
+    visit(gradient);
+    visit(area);
+    visit(active_share);
+    visit(correction);
+    visit(events);
+}
 
 template <int Dim>
 Vector<Dim> force_on_second(const geometry::PairCorners<Dim>& gradient) {
@@ -102,19 +118,64 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
 }
 
 template <int Dim>
+template <class Find, class Keep>
+void PairPotential<Dim>::find_outcomes(std::size_t n, const Find& find, const Keep& keep) {
+    outcomes_.resize(n);
+    const auto for_each = [](const IndexRange& range, const auto& body) {
+        parallel_each(
+            static_cast<std::ptrdiff_t>(range.size()),
+            [&](std::ptrdiff_t i) { body(range.begin + static_cast<std::size_t>(i)); }, grain);
+    };
+    if (!shared_.is_worth(n))
+        return for_each({0, n}, [&](std::size_t p) {
+            find(p);
+            keep(p);
+        });
+    shared_.run(
+        n,
+        [&](const IndexRange& mine, ShareWriter& out) {
+            for_each(mine, find);
+            for (std::size_t p = mine.begin; p < mine.end; ++p) write(outcomes_[p], out);
+        },
+        [&](const IndexRange& range, ShareReader& in) {
+            for (std::size_t p = range.begin; p < range.end; ++p) {
+                read(in, outcomes_[p]);
+                keep(p);
+            }
+        });
+}
+
+template <int Dim>
+void PairPotential<Dim>::write(const Outcome& outcome, ShareWriter& out) {
+    out.put(outcome.admitted);
+    out.put(outcome.inadmissible);
+    out.put(outcome.active);
+    if (!outcome.active) return;
+    out.put(outcome.normal);
+    out.put(outcome.facing);
+    for_each_value(outcome.found, [&](const auto& value) { out.put(value); });
+}
+
+template <int Dim>
+void PairPotential<Dim>::read(ShareReader& in, Outcome& outcome) {
+    outcome.admitted = in.get<bool>();
+    outcome.inadmissible = in.get<bool>();
+    outcome.active = in.get<bool>();
+    if (!outcome.active) return;
+    outcome.normal = in.get<Vector<Dim>>();
+    outcome.facing = in.get<double>();
+    for_each_value(outcome.found, [&](auto& value) { value = in.get<std::remove_reference_t<decltype(value)>>(); });
+}
+
+template <int Dim>
 std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, NodalPairs<Dim>& listed,
                                        std::span<PairMemory> memory, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                        TakenForce take, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x_0, x_1, memory);
-    outcomes_.resize(pairs.size());
-    parallel_each(
-        static_cast<std::ptrdiff_t>(pairs.size()),
-        [&](std::ptrdiff_t p) {
-            bool& admitted = memory[pairs[p].memory].admitted;
-            follow(pairs[p], admitted, x_0, x_1, take, outcomes_[p]);
-            admitted = outcomes_[p].admitted;
-        },
-        grain);
+    const auto admitted = [&](std::size_t p) -> bool& { return memory[pairs[p].memory].admitted; };
+    find_outcomes(
+        pairs.size(), [&](std::size_t p) { follow(pairs[p], admitted(p), x_0, x_1, take, outcomes_[p]); },
+        [&](std::size_t p) { admitted(p) = outcomes_[p].admitted; });
     add_up(surface, listed, pairs, x_0, x_1, step);
     return std::ranges::count_if(outcomes_, [](const Outcome& outcome) { return outcome.inadmissible; });
 }
@@ -123,10 +184,9 @@ template <int Dim>
 void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
                                   std::span<const PairMemory> memory, PointsView<Dim> x, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x);
-    outcomes_.resize(pairs.size());
-    parallel_each(
-        static_cast<std::ptrdiff_t>(pairs.size()),
-        [&](std::ptrdiff_t p) {
+    find_outcomes(
+        pairs.size(),
+        [&](std::size_t p) {
             outcomes_[p].inadmissible = outcomes_[p].active = false;
             if (!memory[pairs[p].memory].admitted) return;
             const geometry::PairCorners<Dim> corners = pairs[p].at(x);
@@ -136,7 +196,7 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
             outcomes_[p].normal = place.normal;
             take_force(pairs[p], corners, corners, TakenForce::end, outcomes_[p]);
         },
-        grain);
+        [](std::size_t) {});
     add_up(surface, listed, pairs, x, x, step);
 }
 

@@ -6,6 +6,7 @@
 
 #include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
+#include "abut/contact/shared_work.hpp"
 
 namespace abut::contact {
 
@@ -17,7 +18,7 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step);
 template <int Dim>
 class PairPotential {
 public:
-    explicit PairPotential(bool events) : events_(events) {}
+    explicit PairPotential(bool events, Sharing* sharing = nullptr) : events_(events), shared_(sharing) {}
 
     /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
     /// how many pairs are pressed in at x_0 without being contacts.
@@ -38,6 +39,13 @@ private:
         bool active = false;
     };
 
+    /// Calls find(p), which fills outcome p, for all p < n; then keep(p) for all of which nothing went wrong anywhere. Parts
+    /// that share contact call `find` for as many pairs each.
+    template <class Find, class Keep>
+    void find_outcomes(std::size_t n, const Find& find, const Keep& keep);
+    static void write(const Outcome& outcome, ShareWriter& out);
+    static void read(ShareReader& in, Outcome& outcome);
+
     /// What is not active leaves `found` as it was.
     void follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
                 Outcome& outcome) const;
@@ -51,6 +59,7 @@ private:
                          NodalStep<Dim>& step);
 
     bool events_;
+    SharedWork shared_;
     std::vector<Outcome> outcomes_;  // of the pairs in reach
 };
 

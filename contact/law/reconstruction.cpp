@@ -1,6 +1,7 @@
 #include "abut/contact/law/reconstruction.hpp"
 
 #include <array>
+#include <span>
 
 #include "abut/base/quadrature.hpp"
 #include "abut/contact/path/runs.hpp"
@@ -19,7 +20,8 @@ const PathPiece<Dim>* piece_at(std::span<const PathPiece<Dim>> pieces, double ta
 }  // namespace
 
 template <int Dim>
-Reconstruction<Dim>::Reconstruction(const ContactOptions& options) : quadrature_(quadrature_points<Dim>(options)) {}
+Reconstruction<Dim>::Reconstruction(const ContactOptions& options, Sharing* sharing)
+    : quadrature_(quadrature_points<Dim>(options)), shared_(sharing) {}
 
 template <int Dim>
 void Reconstruction<Dim>::apply(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
@@ -36,11 +38,7 @@ void Reconstruction<Dim>::apply(const SurfaceView<Dim>& surface, const PairList<
     add_mean_corrections(step, result.mean_correction.values());
     result.energy = energy_at_end(step);
 
-    pair_gradients_.resize(static_cast<std::size_t>(active.size()));
-    for_each_run(pair_gradients_.size(), scratch_, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
-        for (std::size_t a = begin; a < end; ++a)
-            pair_gradients_[a] = pair_gradient(step, static_cast<std::int32_t>(a), scratch);
-    });
+    find_pair_gradients(step);
     for (std::int32_t a = 0; a < active.size(); ++a) {
         const auto& [normal, gradient] = pair_gradients_[static_cast<std::size_t>(a)];
         const ListedFace f_1{step.pair(a).listed_1}, f_2{step.pair(a).listed_2};
@@ -51,6 +49,27 @@ void Reconstruction<Dim>::apply(const SurfaceView<Dim>& surface, const PairList<
         result.pairs[static_cast<std::size_t>(a)].normal_force = -normal;
         result.pairs[static_cast<std::size_t>(a)].force = -gradient;
     }
+}
+
+template <int Dim>
+void Reconstruction<Dim>::find_pair_gradients(const Step& step) {
+    const auto n = static_cast<std::size_t>(step.active.size());
+    pair_gradients_.resize(n);
+    const auto find = [&](const IndexRange& range) {
+        for_each_run(range, scratch_, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+            for (std::size_t a = begin; a < end; ++a)
+                pair_gradients_[a] = pair_gradient(step, static_cast<std::int32_t>(a), scratch);
+        });
+    };
+    if (!shared_.is_worth(n)) return find({0, n});
+    const auto of = [&](const IndexRange& range) { return std::span(pair_gradients_).subspan(range.begin, range.size()); };
+    shared_.run(
+        n,
+        [&](const IndexRange& mine, ShareWriter& out) {
+            find(mine);
+            out.append(std::span<const PairGradient>(of(mine)));
+        },
+        [&](const IndexRange& range, ShareReader& in) { in.fill(of(range)); });
 }
 
 /// Row f of terms_: the active pairs on face f and what their h adds to its correction.

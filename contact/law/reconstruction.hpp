@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abut/contact/path/pieces.hpp"
+#include "abut/contact/shared_work.hpp"
 
 namespace abut::contact {
 
@@ -18,11 +19,12 @@ enum class Cuts {
 /// straight step, exactly: each pair force is cut where the formula of any pair coupled to it changes. docs/method.md,
 /// Contact and Time.
 ///
-/// An instance keeps its work arrays from step to step; after a few steps it allocates nothing.
+/// An instance keeps its work arrays from step to step; after a few steps it allocates nothing. Parts that share contact find
+/// the gradients of as many active pairs each, and all of them all sums by face.
 template <int Dim>
 class Reconstruction {
 public:
-    explicit Reconstruction(const ContactOptions& options);
+    explicit Reconstruction(const ContactOptions& options, Sharing* sharing = nullptr);
 
     /// Fills the arrays by face, the energy, and the forces of `step.pairs`, which are those of `active` in the same order.
     void apply(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
@@ -59,11 +61,13 @@ private:
     void link_faces(const Step& step);
     void add_mean_corrections(const Step& step, std::span<Vector<Dim>> mean_correction);
     [[nodiscard]] double energy_at_end(const Step& step);
+    void find_pair_gradients(const Step& step);
     [[nodiscard]] PairGradient pair_gradient(const Step& step, std::int32_t a, Scratch& scratch) const;
     void collect_coupled(const Step& step, std::int32_t a, Scratch& scratch) const;
     void collect_cuts(const Step& step, double begin, double end, Scratch& scratch) const;
 
     int quadrature_;
+    SharedWork shared_;
     std::vector<std::int32_t> term_offsets_;  // (n + 1)
     std::vector<Term> terms_;
     std::vector<double> mean_measure_;          // mean of h, by active pair

@@ -23,7 +23,7 @@ std::array<Value, 3> interpolate(int n, const std::array<double, 3>& node, const
 }  // namespace
 
 template <int Dim>
-PieceFinder<Dim>::PieceFinder(const ContactOptions& options) : options_(options) {
+PieceFinder<Dim>::PieceFinder(const ContactOptions& options, Sharing* sharing) : options_(options), shared_(sharing) {
     options_.quadrature = quadrature_points<Dim>(options);
 }
 
@@ -32,7 +32,28 @@ const ActivePairs<Dim>& PieceFinder<Dim>::find(const SurfaceView<Dim>& surface, 
                                                std::span<const PairMemory> memory, std::span<const Vector<Dim>> u_0,
                                                std::span<const Vector<Dim>> u_1) {
     find_penetrating(surface, list, memory, u_0, u_1);
-    for_each_run(penetrating_.size(), found_, [&](std::size_t begin, std::size_t end, Found& found) {
+    clear_active();
+    const std::size_t n = penetrating_.size();
+    if (!shared_.is_worth(n)) {
+        for (const Found& found : find_pieces(list, {0, n})) append(found);
+        return active_;
+    }
+    shared_.run(
+        n,
+        [&](const IndexRange& mine, ShareWriter& out) {
+            for (const Found& found : find_pieces(list, mine)) write(found, out);
+        },
+        [&](const IndexRange&, ShareReader& in) {
+            while (!in.is_done()) read(in);
+        });
+    return active_;
+}
+
+/// By run.
+template <int Dim>
+std::span<const typename PieceFinder<Dim>::Found> PieceFinder<Dim>::find_pieces(const PairList<Dim>& list,
+                                                                                const IndexRange& of_penetrating) {
+    for_each_run(of_penetrating, found_, [&](std::size_t begin, std::size_t end, Found& found) {
         found.penetrating.clear();
         found.pieces.clear();
         found.n_pieces.clear();
@@ -40,8 +61,7 @@ const ActivePairs<Dim>& PieceFinder<Dim>::find(const SurfaceView<Dim>& surface, 
         found.n_cuts.clear();
         for (std::size_t i = begin; i < end; ++i) append_pair(list, static_cast<std::int32_t>(i), found);
     });
-    join_found();
-    return active_;
+    return std::span(found_).first(number_of_runs(of_penetrating));
 }
 
 template <int Dim>
@@ -62,27 +82,47 @@ void PieceFinder<Dim>::find_penetrating(const SurfaceView<Dim>& surface, const P
 }
 
 template <int Dim>
-void PieceFinder<Dim>::join_found() {
+void PieceFinder<Dim>::clear_active() {
+    active_.pairs.clear();
+    active_.motions.clear();
+    active_.pieces.clear();
+    active_.piece_offsets.assign(1, 0);
+    active_.cuts.clear();
+    active_.cut_offsets.assign(1, 0);
+}
+
+template <int Dim>
+void PieceFinder<Dim>::append(const Found& found) {
     auto& [pairs, motions, pieces, piece_offsets, cuts, cut_offsets] = active_;
-    pairs.clear();
-    motions.clear();
-    pieces.clear();
-    piece_offsets.assign(1, 0);
-    cuts.clear();
-    cut_offsets.assign(1, 0);
-    if (penetrating_.empty()) return;
-    const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-    const std::size_t n_runs = (penetrating_.size() + run_length - 1) / run_length;
-    for (const Found& found : std::span(found_).first(n_runs)) {
-        for (const std::int32_t i : found.penetrating) {
-            pairs.push_back(penetrating_[static_cast<std::size_t>(i)].pair);
-            motions.push_back(penetrating_[static_cast<std::size_t>(i)].motion);
-        }
-        append(pieces, found.pieces);
-        append(cuts, found.cuts);
-        for (const std::int32_t n : found.n_pieces) piece_offsets.push_back(piece_offsets.back() + n);
-        for (const std::int32_t n : found.n_cuts) cut_offsets.push_back(cut_offsets.back() + n);
+    for (const std::int32_t i : found.penetrating) {
+        pairs.push_back(penetrating_[static_cast<std::size_t>(i)].pair);
+        motions.push_back(penetrating_[static_cast<std::size_t>(i)].motion);
     }
+    const auto append_all = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+    append_all(pieces, found.pieces);
+    append_all(cuts, found.cuts);
+    for (const std::int32_t n : found.n_pieces) piece_offsets.push_back(piece_offsets.back() + n);
+    for (const std::int32_t n : found.n_cuts) cut_offsets.push_back(cut_offsets.back() + n);
+}
+
+template <int Dim>
+void PieceFinder<Dim>::write(const Found& found, ShareWriter& out) {
+    out.put_all(found.penetrating);
+    out.put_all(found.pieces);
+    out.put_all(found.n_pieces);
+    out.put_all(found.cuts);
+    out.put_all(found.n_cuts);
+}
+
+/// Reads and appends a run.
+template <int Dim>
+void PieceFinder<Dim>::read(ShareReader& in) {
+    in.get_all(received_.penetrating);
+    in.get_all(received_.pieces);
+    in.get_all(received_.n_pieces);
+    in.get_all(received_.cuts);
+    in.get_all(received_.n_cuts);
+    append(received_);
 }
 
 /// The pieces and the cuts of one pair, if it is active at all.

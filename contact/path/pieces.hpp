@@ -7,6 +7,7 @@
 
 #include "abut/contact/pair_list.hpp"
 #include "abut/contact/pair_store.hpp"
+#include "abut/contact/shared_work.hpp"
 #include "abut/contact/step.hpp"
 
 namespace abut::contact {
@@ -70,11 +71,11 @@ struct ActivePairs {
 };
 
 /// Cuts a step into pieces: each pair where its own formula changes. An instance keeps its work arrays from step to step;
-/// after a few steps it allocates nothing.
+/// after a few steps it allocates nothing. Parts that share contact find the pieces of as many penetrating pairs each.
 template <int Dim>
 class PieceFinder {
 public:
-    explicit PieceFinder(const ContactOptions& options);
+    explicit PieceFinder(const ContactOptions& options, Sharing* sharing = nullptr);
 
     /// The active ones among the admitted pairs along the straight path from u_0 to u_1, displacements of the listed faces
     /// [m]; `memory` is in the order of the list.
@@ -103,11 +104,17 @@ private:
                       double end, Found& found) const;
     void append_sampled_piece(const PairList<Dim>& list, const ContactPair<Dim>& pair, const PairMotion<Dim>& motion,
                               Found& found) const;
-    void join_found();
+    [[nodiscard]] std::span<const Found> find_pieces(const PairList<Dim>& list, const IndexRange& of_penetrating);
+    void clear_active();
+    void append(const Found& found);
+    static void write(const Found& found, ShareWriter& out);
+    void read(ShareReader& in);
 
     ContactOptions options_;
+    SharedWork shared_;
     std::vector<Penetrating> penetrating_;
     std::vector<Found> found_;  // by run of penetrating pairs
+    Found received_;            // one of those of another part
     ActivePairs<Dim> active_;
 };
 

@@ -5,18 +5,26 @@
 #include <vector>
 
 #include "abut/base/parallel.hpp"
+#include "abut/contact/shared_work.hpp"
 
 namespace abut::contact {
 
 inline constexpr std::size_t run_length = 64;
 
-/// Calls body(begin, end, work) for runs of [0, n), concurrently, run i with the work area work[i]. What it does for one
+[[nodiscard]] inline std::size_t number_of_runs(const IndexRange& range) {
+    return (range.size() + run_length - 1) / run_length;
+}
+
+/// Calls body(begin, end, work) for runs of a range, concurrently, run i with the work area work[i]. What it does for one
 /// index must not depend on the runs.
 template <class Work, class Body>
-void for_each_run(std::size_t n, std::vector<Work>& work, const Body& body) {
-    const std::size_t n_runs = std::max<std::size_t>(1, (n + run_length - 1) / run_length);
+void for_each_run(const IndexRange& range, std::vector<Work>& work, const Body& body) {
+    const std::size_t n_runs = number_of_runs(range);
     if (work.size() < n_runs) work.resize(n_runs);
-    const auto run = [&](std::size_t i) { body(std::min(n, i * run_length), std::min(n, (i + 1) * run_length), work[i]); };
+    const auto run = [&](std::size_t i) {
+        const std::size_t begin = range.begin + i * run_length;
+        body(begin, std::min(range.end, begin + run_length), work[i]);
+    };
     if (n_runs <= 2)
         for (std::size_t i = 0; i < n_runs; ++i) run(i);
     else

@@ -18,6 +18,8 @@
 #include "abut/contact/search/neighbours.hpp"
 #include "abut/contact/search/skin_choice.hpp"
 #include "abut/contact/search/translated_faces.hpp"
+#include "abut/contact/shared_work.hpp"
+#include "abut/geometry/broad_phase/search_part.hpp"
 #include "abut/geometry/broad_phase/sort_pairs.hpp"
 
 namespace abut::contact {
@@ -60,6 +62,15 @@ struct Counts {
     std::int64_t both_rigid = 0;
     std::int64_t not_facing = 0;
     std::int64_t too_far_apart = 0;
+
+    Counts& operator+=(const Counts& other) {
+        box_pairs += other.box_pairs;
+        neighbours += other.neighbours;
+        both_rigid += other.both_rigid;
+        not_facing += other.not_facing;
+        too_far_apart += other.too_far_apart;
+        return *this;
+    }
 };
 
 }  // namespace
@@ -67,9 +78,10 @@ struct Counts {
 template <int Dim>
 class CandidateSearch<Dim>::Implementation {
 public:
-    Implementation(SurfaceView<Dim> surface, const CandidateOptions& options)
+    Implementation(SurfaceView<Dim> surface, const CandidateOptions& options, Sharing* sharing)
         : surface_(surface),
           options_(checked(options)),
+          shared_(sharing),
           skin_(Dim, options.skin, checked_face_size(surface)),
           translated_(surface_, options_) {
         if (options_.self_contact && options_.self_contact_rings > 0)
@@ -126,11 +138,10 @@ private:
         ++report_.searches;
         list_skin_ = skin_.skin();
         make_boxes(faces);
-        find(faces);
+        const std::int64_t at_half_skin = find(faces);
         report_.candidates = static_cast<std::int64_t>(candidates_.size());
         report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
-        if (options_.skin == 0.0)
-            skin_.learn(report_.candidates, count_at_half_skin(faces), surface_.size(), report_.motion);
+        if (options_.skin == 0.0) skin_.learn(report_.candidates, at_half_skin, surface_.size(), report_.motion);
         list_holds_ = true;
     }
 
@@ -199,11 +210,81 @@ private:
         });
     }
 
+    /// Makes the list; returns how many of its pairs half the skin would have found, 0 where nobody asks.
     template <class Faces>
-    void find(const Faces& faces) {
+    std::int64_t find(const Faces& faces) {
+        std::vector<IndexPair> list = std::exchange(candidates_, {});  // in its memory; a search that fails leaves none
+        const FoundByPart found =
+            shared_.is_worth(order_.faces.size()) ? find_shared(faces, list) : find_part(faces, {}, list);
+        {
+            const Stopwatch watch(report_.seconds_broad_phase);
+            geometry::sort_pairs(list, order_.faces.size());
+        }
+        candidates_ = std::move(list);
+        report_.box_pairs = found.counts.box_pairs;
+        report_.neighbours = found.counts.neighbours;
+        report_.both_rigid = found.counts.both_rigid;
+        report_.not_facing = found.counts.not_facing;
+        report_.too_far_apart = found.counts.too_far_apart;
+        return found.at_half_skin;
+    }
+
+    /// What a part found beside its pairs.
+    struct FoundByPart {
+        Counts counts;
+        std::int64_t at_half_skin = 0;
+    };
+
+    /// Each part appends its pairs, and gets those of all; in any order.
+    template <class Faces>
+    FoundByPart find_shared(const Faces& faces, std::vector<IndexPair>& list) {
+        FoundByPart all;
+        try {
+            shared_.run(
+                order_.faces.size(),
+                [&](const IndexRange&, ShareWriter& out) {
+                    out.put(find_part(faces, {shared_.part(), shared_.n_parts()}, list));
+                    out.append(std::span<const IndexPair>(list));
+                    list.clear();
+                },
+                [&](const IndexRange&, ShareReader& in) {
+                    const auto of_part = in.get<FoundByPart>();
+                    all.counts += of_part.counts;
+                    all.at_half_skin += of_part.at_half_skin;
+                    const std::size_t n = list.size();
+                    list.resize(n + in.left() / sizeof(IndexPair));
+                    in.fill(std::span(list).subspan(n));
+                });
+        } catch (const LimitExceeded& error) {  // of another part
+            throw geometry::SearchLimitError(error.what(), error.facts().value, error.facts().allowed);
+        }
+        check_number(list.size());
+        return all;
+    }
+
+    /// Of all parts together.
+    void check_number(std::size_t n) const {
+        if (static_cast<std::int64_t>(n) <= options_.limits.pairs) return;
+        throw geometry::SearchLimitError(
+            "contact: " + std::to_string(n) + " pairs of faces can touch, " + std::to_string(options_.limits.pairs) +
+                " are allowed. Make `skin` or `distance` smaller, or raise SearchLimits::pairs.",
+            static_cast<double>(n), static_cast<double>(options_.limits.pairs));
+    }
+
+    /// Appends the pairs of one part, unsorted.
+    template <class Faces>
+    FoundByPart find_part(const Faces& faces, const geometry::SearchPart& part, std::vector<IndexPair>& list) {
+        append_pairs(faces, part, list);
+        FoundByPart found;
+        for (const Counts& counts : counts_) found.counts += counts;
+        if (options_.skin == 0.0) found.at_half_skin = count_at_half_skin(faces, list);
+        return found;
+    }
+
+    template <class Faces>
+    void append_pairs(const Faces& faces, const geometry::SearchPart& part, std::vector<IndexPair>& list) {
         const Stopwatch watch(report_.seconds_broad_phase);
         counts_.clear();
-        std::vector<IndexPair> list = std::exchange(candidates_, {});  // in its memory; a search that fails leaves none
         for (const auto& [a, b] : body_pairs()) {
             const BodyFaces &body_1 = order_.bodies[static_cast<std::size_t>(a)],
                             &body_2 = order_.bodies[static_cast<std::size_t>(b)];
@@ -211,24 +292,22 @@ private:
             const auto wanted = [&](std::int32_t i, std::int32_t j) {
                 return is_candidate(faces, begin_1 + i, begin_2 + j);
             };
-            for (const auto& [i, j] : pairs_of_boxes(body_1, body_2, wanted, list.size())) {
+            for (const auto& [i, j] : pairs_of_boxes(body_1, body_2, part, wanted, list.size())) {
                 const auto [face_1, face_2] = std::minmax({face_at(begin_1 + i), face_at(begin_2 + j)});
                 list.push_back({face_1, face_2});
             }
         }
-        geometry::sort_pairs(list, order_.faces.size());
-        candidates_ = std::move(list);
-        add_up_counts();
     }
 
     /// Of two bodies, or of one with itself; `n_before` pairs are in the list already, and count.
     [[nodiscard]] std::vector<IndexPair> pairs_of_boxes(const BodyFaces& body_1, const BodyFaces& body_2,
-                                                        const geometry::PairFilter& wanted, std::size_t n_before) const {
+                                                        const geometry::SearchPart& part, const geometry::PairFilter& wanted,
+                                                        std::size_t n_before) const {
         geometry::SearchOptions options{options_.broad_phase, options_.limits, true};
         options.limits.pairs -= static_cast<std::int64_t>(n_before);
         try {
-            if (&body_1 == &body_2) return geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), wanted);
-            return geometry::overlapping_pairs<Dim>(options, boxes_of(body_1), boxes_of(body_2), wanted);
+            if (&body_1 == &body_2) return geometry::overlapping_pairs_of_part<Dim>(part, options, boxes_of(body_1), wanted);
+            return geometry::overlapping_pairs_of_part<Dim>(part, options, boxes_of(body_1), boxes_of(body_2), wanted);
         } catch (const geometry::SearchLimitError& error) {
             if (n_before == 0) throw;
             throw geometry::SearchLimitError(error.what() + std::string(" Beside them ") + std::to_string(n_before) +
@@ -259,25 +338,9 @@ private:
         return true;
     }
 
-    void add_up_counts() {
-        Counts sum;
-        for (const Counts& counts : counts_) {
-            sum.box_pairs += counts.box_pairs;
-            sum.neighbours += counts.neighbours;
-            sum.both_rigid += counts.both_rigid;
-            sum.not_facing += counts.not_facing;
-            sum.too_far_apart += counts.too_far_apart;
-        }
-        report_.box_pairs = sum.box_pairs;
-        report_.neighbours = sum.neighbours;
-        report_.both_rigid = sum.both_rigid;
-        report_.not_facing = sum.not_facing;
-        report_.too_far_apart = sum.too_far_apart;
-    }
-
-    /// How many of the candidates half the skin would have found.
+    /// How many of these candidates half the skin would have found.
     template <class Faces>
-    [[nodiscard]] std::int64_t count_at_half_skin(const Faces& faces) {
+    [[nodiscard]] std::int64_t count_at_half_skin(const Faces& faces, std::span<const IndexPair> candidates) {
         index_of_face_.resize(order_.faces.size());
         for (std::size_t i = 0; i < order_.faces.size(); ++i)
             index_of_face_[static_cast<std::size_t>(order_.faces[i])] = static_cast<std::int32_t>(i);
@@ -288,11 +351,12 @@ private:
             return boxes_[i].grown(-shrinkage).overlaps(boxes_[j]) &&
                    faces.verdict(i, j, 0.5 * list_skin_) == PairVerdict::may_touch;
         };
-        return std::ranges::count_if(candidates_, remains);
+        return std::ranges::count_if(candidates, remains);
     }
 
     SurfaceView<Dim> surface_;
     CandidateOptions options_;
+    SharedWork shared_;
     SkinChoice skin_;
     double list_skin_ = 0.0;
     bool list_holds_ = false;
@@ -308,8 +372,8 @@ private:
 };
 
 template <int Dim>
-CandidateSearch<Dim>::CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options)
-    : implementation_(std::make_unique<Implementation>(surface, options)) {}
+CandidateSearch<Dim>::CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options, Sharing* sharing)
+    : implementation_(std::make_unique<Implementation>(surface, options, sharing)) {}
 template <int Dim>
 CandidateSearch<Dim>::~CandidateSearch() = default;
 template <int Dim>

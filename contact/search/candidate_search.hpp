@@ -5,6 +5,7 @@
 
 #include "abut/base/strided_points.hpp"
 #include "abut/contact/options.hpp"
+#include "abut/contact/sharing.hpp"
 #include "abut/contact/surface.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 
@@ -40,9 +41,10 @@ enum class GapOf {
 template <int Dim>
 class CandidateSearch {
 public:
-    /// Keeps the view: the host's arrays must outlive it, and stay as they are: bodies at rest. Throws
-    /// BadInput naming what is wrong: a surface that `check` refuses, or an option out of range.
-    explicit CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options = {});
+    /// Keeps the view: the host's arrays must outlive it, and stay as they are: bodies at rest. `sharing` must outlive it, too;
+    /// null: nobody shares the work. Throws BadInput naming what is wrong: a surface that `check` refuses, or an option out
+    /// of range.
+    explicit CandidateSearch(SurfaceView<Dim> surface, const CandidateOptions& options = {}, Sharing* sharing = nullptr);
     ~CandidateSearch();
     CandidateSearch(CandidateSearch&&) noexcept;
     CandidateSearch& operator=(CandidateSearch&&) noexcept;
@@ -74,7 +76,7 @@ public:
     /// that limits its motion is that at rest. Vertices that no face names may hold anything.
     void search_moved(PointsView<Dim> x_0, PointsView<Dim> x_1, GapOf gap = GapOf::overlap);
 
-    /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads.
+    /// The list: face_1 < face_2, sorted, each once. The same for every broad phase and any number of threads and parts.
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const;
     [[nodiscard]] double skin() const;  ///< of the current list [m]; before the first search, of the first one
     /// The skin of the next list [m]: all that a search learns from its lists.

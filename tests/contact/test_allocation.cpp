@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "contact/parts.hpp"
 #include "contact/surfaces.hpp"
 
 namespace {
@@ -63,4 +64,38 @@ TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work array
     const long after = n_allocations;
     CHECK(active > 50);
     CHECK(after - before == 0);
+}
+
+TEST_CASE("nor do parts that share it", "[contact][path][sharing]") {
+    std::mt19937 random(21);
+    const auto surface = random_surface<3>(random, 30);
+    contact::ContactOptions options;
+    options.search.skin = 5.0;
+    options.compression_limit = 1e9;
+    std::vector<std::vector<Vector<3>>> states;
+    for (int i = 0; i < 8; ++i) states.push_back(random_displacement(random, surface, 0.4, 0.1));
+    const auto rest = random_displacement(random, surface, 0.0, -1.0);
+    const std::vector<Vector<3>> y(states[0].size(), Vector<3>::Ones());
+    const auto allocations = on_parts(2, [&](ThreadPart& part) {
+        contact::Contact<3> contact(surface.view(), options, &part);
+        contact.search(rest, rest, [](auto faces) { return uncoupled<3>(faces.size()); });
+        const auto run_through = [&] {
+            for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+                contact.integrate({states[i], states[i + 1], y, y});
+                contact.evaluate(states[i], y);
+            }
+        };
+        const std::size_t before_steps = part.n_gathers;
+        run_through();
+        run_through();
+        const long before = n_allocations;  // the other part is near: all of its arrays have grown, too
+        run_through();
+        const long after = n_allocations;
+        static_cast<void>(part.gather({}));  // no part ends before all have counted
+        return std::pair(part.n_gathers - before_steps > 60, after - before);
+    });
+    for (const auto& [was_shared, n] : allocations) {
+        CHECK(was_shared);
+        CHECK(n == 0);
+    }
 }

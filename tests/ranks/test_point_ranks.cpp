@@ -149,3 +149,19 @@ TEST_CASE("points that do not fit together are refused on all ranks", "[ranks]")
     if (all.rank() == all.size() - 1) stranger.copies = {0}, stranger.owner = {0}, stranger.copied_point = {5000};
     CHECK_THROWS_AS(PointRanks(all, stranger), BadInput);
 }
+
+TEST_CASE("bytes of all ranks come to all, rank after rank, whatever their number", "[ranks]") {
+    const Communicator all = test::world();
+    const PointRanks ranks(all, points_of(all, 10));
+    CHECK(ranks.n_ranks() == all.size());
+    for (int round = 0; round < 3; ++round) {
+        const auto size_of = [&](int rank) { return round == 2 ? 0 : (rank * 37 + 100'000 * round) % 70'001; };
+        const auto byte_of = [&](int rank, int i) { return static_cast<std::byte>((rank + 1) * i + round); };
+        std::vector<std::byte> mine, expected;
+        for (int i = 0; i < size_of(all.rank()); ++i) mine.push_back(byte_of(all.rank(), i));
+        for (int rank = 0; rank < all.size(); ++rank)
+            for (int i = 0; i < size_of(rank); ++i) expected.push_back(byte_of(rank, i));
+        const auto found = ranks.gather_bytes(mine);
+        CHECK(std::vector<std::byte>(found.begin(), found.end()) == expected);
+    }
+}
