@@ -12,6 +12,7 @@
 #include "abut/solid/contact_patches.hpp"
 #include "abut/solid/corner_surface.hpp"
 #include "abut/solid/loads.hpp"
+#include "abut/solid/rank_sharing.hpp"
 
 namespace abut::solid {
 
@@ -20,7 +21,7 @@ template <int Dim>
 class PairPotentialDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; `frames` are led along each step before it. Where the time goes is added to
-    /// `times`. `part` is null on one rank; on several each does all pairs, and all that places nodes is a call of all. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
+    /// `times`. `part` is null on one rank; on several each does its share of the pairs, and all that places nodes is a call of all. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
     PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, const BodyFrames<Dim>& frames,
                         SolidTimes& times, const RankPart<Dim>* part);
 
@@ -100,7 +101,8 @@ private:
     const Loads<Dim>& loads_;
     const BodyFrames<Dim>& frames_;
     SolidTimes& times_;
-    const dynamics::Ranks* ranks_;  // null: one
+    const dynamics::Ranks* ranks_;        // null: one
+    std::optional<RankSharing> sharing_;  // likewise
     Obstacles<Dim> obstacles_;
     CornerSurface<Dim> corners_;
     contact::NodalContact<Dim> contact_;

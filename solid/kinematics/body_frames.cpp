@@ -35,6 +35,57 @@ Register4 load_four(const LargeArray<double>& values, std::ptrdiff_t i) {
     return four;
 }
 
+/// Sums of a (x) (b, 1) over points: a row of four per component of a.
+template <int Dim>
+struct Moments {
+    using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;
+    std::array<Register4, Dim> row{};
+
+    [[gnu::always_inline]] void add(Lanes<Dim> a, Register4 b) {
+        for (int k = 0; k < Dim; ++k) row[k] += a[k] * b;
+    }
+    Moments& operator+=(const Moments& other) {
+        for (int k = 0; k < Dim; ++k) row[k] += other.row[k];
+        return *this;
+    }
+    [[nodiscard]] Sums all() const {
+        Sums sums;
+        for (int k = 0; k < Dim; ++k)
+            for (int j = 0; j <= Dim; ++j) sums(k, j) = row[k][j];
+        return sums;
+    }
+};
+
+/// Over points [begin, end), in blocks of fixed size: add(sum, point) adds what a point has.
+template <int Dim, class Add>
+typename Moments<Dim>::Sums sum_moments(std::int32_t begin, std::int32_t end, const Add& add) {
+    const std::ptrdiff_t n_blocks = (end - begin + parallel_grain - 1) / parallel_grain;
+    const auto sum_of_block = [&](std::ptrdiff_t block) {
+        Moments<Dim> sum;
+        const std::ptrdiff_t first = begin + block * parallel_grain;
+        for (std::ptrdiff_t i = first; i < std::min<std::ptrdiff_t>(end, first + parallel_grain); ++i) add(sum, i);
+        return sum;
+    };
+    if (n_blocks == 1) return sum_of_block(0).all();
+    std::vector<Moments<Dim>> sums(static_cast<std::size_t>(n_blocks));
+    parallel_each(
+        n_blocks, [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); }, 4);
+    Moments<Dim> total;
+    for (const Moments<Dim>& sum : sums) total += sum;
+    return total.all();
+}
+
+/// The same over the points of a body that ranks share out.
+template <int Dim, class Add>
+typename Moments<Dim>::Sums sum_moments(const RankPart<Dim>& part, std::size_t body, const Add& add) {
+    using Sums = typename Moments<Dim>::Sums;
+    return part.sum_of_body(body, Sums(Sums::Zero()), [&](std::int32_t i) {
+        Moments<Dim> term;
+        add(term, i);
+        return term.all();
+    });
+}
+
 /// (a, 1)
 template <int Dim>
 Register4 with_one(Lanes<Dim> a) {
@@ -115,61 +166,6 @@ Value BodyFrames<Dim>::sum_of(std::size_t body, const Value& zero, const Term& t
     return ordered_sum(begin_[body + 1] - begin_[body], zero, [&](std::ptrdiff_t i) { return term(begin_[body] + i); });
 }
 
-/// Sums of a (x) (b, 1) over points: a row of four per component of a.
-template <int Dim>
-struct BodyFrames<Dim>::Moments {
-    using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;
-    std::array<Register4, Dim> row{};
-
-    void add(const std::pair<Lanes<Dim>, Register4>& factors) {
-        for (int k = 0; k < Dim; ++k) row[k] += factors.first[k] * factors.second;
-    }
-    Moments& operator+=(const Moments& other) {
-        for (int k = 0; k < Dim; ++k) row[k] += other.row[k];
-        return *this;
-    }
-    [[nodiscard]] Sums all() const {
-        Sums sums;
-        for (int k = 0; k < Dim; ++k)
-            for (int j = 0; j <= Dim; ++j) sums(k, j) = row[k][j];
-        return sums;
-    }
-    [[nodiscard]] Matrix<Dim> product() const { return all().template leftCols<Dim>(); }
-    [[nodiscard]] Vector<Dim> sum() const { return all().col(Dim); }
-};
-
-/// `factors(point)`: a, and (b, 1). Blocks as those of `sum_of`.
-template <int Dim>
-template <class Factors>
-auto BodyFrames<Dim>::sum_moments(std::size_t body, const Factors& factors) const -> Moments {
-    if (part_) {
-        const auto sums = part_->sum_of_body(body, typename Moments::Sums(Moments::Sums::Zero()), [&](std::int32_t i) {
-            Moments term;
-            term.add(factors(i));
-            return term.all();
-        });
-        Moments total;
-        for (int k = 0; k < Dim; ++k)
-            for (int j = 0; j <= Dim; ++j) total.row[k][j] = sums(k, j);
-        return total;
-    }
-    const std::int32_t begin = begin_[body], end = begin_[body + 1];
-    const std::ptrdiff_t n_blocks = (end - begin + parallel_grain - 1) / parallel_grain;
-    const auto sum_of_block = [&](std::ptrdiff_t block) {
-        Moments sum;
-        const std::ptrdiff_t first = begin + block * parallel_grain;
-        for (std::ptrdiff_t i = first; i < std::min<std::ptrdiff_t>(end, first + parallel_grain); ++i) sum.add(factors(i));
-        return sum;
-    };
-    if (n_blocks == 1) return sum_of_block(0);
-    std::vector<Moments> sums(static_cast<std::size_t>(n_blocks));
-    parallel_each(
-        n_blocks, [&](std::ptrdiff_t block) { sums[static_cast<std::size_t>(block)] = sum_of_block(block); }, 4);
-    Moments total;
-    for (const Moments& sum : sums) total += sum;
-    return total;
-}
-
 /// Calls of_point(point) for all points of a body, or those of this rank.
 template <int Dim>
 template <class Body>
@@ -183,6 +179,13 @@ void BodyFrames<Dim>::for_each_wanted(std::size_t body, const Body& of_point) co
     parallel_each(begin_[body + 1] - begin, [&](std::ptrdiff_t at) { of_point(begin + at); });
 }
 
+/// add(sum, point) adds what a point of the body has.
+template <int Dim>
+template <class Add>
+auto BodyFrames<Dim>::moments(std::size_t body, const Add& add) const {
+    return part_ ? sum_moments<Dim>(*part_, body, add) : sum_moments<Dim>(begin_[body], begin_[body + 1], add);
+}
+
 // Places of the frames -----------------------------------------------------------------------------------------------
 
 /// Displacements enter by their differences to that of the first point: a body far from where it began loses no digits.
@@ -192,10 +195,11 @@ void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFram
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         if (!turns_[body]) continue;
         const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
-        const Moments sums = sum_moments(
-            body, [&](std::ptrdiff_t i) { return std::pair(load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i)); });
-        frames[body].centre = rest_[body].centre + origins[body] + sums.sum() / mass_[body];
-        frames[body].moment = rest_[body].moment + sums.product();
+        const auto sums = moments(body, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
+            sum.add(load_packed<Dim>(q[i]) - origin, load_four(weighted_arm_, i));
+        });
+        frames[body].centre = rest_[body].centre + origins[body] + sums.col(Dim) / mass_[body];
+        frames[body].moment = rest_[body].moment + sums.template leftCols<Dim>();
         frames[body].turn = nearest_rotation<Dim>(frames[body].moment);
     }
 }
@@ -303,15 +307,15 @@ void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const
         const Matrix<Dim>& turn = steps_[body].mean_turn();
         const Vector<Dim> mean_centre = 0.5 * (start()[body].centre + this->end()[body].centre);
         const Lanes<Dim> shift = load_packed<Dim>(Vector<Dim>(mean_centre - rest_[body].centre));
-        const Moments sums = sum_moments(body, [&](std::ptrdiff_t i) {
+        const auto sums = moments(body, [&](Moments<Dim>& sum, std::ptrdiff_t i) {
             const Lanes<Dim> moved = 0.5 * (load_packed<Dim>(q_0[i]) + load_packed<Dim>(q_1[i])) - shift;
-            return std::pair(load_packed<Dim>(gradient[i]), with_one(rest_arm(i) + moved));
+            sum.add(load_packed<Dim>(gradient[i]), with_one(rest_arm(i) + moved));
         });
-        lambda_[body] = steps_[body].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.product())));
+        lambda_[body] = steps_[body].carry(axial<Dim>(Matrix<Dim>(push.moment - turn * sums.template leftCols<Dim>())));
         // dV/dx = turn f + (turn hat(lambda)) m X' + m missing
         const LaneTensor<Dim> turning = load_packed<Dim>(turn);
         const LaneTensor<Dim> carrying = load_packed<Dim>(Matrix<Dim>(turn * hat<Dim>(lambda_[body])));
-        const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.sum()) / mass_[body]));
+        const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.col(Dim)) / mass_[body]));
         for_each_wanted(body, [&](std::ptrdiff_t i) {
             const Register4 weighted = load_four(weighted_arm_, i);
             Lanes<Dim> sum = turning * load_packed<Dim>(gradient[i]) + weighted[Dim] * missing;

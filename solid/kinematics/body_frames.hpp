@@ -77,7 +77,6 @@ public:
     [[nodiscard]] Vector<Dim> point_to_space(std::int32_t point, const Vector<Dim>& gradient) const;
 
 private:
-    struct Moments;
     void place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const;
     void stand_in(const std::vector<BodyFrame<Dim>>& frames);
     void set_steps();
@@ -85,8 +84,8 @@ private:
     [[nodiscard]] std::vector<Vector<Dim>> of_first_points(std::span<const Vector<Dim>> of_points) const;
     template <class Value, class Term>
     [[nodiscard]] Value sum_of(std::size_t body, const Value& zero, const Term& term) const;
-    template <class Factors>
-    [[nodiscard]] Moments sum_moments(std::size_t body, const Factors& factors) const;
+    template <class Add>
+    [[nodiscard]] auto moments(std::size_t body, const Add& add) const;
     template <class Body>
     void for_each_wanted(std::size_t body, const Body& of_point) const;
     [[nodiscard]] Lanes<Dim> rest_arm(std::ptrdiff_t point) const { return load_packed<Dim>(arm_, point); }
