@@ -56,7 +56,7 @@ void agreed(const Communicator& communicator, const Body& body) {
 
 template <class T>
 requires(std::is_same_v<T, double> || std::is_same_v<T, std::int32_t> || std::is_same_v<T, std::int64_t>)
-[[nodiscard]] MPI_Datatype type_of() {
+    [[nodiscard]] MPI_Datatype type_of() {
     if constexpr (std::is_same_v<T, double>) return MPI_DOUBLE;
     if constexpr (std::is_same_v<T, std::int32_t>) return MPI_INT32_T;
     if constexpr (std::is_same_v<T, std::int64_t>) return MPI_INT64_T;
@@ -122,6 +122,12 @@ template <class T>
                            type_of<T>(), handle(communicator)),
             "MPI_Allgatherv");
     return result;
+}
+
+/// Replaces each value by the largest of all ranks; none may be NaN.
+inline void take_largest(const Communicator& communicator, std::span<double> values) {
+    require(MPI_Allreduce(MPI_IN_PLACE, values.data(), as_count(values.size()), MPI_DOUBLE, MPI_MAX, handle(communicator)),
+            "MPI_Allreduce");
 }
 
 /// What rank `root` has, on all ranks.
