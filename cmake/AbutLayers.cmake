@@ -5,7 +5,7 @@ set(abut_below_mesh geometry)
 set(abut_below_contact geometry)
 set(abut_below_dynamics base)
 set(abut_below_solid mesh contact dynamics)
-set(abut_below_ranks dynamics)
+set(abut_below_ranks contact dynamics)
 set(abut_below_run solid)
 set(abut_below_input run)
 

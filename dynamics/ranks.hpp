@@ -53,7 +53,7 @@ public:
     /// The largest of all ranks; NaN if one is.
     [[nodiscard]] virtual double largest(double value) const = 0;
     /// Returns where no rank brings an error. Else it throws on all ranks the error of the first rank that has one: on the
-    /// others as an error of the same type, with the rank in front.
+    /// others as an error of the same type with the same facts, and the rank in front.
     virtual void agree(const std::exception_ptr& error) const = 0;
 };
 

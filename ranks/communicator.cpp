@@ -15,13 +15,14 @@ namespace {
 struct Told {
     std::int32_t kind = -1;  // of ErrorKind; -1: none that Abut knows
     std::string text;
+    ErrorFacts facts = {};
 };
 
 Told told(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
     } catch (const Error& e) {
-        return {static_cast<std::int32_t>(e.kind()), e.what()};
+        return {static_cast<std::int32_t>(e.kind()), e.what(), e.facts()};
     } catch (const std::exception& e) {
         return {-1, e.what()};
     } catch (...) {
@@ -99,14 +100,17 @@ void Communicator::agree(const std::exception_ptr& error) const {
     if (first == size()) return;
     Told cause;
     if (first == rank()) cause = told(error);
-    std::array<std::int32_t, 2> head{cause.kind, as_count(cause.text.size())};
-    broadcast<std::int32_t>(*this, head, first);
+    const ErrorFacts& facts = cause.facts;
+    std::array<std::int64_t, 5> head{cause.kind, as_count(cause.text.size()), facts.face_1, facts.face_2, facts.cell};
+    std::array<double, 2> values{facts.value, facts.allowed};
+    broadcast<std::int64_t>(*this, head, first);
+    broadcast<double>(*this, values, first);
     cause.text.resize(static_cast<std::size_t>(head[1]));
-    require(MPI_Bcast(cause.text.data(), head[1], MPI_CHAR, first, impl_->comm), "MPI_Bcast");
+    require(MPI_Bcast(cause.text.data(), static_cast<int>(head[1]), MPI_CHAR, first, impl_->comm), "MPI_Bcast");
     if (first == rank()) std::rethrow_exception(error);
     const std::string text = "on rank " + std::to_string(first) + ": " + cause.text;
     if (head[0] < 0) throw std::runtime_error(text);
-    throw_again(Error(static_cast<ErrorKind>(head[0]), text), text);
+    throw_again(Error(static_cast<ErrorKind>(head[0]), text, {head[2], head[3], head[4], values[0], values[1]}), text);
 }
 
 double Communicator::largest(double value) const {

@@ -31,7 +31,7 @@ struct Traffic {
     std::int64_t sums = 0;
     std::int64_t gathers = 0;
     std::int64_t gathered_bytes = 0;  ///< received in gathers
-    std::int64_t reductions = 0;      ///< of 1 or 2 numbers: `largest` and `agree`
+    std::int64_t reductions = 0;      ///< of at most 4 numbers: `largest`, `agree` and the like
 };
 
 /// dynamics::Ranks over MPI.

@@ -12,6 +12,8 @@
 #include "abut/base/parallel.hpp"
 #include "abut/solid/rank_part.hpp"
 
+#pragma GCC diagnostic ignored "-Wpsabi"  // registers are passed between functions of this file alone
+
 namespace abut::solid {
 namespace {
 
@@ -41,7 +43,7 @@ struct Moments {
     using Sums = Eigen::Matrix<double, Dim, Dim + 1, Eigen::DontAlign>;
     std::array<Register4, Dim> row{};
 
-    [[gnu::always_inline]] void add(Lanes<Dim> a, Register4 b) {
+    [[gnu::always_inline]] void add(const Lanes<Dim>& a, const Register4& b) {
         for (int k = 0; k < Dim; ++k) row[k] += a[k] * b;
     }
     Moments& operator+=(const Moments& other) {

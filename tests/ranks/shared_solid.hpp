@@ -22,11 +22,6 @@ namespace abut::test {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
-/// Whether it is so on all ranks: a test that ends on one of them would leave the others waiting.
-[[nodiscard]] inline bool everywhere(const ranks::Communicator& all, bool here) {
-    return all.largest(here ? 0.0 : 1.0) == 0.0;
-}
-
 /// The part of a rank, with all that its solid needs.
 template <int Dim>
 struct SharedSolid {

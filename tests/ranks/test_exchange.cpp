@@ -77,18 +77,22 @@ TEST_CASE("copies that have no place of their own are refused on all ranks", "[r
     CHECK_THROWS_AS(exchange_of(wrong ? std::vector<std::int32_t>{1} : std::vector<std::int32_t>{1, 2}), BadInput);
 }
 
-TEST_CASE("the error of one rank is thrown on all of them, of the same type", "[ranks]") {
+TEST_CASE("the error of one rank is thrown on all of them, of the same type and with its facts", "[ranks]") {
     const Communicator all = test::world();
     const int guilty = all.size() - 1;
     CHECK_NOTHROW(all.agree(nullptr));
     std::exception_ptr error;
-    if (all.rank() == guilty) error = std::make_exception_ptr(TooDeep("too deep by 3 mm"));
+    if (all.rank() == guilty) error = std::make_exception_ptr(TooDeep("too deep by 3 mm", {.face_2 = 7, .value = 3e-3}));
     try {
         all.agree(error);
         FAIL_CHECK("no error");
     } catch (const TooDeep& e) {
         const std::string prefix = all.rank() == guilty ? "" : "on rank " + std::to_string(guilty) + ": ";
         CHECK(std::string(e.what()) == prefix + "too deep by 3 mm");
+        CHECK(e.facts().face_1 == ErrorFacts::none);
+        CHECK(e.facts().face_2 == 7);
+        CHECK(e.facts().value == 3e-3);
+        CHECK(std::isnan(e.facts().allowed));
     }
     if (all.rank() == guilty) error = std::make_exception_ptr(std::length_error("not one of ours"));
     CHECK_THROWS_WITH(all.agree(error), Catch::EndsWith("not one of ours"));

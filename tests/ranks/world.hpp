@@ -11,6 +11,11 @@ namespace abut::test {
 
 inline ranks::Communicator world() { return ranks::Communicator(MPI_Comm_c2f(MPI_COMM_WORLD)); }
 
+/// Whether it is so on all ranks: a test that ends on one of them would leave the others waiting.
+[[nodiscard]] inline bool everywhere(const ranks::Communicator& all, bool here) {
+    return all.largest(here ? 0.0 : 1.0) == 0.0;
+}
+
 /// Numbers 0 .. n-1 scattered over the ranks without any order; a rank may be given none.
 inline std::vector<std::int32_t> scattered(std::int32_t n, int rank, int size, int empty_rank = -1) {
     std::vector<std::int32_t> mine;
