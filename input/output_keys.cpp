@@ -65,6 +65,8 @@ const Keys<Settings>& output_keys() {
                       "steps from one checkpoint to the next, beside that; 0: by minutes alone"),
             Of::count("frames", option(&RunOptions::frames), 0, Of::many,
                       "frames for ParaView, first and last included; 0: none"),
+            Of::truth("pieces", option(&RunOptions::pieces),
+                      "each rank writes its own cells of these frames; false: rank 0 writes the whole"),
             fields(),
             probes(),
             Of::truth("forces", &Settings::forces, "forces.csv: mean forces of contact between bodies, and on obstacles"),

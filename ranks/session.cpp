@@ -17,8 +17,6 @@
 namespace abut::ranks {
 namespace {
 
-constexpr std::chrono::seconds patience{10};
-
 /// Arguments of this process, its own name first.
 std::vector<std::string> arguments() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -57,13 +55,16 @@ Session::~Session() {
     MPI_Finalize();
 }
 
-void Session::leave_with_error() const {
+void Session::leave_with_error(std::chrono::milliseconds patience, const std::function<void()>& last_words) const {
     MPI_Request all_here = MPI_REQUEST_NULL;
     MPI_Ibarrier(handle(*farewell_), &all_here);
     const auto give_up = std::chrono::steady_clock::now() + patience;
     for (int done = 0; done == 0; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
         MPI_Test(&all_here, &done, MPI_STATUS_IGNORE);
-        if (done == 0 && std::chrono::steady_clock::now() > give_up) MPI_Abort(handle(*farewell_), 1);
+        if (done == 0 && std::chrono::steady_clock::now() > give_up) {
+            last_words();
+            MPI_Abort(handle(*farewell_), 1);
+        }
     }
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,9 +23,9 @@ public:
 
     [[nodiscard]] const Communicator& all() const { return *all_; }
     [[nodiscard]] int ranks_on_this_machine() const { return here_; }
-    /// To be called by a rank that ends with an error: where the others do not come as well within some seconds, they wait for
-    /// it in vain, and all are ended.
-    void leave_with_error() const;
+    /// To be called by a rank that ends with an error: where the others do not come as well within `patience`, they wait for
+    /// it in vain. Then it calls `last_words`, and all are ended.
+    void leave_with_error(std::chrono::milliseconds patience, const std::function<void()>& last_words) const;
 
 private:
     std::unique_ptr<Communicator> all_;

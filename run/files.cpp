@@ -25,7 +25,8 @@ bool take(std::string_view& text, std::string_view start) {
     return true;
 }
 
-/// <series>.pvd, <series>_000012.vtu, and the same with .vtp behind _surface and _pairs; and, with a dot in front, what a frame
+/// <series>.pvd, <series>_000012.vtu, and the same with .vtp behind _surface and _pairs; of frames in pieces
+/// <series>_000012.pvtu and <series>_000012_3.vtu; and, with a dot in front, what a frame
 /// is called while it is written.
 bool belongs_to_series(std::string_view name, std::string_view series) {
     take(name, ".");
@@ -36,8 +37,15 @@ bool belongs_to_series(std::string_view name, std::string_view series) {
     const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
     if (digits < 6) return false;
     name.remove_prefix(digits);
+    if (take(name, "_")) {  // a piece of it
+        const std::size_t of_piece = std::min(name.find_first_not_of("0123456789"), name.size());
+        if (of_piece == 0) return false;
+        name.remove_prefix(of_piece);
+        take(name, ".part");
+        return name == (cells ? ".vtu" : ".vtp");
+    }
     take(name, ".part");
-    return name == (cells ? ".vtu" : ".vtp");
+    return cells ? name == ".vtu" || name == ".pvtu" : name == ".vtp" || name == ".pvtp";
 }
 
 void remove_result(const fs::path& path) {

@@ -27,22 +27,72 @@ std::vector<double> finite_or_nan(std::vector<double> values) {
     return values;
 }
 
-/// Stresses of the cells as the last evaluation of the solid left them.
+/// Stresses of some cells, and what follows from them.
 template <int Dim>
 struct Stresses {
+    /// Of all cells, as the last evaluation of the solid left them.
     explicit Stresses(solid::Solid<Dim>& solid) {
-        for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c) {
-            const auto body = static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(c)]);
-            const double poisson = solid.options().materials[body].poisson;
-            stress.push_back(solid.stress(c));
-            equivalent.push_back(von_mises<Dim>(stress.back(), poisson));
-            out_of_plane.push_back(full_stress<Dim>(stress.back(), poisson)(2, 2));
+        for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
+            add(solid.stress(c),
+                solid.options()
+                    .materials[static_cast<std::size_t>(solid.mesh().cell_body[static_cast<std::size_t>(c)])]
+                    .poisson);
+    }
+    explicit Stresses(const FramePiece<Dim>& piece) {
+        for (std::size_t i = 0; i < piece.cells.size(); ++i) {
+            const auto cell = static_cast<std::size_t>(piece.cells[i]);
+            add(piece.stress[i], piece.poisson[static_cast<std::size_t>(piece.mesh->cell_body[cell])]);
         }
+    }
+    void add(const Matrix<Dim>& of_cell, double poisson) {
+        stress.push_back(of_cell);
+        equivalent.push_back(von_mises<Dim>(of_cell, poisson));
+        out_of_plane.push_back(full_stress<Dim>(of_cell, poisson)(2, 2));
     }
     std::vector<Matrix<Dim>> stress;
     std::vector<double> equivalent;
     std::vector<double> out_of_plane;
 };
+
+template <int Dim>
+std::vector<mesh::Field<Dim>> cell_fields(const FrameFields& fields, std::span<const Vector<Dim>> velocity,
+                                          const Stresses<Dim>& stresses) {
+    std::vector<mesh::Field<Dim>> chosen;
+    if (fields.velocity) chosen.push_back({"velocity [m/s]", velocity});
+    if (fields.stress) chosen.push_back({"stress [Pa]", std::span<const Matrix<Dim>>(stresses.stress)});
+    if (fields.von_mises) chosen.push_back({"von Mises [Pa]", std::span<const double>(stresses.equivalent)});
+    if (Dim == 2 && fields.stress) chosen.push_back({"stress zz [Pa]", std::span<const double>(stresses.out_of_plane)});
+    return chosen;
+}
+
+template <int Dim>
+std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::span<const double> pressure,
+                                              std::span<const double> gap) {
+    std::vector<mesh::Field<Dim>> chosen;
+    if (fields.pressure) chosen.push_back({"contact pressure [Pa]", pressure});
+    if (fields.gap) chosen.push_back({"gap [m]", gap});
+    return chosen;
+}
+
+/// What files show of a piece; both arguments must outlive it.
+template <int Dim>
+mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& piece, const Stresses<Dim>& stresses) {
+    return {.cells = piece.cells,
+            .vertices = piece.vertices,
+            .boundary = piece.boundary,
+            .displacement = piece.displacement,
+            .vertex_displacement = piece.vertex_displacement,
+            .cell_fields = cell_fields<Dim>(fields, piece.velocity, stresses),
+            .boundary_fields = boundary_fields<Dim>(fields, piece.pressure, piece.gap)};
+}
+
+template <int Dim>
+void write_piece(const std::filesystem::path& directory, const std::string& series, const FrameFields& fields,
+                 const FramePiece<Dim>& piece) {
+    const Stresses<Dim> stresses(piece);
+    mesh::write_piece(directory, series, static_cast<std::size_t>(piece.frame), piece.number, *piece.mesh,
+                      shown<Dim>(fields, piece, stresses));
+}
 
 /// Where a face is, of bodies whose vertices are known or whose cells are displaced as a whole.
 template <int Dim>
@@ -112,12 +162,15 @@ double von_mises(const Matrix<Dim>& stress, double poisson) {
 }
 
 template <int Dim>
-Frames<Dim>::Frames(std::filesystem::path directory, std::string series, int n_frames)
-    : directory_(std::move(directory)), name_(std::move(series)), n_frames_(n_frames) {}
+Frames<Dim>::Frames(std::filesystem::path directory, std::string series, int n_frames, bool in_pieces)
+    : directory_(std::move(directory)), name_(std::move(series)), n_frames_(n_frames), in_pieces_(in_pieces) {}
 
 template <int Dim>
 void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    series_.emplace(directory_, name_, scene.mesh);
+    if (in_pieces_)
+        pieces_.emplace(directory_, name_);
+    else
+        series_.emplace(directory_, name_, scene.mesh);
     fields_ = scene.outputs.fields;
     if (fields_.pairs && scene.contact) pairs_.emplace(directory_, pairs_series(name_));
     n_steps_ = result.steps;
@@ -128,23 +181,37 @@ void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& sol
     if (wants_look(run.steps)) write(run, solid);
 }
 
+/// The number of the frame that is due at this step, where so many are written; -1: none.
+template <int Dim>
+std::int64_t Frames<Dim>::due(std::int64_t step, std::int64_t n_written) const {
+    const std::int64_t intervals = std::max<std::int64_t>(1, n_frames_ - 1);
+    return n_written < n_frames_ && step * intervals >= n_written * n_steps_ ? n_written : -1;
+}
+
 template <int Dim>
 bool Frames<Dim>::wants_look(std::int64_t step) const {
-    const std::int64_t frame = series_->n_frames();
-    const std::int64_t intervals = std::max<std::int64_t>(1, n_frames_ - 1);
-    return frame < n_frames_ && step * intervals >= frame * n_steps_;
+    if (!in_pieces_) return due(step, series_->n_frames()) >= 0;
+    return pairs_ && due(step, static_cast<std::int64_t>(pairs_->times().size())) >= 0;
+}
+
+template <int Dim>
+std::int64_t Frames<Dim>::wants_piece(std::int64_t step) const {
+    return in_pieces_ ? due(step, static_cast<std::int64_t>(pieces_->n_frames())) : -1;
 }
 
 template <int Dim>
 void Frames<Dim>::save(StateWriter& state) {
-    state.put_all(std::span(series_->times()));
+    state.put_all(std::span(in_pieces_ ? pieces_->times() : series_->times()));
 }
 
 template <int Dim>
 void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     begin(scene, result);
     const auto times = state.get_all<double>();
-    series_->go_on_after(times);
+    if (in_pieces_)
+        pieces_->go_on_after(times);
+    else
+        series_->go_on_after(times);
     if (pairs_) pairs_->go_on_after(times);
 }
 
@@ -153,24 +220,48 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
     const auto contact = solid.contact_field(run.q);
     const auto gap = finite_or_nan(contact.gap);
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
-    const Stresses<Dim> stresses(solid);
-    const auto velocity = cell_velocity(run, solid);
     const auto displacement = solid.cell_displacement(run.q);
     std::vector<Vector<Dim>> of_vertices;  // a body that turns is not where the mean displacement of its cells takes it
     if (solid.moment_arms() == dynamics::MomentArms::mid_step) of_vertices = solid.vertex_displacement(run.q);
-    mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
-    if (fields_.velocity) frame.cell_fields.push_back({"velocity [m/s]", velocity});
-    if (fields_.stress) frame.cell_fields.push_back({"stress [Pa]", stresses.stress});
-    if (fields_.von_mises) frame.cell_fields.push_back({"von Mises [Pa]", stresses.equivalent});
-    if (Dim == 2 && fields_.stress) frame.cell_fields.push_back({"stress zz [Pa]", stresses.out_of_plane});
-    if (fields_.pressure) frame.boundary_fields.push_back({"contact pressure [Pa]", contact.pressure});
-    if (fields_.gap) frame.boundary_fields.push_back({"gap [m]", gap});
-    if (pairs_) pairs_->write(PairPoints<Dim>(solid.acting_pairs(run.q), solid, displacement, of_vertices).frame(run.time));
-    series_->write(frame);
+    if (!in_pieces_) {
+        const Stresses<Dim> stresses(solid);
+        const auto velocity = cell_velocity(run, solid);
+        mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
+        frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses);
+        frame.boundary_fields = boundary_fields<Dim>(fields_, contact.pressure, gap);
+        if (pairs_) write_pairs(run, solid, displacement, of_vertices);
+        series_->write(frame);
+    } else {
+        write_pairs(run, solid, displacement, of_vertices);
+    }
 }
 
-#define ABUT_INSTANTIATE(Dim)   \
-    template class Frames<Dim>; \
+template <int Dim>
+void Frames<Dim>::write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid,
+                              std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> of_vertices) {
+    pairs_->write(PairPoints<Dim>(solid.acting_pairs(run.q), solid, displacement, of_vertices).frame(run.time));
+}
+
+template <int Dim>
+void Frames<Dim>::piece(const FramePiece<Dim>& piece) {
+    if (in_pieces_) write_piece<Dim>(directory_, name_, fields_, piece);
+}
+
+template <int Dim>
+void Frames<Dim>::all_pieces(const FramePiece<Dim>& piece) {
+    if (!in_pieces_) return;
+    const Stresses<Dim> stresses(piece);
+    pieces_->publish(piece.time, piece.n_pieces, shown<Dim>(fields_, piece, stresses));
+}
+
+template <int Dim>
+void PieceFiles<Dim>::piece(const FramePiece<Dim>& piece) {
+    write_piece<Dim>(directory_, name_, fields_, piece);
+}
+
+#define ABUT_INSTANTIATE(Dim)       \
+    template class Frames<Dim>;     \
+    template class PieceFiles<Dim>; \
     template double von_mises<Dim>(const Matrix<Dim>&, double);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

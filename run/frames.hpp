@@ -2,9 +2,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "abut/mesh/io/point_series.hpp"
+#include "abut/mesh/io/write_pieces.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/observer.hpp"
 
@@ -16,16 +19,22 @@ namespace abut::run {
 /// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]. `n_frames` equally
 /// far apart, first and last step included; Outputs::fields may leave fields out. `series` is what the files are called by, see
 /// mesh::VtuSeries, which also says what they throw if they cannot be written.
+///
+/// In pieces the same, but each rank writes its own cells and their boundary faces (mesh::PieceSeries; on ranks other than 0 by
+/// PieceFiles). Pairs are not in pieces: rank 0 writes them, and brings the whole together for them unless they are left out.
 template <int Dim>
 class Frames : public Observer<Dim> {
 public:
     /// Nothing is written before the run begins; `n_frames` > 0.
-    Frames(std::filesystem::path directory, std::string series, int n_frames);
+    Frames(std::filesystem::path directory, std::string series, int n_frames, bool in_pieces = false);
 
     void begin(const Scene<Dim>& scene, const RunResult<Dim>& result) override;
     /// Writes a frame if one is due at this step.
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
+    void piece(const FramePiece<Dim>& piece) override;
+    void all_pieces(const FramePiece<Dim>& piece) override;
     void save(StateWriter& state) override;
     [[nodiscard]] bool has_pairs() const { return pairs_.has_value(); }  ///< whether SERIES_pairs is written
     /// Throws BadInput if frames that were written are gone.
@@ -33,14 +42,33 @@ public:
 
 private:
     void write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid);
+    void write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, std::span<const Vector<Dim>> displacement,
+                     std::span<const Vector<Dim>> of_vertices);
+    [[nodiscard]] std::int64_t due(std::int64_t step, std::int64_t n_written) const;
 
     std::filesystem::path directory_;
     std::string name_;
     std::int64_t n_frames_;
+    bool in_pieces_;
     std::int64_t n_steps_ = 0;
     FrameFields fields_;
-    std::optional<mesh::VtuSeries<Dim>> series_;
+    std::optional<mesh::VtuSeries<Dim>> series_;  // of the whole, or
+    std::optional<mesh::PieceSeries> pieces_;     // in pieces
     std::optional<mesh::PointSeries<Dim>> pairs_;
+};
+
+/// What a rank other than 0 leaves of frames in pieces: its own files of them.
+template <int Dim>
+class PieceFiles : public Observer<Dim> {
+public:
+    PieceFiles(std::filesystem::path directory, std::string series, FrameFields fields)
+        : directory_(std::move(directory)), name_(std::move(series)), fields_(fields) {}
+    void piece(const FramePiece<Dim>& piece) override;
+
+private:
+    std::filesystem::path directory_;
+    std::string name_;
+    FrameFields fields_;
 };
 
 /// von Mises equivalent stress [Pa]; in 2D of plane strain, with sigma_zz = nu (sigma_xx + sigma_yy).

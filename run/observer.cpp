@@ -45,6 +45,23 @@ void Observers<Dim>::fail(const Failure& failure, const solid::Solid<Dim>& solid
 }
 
 template <int Dim>
+std::int64_t Observers<Dim>::wants_piece(std::int64_t step) const {
+    std::int64_t wanted = -1;
+    for (const Observer<Dim>& observer : observers_) wanted = std::max(wanted, observer.wants_piece(step));
+    return wanted;
+}
+
+template <int Dim>
+void Observers<Dim>::piece(const FramePiece<Dim>& piece) {
+    for (Observer<Dim>& observer : observers_) observer.piece(piece);
+}
+
+template <int Dim>
+void Observers<Dim>::all_pieces(const FramePiece<Dim>& piece) {
+    for (Observer<Dim>& observer : observers_) observer.all_pieces(piece);
+}
+
+template <int Dim>
 bool Observers<Dim>::wants_checkpoint(std::int64_t step, bool stops) const {
     return std::ranges::any_of(observers_,
                                [&](const Observer<Dim>& observer) { return observer.wants_checkpoint(step, stops); });

@@ -6,12 +6,14 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/run/checkpoint.hpp"
 #include "abut/run/failure.hpp"
+#include "abut/run/frame_piece.hpp"
 #include "abut/run/scene.hpp"
 
 namespace abut::run {
 
 /// Looks on while a scene is run; by itself nothing. An exception that it throws ends the run; a run that it asks to stop
-/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it.
+/// ends well, earlier. Where several ranks run a scene, that of rank 0 is called, and sees all of it; it is asked once per step
+/// what it wants, `asks_to_stop` and all that begins with `wants_`. Of the others `piece` alone is called.
 template <int Dim>
 class Observer {
 public:
@@ -24,15 +26,23 @@ public:
     /// Whether `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the whole
     /// of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
     [[nodiscard]] virtual bool wants_look(std::int64_t /*step*/) const { return true; }
-    virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step
-    /// Asked at the start and after each step but the last, before that is recorded: true makes it the last one.
+    virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
+    /// Asked at the start and after each step but the last: true makes it the last one, which is recorded in any case.
     [[nodiscard]] virtual bool asks_to_stop() const { return false; }
     /// A step could not be ended, or the run has diverged: nothing follows but the error, whatever is thrown here.
     virtual void fail(const Failure&, const solid::Solid<Dim>&) {}
 
+    // Frames in pieces: each rank looks at its own cells, and nothing is brought together
+
+    /// The number of the frame of which each rank is to have its piece at the start (0) or after this step; -1: of none. Asked
+    /// as `wants_look`, of the observer of rank 0 alone.
+    [[nodiscard]] virtual std::int64_t wants_piece(std::int64_t /*step*/) const { return -1; }
+    virtual void piece(const FramePiece<Dim>&) {}  ///< of this rank, on each; must not call what all ranks call together
+    virtual void all_pieces(const FramePiece<Dim>&) {}  ///< on rank 0, with its own, once `piece` has ended on all of them
+
     // Runs that survive: docs/checkpoints.md
 
-    /// Asked after each step, last of all: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
+    /// Asked after each step, before `look`: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
     [[nodiscard]] virtual bool wants_checkpoint(std::int64_t /*step*/, bool /*stops*/) const { return false; }
     virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
     /// What `resume` needs, for a checkpoint.
@@ -58,6 +68,9 @@ public:
     void progress(std::int64_t step, double time) override;
     [[nodiscard]] bool asks_to_stop() const override;
     void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
+    [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;  ///< one of them may want pieces
+    void piece(const FramePiece<Dim>& piece) override;
+    void all_pieces(const FramePiece<Dim>& piece) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;
     void save(StateWriter& state) override;

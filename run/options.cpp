@@ -100,6 +100,13 @@ void check(const RunOptions& options) {
             fmt::format("--checkpoint, --checkpoint-steps: {:g} minutes, {} steps; 0 or more are allowed, and 0 for none.",
                         options.checkpoint, options.checkpoint_steps),
             {.value = options.checkpoint, .allowed = 0.0});
+    if (options.rebalance < 0 || !(options.rebalance_above >= 1.0))
+        throw BadInput(
+            fmt::format(
+                "--rebalance, --rebalance-above: {} steps, {:g}; 0 or more steps are allowed, 0 for parts that stay, "
+                "and 1 or more times the mean.",
+                options.rebalance, options.rebalance_above),
+            {.value = options.rebalance_above, .allowed = 1.0});
     const RunOptions by_default;
     if (options.integrator != SolidIntegrator::memm_async &&
         (options.levels != by_default.levels || options.contact_margin != by_default.contact_margin ||
@@ -151,11 +158,12 @@ NamedValues named_values(const RunOptions& options) {
                     {"out", options.out.string()},
                     {"interval", options.interval},
                     {"frames", options.frames}});
-    // What no program offers: said where a host of the library has changed it.
+    // Said where it is not the usual: pieces, and what no program offers.
     const auto append_changed = [&values](const char* name, auto value, auto by_default) {
         if (value != by_default) values.push_back({name, value});
     };
     const contact::ContactOptions plain;
+    append_changed("pieces", options.pieces, false);
     append_changed("self_contact", contact.search.self_contact, plain.search.self_contact);
     append_changed("self_contact_rings", contact.search.self_contact_rings, plain.search.self_contact_rings);
     append_changed("candidate_distance", contact.search.distance, plain.search.distance);

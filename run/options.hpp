@@ -36,20 +36,23 @@ struct RunOptions {
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;
-    int levels = 0;             ///< of memm_async, at most; 0: 8
-    int contact_margin = 1;     ///< of memm_async: levels that cells in contact are finer than they need to be alone
-    int contact_levels = 0;     ///< of memm_async: levels that cells in contact are finer than all others
-    double gauge = not_given;   ///< c of the Bilbao scheme [J]; not given: the energy at the start
-    bool filter = false;        ///< energy-neutral filter of the parasitic mode, near the contact
-    int restart = 0;            ///< steps between neutral restarts, which clear that mode everywhere; 0: none
-    int threads = 0;            ///< at most; 0: all. The results do not depend on it
-    int ranks = 0;              ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
-    std::filesystem::path out;  ///< folder of ResultFiles; a simulation alone writes nothing
-    int interval = 0;           ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
-    int frames = 21;            ///< of the VTU series of ResultFiles, the first and the last included; 0: none
-    double checkpoint = 10.0;   ///< minutes from one checkpoint of ResultFiles to the next; 0: none, not even at a signal
-    int checkpoint_steps = 0;   ///< the same in steps, beside it; 0: by minutes alone
-    bool resume = false;        ///< goes on from the last checkpoint in `out`
+    int levels = 0;            ///< of memm_async, at most; 0: 8
+    int contact_margin = 1;    ///< of memm_async: levels that cells in contact are finer than they need to be alone
+    int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
+    double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
+    bool filter = false;       ///< energy-neutral filter of the parasitic mode, near the contact
+    int restart = 0;           ///< steps between neutral restarts, which clear that mode everywhere; 0: none
+    int threads = 0;           ///< at most; 0: all. The results do not depend on it
+    int ranks = 0;             ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
+    int rebalance = 0;         ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are
+    double rebalance_above = 1.05;  ///< cells are shared out again where the costliest rank costs so many times the mean
+    std::filesystem::path out;      ///< folder of ResultFiles; a simulation alone writes nothing
+    int interval = 0;               ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
+    int frames = 21;                ///< of the VTU series of ResultFiles, the first and the last included; 0: none
+    bool pieces = false;            ///< each rank writes its own cells of these frames
+    double checkpoint = 10.0;  ///< minutes from one checkpoint of ResultFiles to the next; 0: none, not even at a signal
+    int checkpoint_steps = 0;  ///< the same in steps, beside it; 0: by minutes alone
+    bool resume = false;       ///< goes on from the last checkpoint in `out`
 };
 
 /// A choice and its word on command lines and in summaries.
@@ -104,7 +107,8 @@ template <int Dim>
 /// The time step [s] where the stable one is `stable_dt`. Throws BadInput for one above it, unless that is allowed.
 [[nodiscard]] double choose_step(const RunOptions& options, double stable_dt);
 
-/// Throws BadInput if options do not go together: a filter, restarts, levels or a gauge for a scheme that has none.
+/// Throws BadInput if options do not go together: a filter, restarts, levels or a gauge for a scheme that has none; and for
+/// a number of steps or a bound that there cannot be.
 void check(const RunOptions& options);
 
 /// The options by name, as given; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are

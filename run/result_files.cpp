@@ -43,7 +43,7 @@ ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, st
         remove_earlier_results(out_, name_);
         checkpoints_.remove(texts_beside);
     }
-    if (options.frames > 0) frames_.emplace(out_, name_, options.frames);
+    if (options.frames > 0) frames_.emplace(out_, name_, options.frames, options.pieces);
 }
 
 template <int Dim>
@@ -74,6 +74,23 @@ template <int Dim>
 bool ResultFiles<Dim>::wants_look(std::int64_t step) const {
     return (probes_ && probes_->wants_look(step)) || (forces_ && forces_->wants_look(step)) ||
            (frames_ && frames_->wants_look(step));
+}
+
+template <int Dim>
+std::int64_t ResultFiles<Dim>::wants_piece(std::int64_t step) const {
+    return frames_ ? frames_->wants_piece(step) : -1;
+}
+
+template <int Dim>
+void ResultFiles<Dim>::piece(const FramePiece<Dim>& piece) {
+    const Stopwatch watch(seconds_);
+    if (frames_) frames_->piece(piece);
+}
+
+template <int Dim>
+void ResultFiles<Dim>::all_pieces(const FramePiece<Dim>& piece) {
+    const Stopwatch watch(seconds_);
+    if (frames_) frames_->all_pieces(piece);
 }
 
 template <int Dim>

@@ -41,6 +41,9 @@ public:
     void record(const dynamics::LedgerEntry<Dim>& entry, const RunResult<Dim>& result) override;
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_look(std::int64_t step) const override;
+    [[nodiscard]] std::int64_t wants_piece(std::int64_t step) const override;
+    void piece(const FramePiece<Dim>& piece) override;
+    void all_pieces(const FramePiece<Dim>& piece) override;
     void fail(const Failure& failure, const solid::Solid<Dim>& solid) override;
     [[nodiscard]] bool wants_checkpoint(std::int64_t step, bool stops) const override;
     void keep(const Checkpoint& checkpoint) override;

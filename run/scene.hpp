@@ -11,6 +11,7 @@
 #include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
 #include "abut/run/pilot_report.hpp"
+#include "abut/run/rebalancing.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/solid.hpp"
@@ -86,6 +87,7 @@ struct RunResult {
     std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
     solid::SolidTimes times;              ///< of the steps
     RunSeconds seconds;
+    Rebalancing rebalancing;        ///< on several ranks
     std::vector<Finding> findings;  ///< of the scene
 };
 

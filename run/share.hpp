@@ -1,4 +1,7 @@
 #pragma once
+#include <functional>
+#include <span>
+
 #include "abut/dynamics/ranks.hpp"
 #include "abut/mesh/mesh.hpp"
 
@@ -9,6 +12,9 @@ template <int Dim>
 struct Share {
     const mesh::Mesh<Dim>& part;   ///< mesh::MeshPart::mesh of Scene::mesh; an error may name cells by their labels
     const dynamics::Ranks& ranks;  ///< whose its cells are, ranks::PointRanks
+    /// Shares the cells out again, by weights of all of them (n_cells of the scene), the same on all ranks, which call it
+    /// together: RunOptions::rebalance asks for it. This share lives on until the next call. Empty: parts stay as they are.
+    std::function<Share(std::span<const double> weights)> again{};
 };
 
 }  // namespace abut::run

@@ -61,6 +61,20 @@ Json seconds_json(const RunResult<Dim>& result) {
             {"ledger", seconds.ledger},        {"output", seconds.output}};
 }
 
+/// Nothing where parts stay as they are.
+Json rebalancing_json(const Rebalancing& rebalancing) {
+    if (rebalancing.looks == 0) return Json::object();
+    Json done = Json::array();
+    const auto number = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    for (const Rebalance& one : rebalancing.done)
+        done.push_back({{"step", one.step},
+                        {"cells_moved", one.cells_moved},
+                        {"imbalance_before", number(one.imbalance_before)},
+                        {"imbalance_after", number(one.imbalance_after)},
+                        {"seconds", one.seconds}});
+    return {{"rebalancing", {{"looks", rebalancing.looks}, {"done", done}}}};
+}
+
 template <int Dim>
 Json options_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     const RunOptions& options = result.options;
@@ -245,6 +259,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
                  {"seconds", seconds_json(result)},
                  {"contact_share", contact_share(result)},
                  {"options", options_json(scene, result)}});
+    json.update(rebalancing_json(result.rebalancing));
     return json.dump(2) + "\n";
 }
 

@@ -39,6 +39,8 @@ struct SolidTimes {
     double bulk = 0.0;
     double contact = 0.0;
     double search = 0.0;
+    /// Of the processors, in the operators of the cells of this rank: what it computes alone, without waiting for others
+    double own_cells = 0.0;
 };
 
 }  // namespace abut::solid

@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/base/processor_stopwatch.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
@@ -318,6 +319,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const auto gradient = result_here(force);
     const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1)};
     const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
+        const ProcessorStopwatch of_cells(times_.own_cells);
         if (frames_->any_turns())
             ccg_.gradient_of_packed(midpoint_, load, corrections(), gradient, ends);
         else
@@ -357,7 +359,10 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     frames_->stand_at_end();
     if (contact_) contact_->take_end();
     const Stopwatch watch(times_.bulk);
-    ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
+    {
+        const ProcessorStopwatch of_cells(times_.own_cells);
+        ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
+    }
     require_no_collapse();
     add_work(0.5);
     if (contact_) contact_->add_impulses(dt);

@@ -35,8 +35,7 @@ struct CommandLine {
     fs::path scene;
     fs::path new_file;
     fs::path results;
-    int threads = 0;
-    int ranks = 0;
+    run::RunOptions restarted;  ///< threads, ranks and how they share the scene out
     std::vector<std::string> set;
     std::vector<std::string> sweep;
     run::RunOptions options;
@@ -92,8 +91,9 @@ void add_commands(CLI::App& app, CommandLine& line) {
     line.restart->add_option("results", line.results, "the folder of its results, that of --out")
         ->required()
         ->type_name("DIR");
-    add_count(*line.restart, "--threads", line.threads, "threads; 0: as the run had. The results do not depend on it", 0);
-    add_ranks_option(*line.restart, line.ranks);
+    add_count(*line.restart, "--threads", line.restarted.threads,
+              "threads; 0: as the run had. The results do not depend on it", 0);
+    add_ranks_options(*line.restart, line.restarted);
     add_message_options(*line.restart, line.messages);
     line.make = app.add_subcommand("new", "writes a commented scene to start from");
     line.make->add_option("name", line.new_file, "the file; .toml is added")->required()->type_name("NAME");
@@ -138,7 +138,7 @@ void run_file(const Program& program, const input::SceneFile& file, const Restar
 }
 
 /// The command line of the run is read once more.
-void restart_run(const Program& program, const fs::path& results, int threads, int ranks) {
+void restart_run(const Program& program, const fs::path& results, const run::RunOptions& now) {
     const Restart restart = read_restart(results);
     std::vector<char*> words;
     std::vector<std::string> arguments = restart.arguments;
@@ -153,8 +153,10 @@ void restart_run(const Program& program, const fs::path& results, int threads, i
         options(of_run);
         of_run.out = results;
         of_run.resume = true;
-        if (threads > 0) of_run.threads = threads;
-        of_run.ranks = ranks;
+        if (now.threads > 0) of_run.threads = now.threads;
+        of_run.ranks = now.ranks;
+        of_run.rebalance = now.rebalance;
+        of_run.rebalance_above = now.rebalance_above;
     };
     run_file(program, input::SceneFile(scene_for_restart(results), over), &restart);
 }
@@ -192,7 +194,7 @@ int run_abut(int argc, char** argv) {
             const Restart restart{fs::absolute(line.scene), {argv, argv + argc}};
             run_file(program, input::SceneFile(line.scene, overrides(argc, argv, line)), &restart);
         } else if (line.restart->parsed())
-            restart_run(program, line.results, line.threads, line.ranks);
+            restart_run(program, line.results, line.restarted);
         else if (line.check->parsed())
             check_file(line.scene, overrides(argc, argv, line));
         else if (line.make->parsed())

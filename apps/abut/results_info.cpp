@@ -87,7 +87,7 @@ std::string file_lines(const fs::path& folder) {
     std::map<std::string, int> frames;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string extension = entry.path().extension().string();
-        if (extension == ".vtu" || extension == ".vtp")
+        if (extension == ".vtu" || extension == ".vtp" || extension == ".pvtu" || extension == ".pvtp")
             ++frames[extension];
         else
             names.push_back(entry.path().filename().string());

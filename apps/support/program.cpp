@@ -33,7 +33,7 @@ int report_errors(const Program& program, const std::function<void()>& body) {
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}", for_terminal(fmt::format("{}: error: {}\n", program.name, error.what()), STDERR_FILENO));
         if (program.messages == Messages::json) json_error(error, 1);
-        if (rank_session()) rank_session()->leave_with_error();
+        leave_ranks(fmt::format("{}: error: {}", program.name, error.what()));
         return 1;
     }
 }
@@ -51,7 +51,9 @@ int run_program(const Program& program, int argc, char** argv, const std::functi
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : 1;
+        if (app.exit(error) == 0) return 0;
+        leave_ranks(fmt::format("{}: error: {}", program.name, error.what()));
+        return 1;
     }
     return report_errors(program, body);
 }

@@ -2,8 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
 
@@ -11,6 +17,14 @@ namespace abut::apps {
 namespace {
 
 const ranks::Session* the_session = nullptr;
+int last_resort = -1;  // standard error of a rank that nobody sees
+
+std::chrono::milliseconds patience() {
+    constexpr double by_default = 10.0;
+    const char* said = std::getenv("ABUT_RANKS_PATIENCE");
+    const double seconds = said ? std::strtod(said, nullptr) : by_default;
+    return std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * (seconds > 0.0 ? seconds : by_default)));
+}
 
 /// A number that tells meshes apart: of coordinates, cells, bodies and groups, each value with another weight.
 template <int Dim>
@@ -34,10 +48,21 @@ std::unique_ptr<ranks::Session> join_ranks() {
     if (!ranks::is_launched()) return nullptr;
     auto session = std::make_unique<ranks::Session>();
     the_session = session.get();
-    if (session->all().rank() != 0)
+    if (session->all().rank() != 0) {
+        last_resort = dup(STDERR_FILENO);
         for (std::FILE* stream : {stdout, stderr})
             if (!std::freopen("/dev/null", "w", stream)) throw Misuse("/dev/null cannot be opened.");
+    }
     return session;
+}
+
+void leave_ranks(const std::string& error) {
+    if (!the_session) return;
+    the_session->leave_with_error(patience(), [&] {
+        if (last_resort < 0) return;
+        const std::string text = fmt::format("on rank {}: {}\n", the_session->all().rank(), error);
+        static_cast<void>(!write(last_resort, text.data(), text.size()));
+    });
 }
 
 void start_ranks(int n_ranks) {
@@ -56,7 +81,15 @@ void refuse_ranks(const char* what) {
 }
 
 template <int Dim>
-SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh) {
+SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights) {
+    const ranks::Communicator& all = the_session->all();
+    const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid, weights);
+    on_all([&] { part = mesh::part_of<Dim>(mesh, owner, all.rank()); });
+    points.emplace(all, ranks::shared_cells(all, Dim, part.n_cells, part.cell_number, part.cell_owner));
+}
+
+template <int Dim>
+SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh) : mesh_(mesh) {
     if (!the_session || the_session->all().size() == 1) return;
     const ranks::Communicator& all = the_session->all();
     const double print = fingerprint(mesh), largest = all.largest(print), least = -all.largest(-print);
@@ -65,10 +98,15 @@ SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh) {
             throw BadInput(mesh.name +
                            ": the ranks have made different meshes of it. Save the mesh to a file, and read that.");
     });
-    const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid);
-    on_all([&] { part_ = mesh::part_of<Dim>(mesh, owner, all.rank()); });
-    points_.emplace(all, ranks::shared_cells(all, Dim, part_.n_cells, part_.cell_number, part_.cell_owner));
-    share_.emplace(part_.mesh, *points_);
+    share_.emplace(share_out({}));
+    share_->again = [this](std::span<const double> weights) { return share_out(weights); };
+}
+
+template <int Dim>
+run::Share<Dim> SceneShare<Dim>::share_out(std::span<const double> weights) {
+    part_before_ = std::move(part_);
+    part_ = std::make_unique<Part>(mesh_, weights);
+    return {part_->part.mesh, *part_->points};
 }
 
 template class SceneShare<2>;

@@ -1,7 +1,10 @@
 #pragma once
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 
 #include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
@@ -15,6 +18,10 @@ namespace abut::apps {
 [[nodiscard]] const ranks::Session* rank_session();
 /// To be called once, at the start of the program; the ranks end with what it returns. Null where it runs alone.
 [[nodiscard]] std::unique_ptr<ranks::Session> join_ranks();
+
+/// To be called by a rank that ends with this error, which rank 0 has told of. Where the others wait for this rank in vain it ends
+/// all of them, after 10 seconds or as many as ABUT_RANKS_PATIENCE says; a rank that nobody sees tells of it first.
+void leave_ranks(const std::string& error);
 
 /// Starts the program again where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started another
 /// number of them, or cannot be started.
@@ -39,15 +46,24 @@ void on_all(const Body& body) {
 template <int Dim>
 class SceneShare {
 public:
-    /// A call of all ranks; nothing is made where the program runs alone. Throws BadInput on all where their meshes differ, and
-    /// as mesh::part_of and ranks::PointRanks.
+    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on all where
+    /// their meshes differ, and as mesh::part_of and ranks::PointRanks.
     explicit SceneShare(const mesh::Mesh<Dim>& mesh);
+    SceneShare(const SceneShare&) = delete;
+    SceneShare& operator=(const SceneShare&) = delete;
 
     [[nodiscard]] const run::Share<Dim>* get() const { return share_ ? &*share_ : nullptr; }  ///< null: alone
 
 private:
-    mesh::MeshPart<Dim> part_;
-    std::optional<ranks::PointRanks> points_;
+    struct Part {
+        Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights);
+        mesh::MeshPart<Dim> part;
+        std::optional<ranks::PointRanks> points;
+    };
+    [[nodiscard]] run::Share<Dim> share_out(std::span<const double> weights);
+
+    const mesh::Mesh<Dim>& mesh_;
+    std::unique_ptr<Part> part_, part_before_;
     std::optional<run::Share<Dim>> share_;
 };
 

@@ -122,13 +122,21 @@ void add_compression_limit(CLI::App& app, run::RunOptions& options) {
     add_number(app, "--compression-limit", options.contact.compression_limit, help, {.above = 0.0})->group("Contact");
 }
 
-void add_ranks_option(CLI::App& app, int& ranks) {
-    add_count(
-        app, "--ranks", ranks,
+void add_ranks_options(CLI::App& app, run::RunOptions& options) {
+    const auto grouped = [](CLI::Option* option) { option->group("Output"); };
+    grouped(add_count(
+        app, "--ranks", options.ranks,
         "ranks that the scene is shared out to, on this machine; 0: one, or those that mpirun has started. The results "
         "do not depend on it",
-        0)
-        ->group("Output");
+        0));
+    grouped(
+        add_count(app, "--rebalance", options.rebalance,
+                  "of several ranks: steps from one look at what their cells cost each of them to the next; 0: each keeps "
+                  "its cells. The results do not depend on it",
+                  0));
+    grouped(add_number(app, "--rebalance-above", options.rebalance_above,
+                       "cells are shared out again where they cost one rank so many times the mean; 1: at each look",
+                       {.above = 0.0}));
 }
 
 void add_output_options(CLI::App& app, run::RunOptions& options) {
@@ -140,6 +148,9 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
     grouped(add_count(app, "--interval", options.interval, "steps between two records of the energies; 0: 1 in 2D, 10 in 3D",
                       0));
     grouped(add_count(app, "--frames", options.frames, "frames for ParaView, first and last included; 0: none", 0));
+    app.add_flag("--pieces", options.pieces,
+                 "each rank writes its own cells of a frame (.pvtu names the pieces); by default rank 0 writes the whole")
+        ->group("Output");
     grouped(add_number(app, "--checkpoint", options.checkpoint,
                        "minutes from one checkpoint to the next; at SIGINT and SIGTERM there is one, too; 0: none at all",
                        {.unit = "min", .above = 0.0, .zero = true, .remedy = "Give minutes, or 0 for no checkpoints."}));
@@ -150,7 +161,7 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
         ->group("Output");
     grouped(add_count(app, "--threads", options.threads,
                       "threads, of each rank where there are several; 0: all. The results do not depend on it", 0));
-    add_ranks_option(app, options.ranks);
+    add_ranks_options(app, options);
 }
 
 nlohmann::ordered_json to_json(const run::Value& value) {

@@ -8,8 +8,8 @@
 
 namespace abut::apps {
 
-/// --ranks.
-void add_ranks_option(CLI::App& app, int& ranks);
+/// --ranks, --rebalance, --rebalance-above.
+void add_ranks_options(CLI::App& app, run::RunOptions& options);
 
 /// Groups of options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of
 /// the run is by default.

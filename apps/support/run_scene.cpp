@@ -15,6 +15,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/run/checkpoint_folder.hpp"
+#include "abut/run/frames.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
@@ -124,9 +125,9 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     fmt::print("{}{}", run::closing_table(program.name, *scene, result), files->table());
 }
 
-/// On the other ranks: the run alone. Each reads the checkpoint that rank 0 has found for itself.
+/// On the other ranks: the run, and their pieces of frames. Each reads the checkpoint that rank 0 has found for itself.
 template <int Dim>
-void run_beside(const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
+void run_beside(const Program& program, const run::RunOptions& options, const std::function<run::Scene<Dim>()>& make_scene) {
     std::optional<run::Checkpoint> from;
     std::optional<run::Scene<Dim>> scene;
     on_all([&] {
@@ -137,8 +138,8 @@ void run_beside(const run::RunOptions& options, const std::function<run::Scene<D
     on_all([&] { scene = make_scene(); });
     const StopSignals signals;  // rank 0 decides
     const SceneShare<Dim> share(scene->mesh);
-    run::Observer<Dim> nobody;
-    static_cast<void>(run::simulate<Dim>(*scene, options, nobody, from ? &*from : nullptr, share.get()));
+    run::PieceFiles<Dim> files(options.out, program.series, scene->outputs.fields);
+    static_cast<void>(run::simulate<Dim>(*scene, options, files, from ? &*from : nullptr, share.get()));
 }
 
 }  // namespace
@@ -153,7 +154,7 @@ void run_scene(const Program& program, const run::RunOptions& given, const std::
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
     if (rank_session() && rank_session()->all().rank() > 0)
-        run_beside<Dim>(options, make_scene);
+        run_beside<Dim>(program, options, make_scene);
     else
         run_and_write<Dim>(program, options, make_scene);
 }

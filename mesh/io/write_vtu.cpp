@@ -1,23 +1,16 @@
 #include "abut/mesh/io/write_vtu.hpp"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
-#include <array>
+#include <utility>
 
-#include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/io/file.hpp"
 #include "abut/mesh/io/series_files.hpp"
+#include "abut/mesh/io/vtk_grids.hpp"
 #include "abut/mesh/io/vtk_output.hpp"
 #include "abut/mesh/quality.hpp"
 
@@ -26,86 +19,9 @@ namespace {
 
 using Path = std::filesystem::path;
 
-int vtk_type(CellShape shape) {
-    constexpr std::array<int, n_cell_shapes> types = {VTK_TRIANGLE,   VTK_QUAD,  VTK_TETRA,
-                                                      VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
-    return types[static_cast<std::size_t>(shape)];
-}
-
-/// VTK's documented wedge begins with the triangle that is counter-clockwise from outside: our second one.
-std::size_t vtk_place(CellShape shape, std::size_t i) { return shape == CellShape::prism ? (i + 3) % 6 : i; }
-
-template <class Bodies>
-void add_bodies(vtkDataSet& grid, const Bodies& bodies) {
-    vtkNew<vtkIntArray> array;
-    array->SetName("body");
-    array->SetNumberOfTuples(static_cast<vtkIdType>(bodies.size()));
-    for (std::size_t i = 0; i < bodies.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), bodies[i]);
-    grid.GetCellData()->AddArray(array);
-}
-
 template <int Dim>
-void add_point(vtkPoints& points, const Vector<Dim>& vertex) {
-    std::array<double, 3> x{};
-    fill(x.data(), vertex);
-    points.InsertNextPoint(x.data());
-}
-
-template <int Dim>
-vtkSmartPointer<vtkUnstructuredGrid> grid_of_cells(const Mesh<Dim>& mesh) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const Vector<Dim>& vertex : mesh.vertices) add_point(*points, vertex);
-    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    grid->SetPoints(points);
-    grid->Allocate(mesh.n_cells());
-    std::array<vtkIdType, max_cell_vertices> ids{};
-    for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
-        const CellShape shape = mesh.cell_shape[static_cast<std::size_t>(cell)];
-        const auto vertices = mesh.cell_vertices[cell];
-        for (std::size_t i = 0; i < vertices.size(); ++i) ids[i] = vertices[vtk_place(shape, i)];
-        grid->InsertNextCell(vtk_type(shape), static_cast<vtkIdType>(vertices.size()), ids.data());
-    }
-    add_bodies(*grid, mesh.cell_body);
-    return grid;
-}
-
-/// The vertices of the boundary faces, in the order in which the faces name them.
-template <int Dim>
-std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh) {
-    std::vector<char> seen(mesh.vertices.size(), 0);
-    std::vector<std::int32_t> vertices;
-    for (const std::int32_t face : mesh.boundary_faces)
-        for (const std::int32_t vertex : mesh.face_vertices[face])
-            if (!std::exchange(seen[static_cast<std::size_t>(vertex)], char{1})) vertices.push_back(vertex);
-    return vertices;
-}
-
-template <int Dim>
-vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& vertices) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    std::vector<vtkIdType> number(mesh.vertices.size(), -1);
-    for (const std::int32_t vertex : vertices) {
-        number[static_cast<std::size_t>(vertex)] = points->GetNumberOfPoints();
-        add_point(*points, mesh.vertices[static_cast<std::size_t>(vertex)]);
-    }
-    vtkNew<vtkCellArray> faces;
-    std::vector<std::int32_t> bodies;
-    for (const std::int32_t face : mesh.boundary_faces) {
-        const auto corners = mesh.face_vertices[face];
-        faces->InsertNextCell(static_cast<int>(corners.size()));
-        for (const std::int32_t vertex : corners) faces->InsertCellPoint(number[static_cast<std::size_t>(vertex)]);
-        bodies.push_back(mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])]);
-    }
-    auto surface = vtkSmartPointer<vtkPolyData>::New();
-    surface->SetPoints(points);
-    if (Dim == 2)
-        surface->SetLines(faces);
-    else
-        surface->SetPolys(faces);
-    add_bodies(*surface, bodies);
-    return surface;
+vtkSmartPointer<vtkUnstructuredGrid> grid_of_all(const Mesh<Dim>& mesh) {
+    return grid_of_cells(mesh, all_of(static_cast<std::size_t>(mesh.n_cells())), all_of(mesh.vertices.size()));
 }
 
 /// Mean over the cells around each vertex. Bodies share no vertex, so nothing mixes between them.
@@ -182,9 +98,10 @@ void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>>
 template <int Dim>
 VtuSeries<Dim>::VtuSeries(const Path& directory, const std::string& basename, const Mesh<Dim>& mesh) {
     make_directory(directory);
-    auto vertices = surface_vertices(mesh);
-    auto surface = grid_of_surface(mesh, vertices);
-    files_.reset(new Files{directory, basename, {}, grid_of_cells(mesh), mesh.cell_vertices, std::move(vertices), surface});
+    const std::vector<std::int32_t> boundary = all_of(mesh.boundary_faces.size());
+    auto vertices = surface_vertices(mesh, boundary);
+    auto surface = grid_of_surface(mesh, boundary, vertices);
+    files_.reset(new Files{directory, basename, {}, grid_of_all(mesh), mesh.cell_vertices, std::move(vertices), surface});
 }
 
 template <int Dim>
@@ -235,7 +152,7 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
 
 template <int Dim>
 void write_vtu(const Mesh<Dim>& mesh, const Path& path) {
-    prepared_grid<vtkXMLUnstructuredGridWriter>(*grid_of_cells(mesh), path).move_into_place();
+    prepared_grid<vtkXMLUnstructuredGridWriter>(*grid_of_all(mesh), path).move_into_place();
 }
 
 template class VtuSeries<2>;

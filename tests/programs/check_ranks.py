@@ -1,7 +1,8 @@
-"""check_ranks.py PROGRAM SCENE: runs a scene alone and on 2 and 3 ranks, and compares all files that are left, byte by byte
-(report and summary without times). Then a run on two ranks is ended in its midst and goes on alone, one that began alone goes on
-on two ranks, and one of which a rank was killed ends on all ranks and goes on: the energies are those of the run that nobody
-stopped."""
+"""check_ranks.py PROGRAM OTHER_PROGRAM SCENE: runs a scene alone and on 2 and 3 ranks, also with two threads each, started by
+mpirun, and with cells that are shared out again, and compares all files that are left, byte by byte (report and summary without
+times). Then a run on two ranks is ended in its midst and goes on alone, one that began alone goes on on two ranks, and one of
+which a rank was killed ends on all ranks and goes on: the energies are those of the run that nobody stopped. What ranks cannot
+do is refused once, and an error of one rank that the others wait for ends all of them."""
 import json
 import os
 import pathlib
@@ -13,26 +14,29 @@ import time
 
 # Gaps are of pairs that are listed, and lists are new where rank 0 looks at the whole.
 FIELDS = 'output.fields=["pressure", "velocity", "stress", "von_mises", "pairs"]'
-OPTIONS = ["--set", "bodies.left.size=0.2", "--set", "bodies.right.size=0.2", "--set", FIELDS, "--threads", "1", "--quiet"]
+OPTIONS = ["--set", "bodies.left.size=0.2", "--set", "bodies.right.size=0.2", "--set", FIELDS, "--quiet"]
+MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"] + (["--allow-run-as-root"] if os.geteuid() == 0 else [])
+AGAIN = ["--rebalance", "20", "--rebalance-above", "1"]  # at each look
 LONG = {"steps": 12000, "frames": 0, "interval": 20}
 
 
-def command(program, scene, folder, *more, steps=150, frames=3, interval=1):
-    return [program, "run", scene, *OPTIONS, "--steps", str(steps), "--frames", str(frames), "--interval", str(interval),
+def command(program, scene, folder, *more, steps=150, frames=3, interval=1, threads=1):
+    return [program, "run", scene, *OPTIONS, "--threads", str(threads), "--steps", str(steps), "--frames", str(frames), "--interval", str(interval),
             "--out", str(folder), *more]
 
 
-def files_of(folder):
-    """Bytes of all files; of the summary without what differs from run to run."""
+def files_of(folder, without=()):
+    """Bytes of all files; of the summary without what differs from run to run, and without more."""
     files = {}
     for path in sorted(pathlib.Path(folder).rglob("*")):
         if not path.is_file() or path.name == "report.html":
             continue
         files[str(path.relative_to(folder))] = path.read_bytes()
     summary = json.loads(files.pop("summary.json"))
-    for differs in ("seconds", "contact_share"):
+    for differs in ("seconds", "contact_share", *without):
         summary.pop(differs)
-    summary["options"].pop("out")
+    for differs in ("out", "threads") + (("skin",) if without else ()):
+        summary["options"].pop(differs)
     files["summary"] = json.dumps(summary).encode()
     return files
 
@@ -67,8 +71,61 @@ def end_in_its_midst(words, folder, how=end):
     assert list(pathlib.Path(folder).glob("checkpoints/*.h5")), "the run had ended before it was stopped: give it more steps"
 
 
+def check_rebalancing(program, scene, folder, lists):
+    """Lists of candidates are new where cells are shared out again."""
+    again = folder / "again"
+    subprocess.run(command(program, scene, again, "--ranks", "3", *AGAIN), check=True)
+    report = json.loads((again / "summary.json").read_text())["rebalancing"]
+    assert report["looks"] == 8 and [one["step"] for one in report["done"]] == [20, 40, 60, 80, 100, 120, 140], report
+    assert all(one["imbalance_before"] >= 1 and one["seconds"] > 0 for one in report["done"]), report
+    require_same(files_of(folder / "alone", lists), files_of(again, (*lists, "rebalancing")), "cells shared out again")
+
+
+def check_pieces(program, scene, folder, expected):
+    """Each rank leaves its own cells of a frame; a run in the same folder leaves nothing of them."""
+    pieces = folder / "pieces"
+    subprocess.run(command(program, scene, pieces, "--ranks", "2", "--pieces"), check=True)
+    for name in ("bodies_000002.pvtu", "bodies_000002_0.vtu", "bodies_000002_1.vtu", "bodies_surface_000002.pvtp"):
+        assert (pieces / name).exists(), sorted(os.listdir(pieces))
+    assert "bodies_000002.pvtu" in (pieces / "bodies.pvd").read_text()
+    for name in ("energy.csv", "bodies_pairs_000002.vtp"):
+        assert (pieces / name).read_bytes() == expected[name], name
+    subprocess.run(command(program, scene, pieces, "--ranks", "2"), check=True)
+    require_same(expected, files_of(pieces), "after frames in pieces")
+
+
+def check_one_message(run, words, what):
+    assert run.returncode != 0, what
+    for word in words:
+        assert word in run.stderr, (what, run.stderr)
+    assert run.stderr.count("error:") == 1, (what, run.stderr)
+
+
+def check_refused(program, other, scene, folder):
+    """Each by its name, on all ranks, with one message."""
+    not_made = "not made for a run on several ranks"
+    for name, *options in (("turns", "--kinematics", "floating"), ("pilot run", "--kinematics", "automatic"),
+                           ("filter", "--filter", "neutral"), ("neutral restart", "--restart", "5"),
+                           ("memm_async", "--integrator", "memm_async")):
+        run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
+        check_one_message(run, (name, not_made), options)
+    for words, name in (([program, "run", scene, "--sweep", "bodies.left.density=1,2", "--out", str(folder / "sweep")], "--sweep"),
+                        ([program, "check", scene], "this command"), ([other, "--out", str(folder / "other")], pathlib.Path(other).name)):
+        run = subprocess.run([*MPIRUN, "-n", "2", *words], capture_output=True, text=True)
+        check_one_message(run, (name, "not made for several ranks"), words)
+
+
+def check_left_alone(program, scene, folder):
+    """The second rank cannot read its scene, and the first one waits for it."""
+    good, bad = command(program, scene, folder / "left"), command(program, str(folder / "nowhere.toml"), folder / "left")
+    run = subprocess.run([*MPIRUN, "-n", "1", *good, ":", "-n", "1", *bad], capture_output=True, text=True, timeout=60,
+                         env={**os.environ, "ABUT_RANKS_PATIENCE": "1"})
+    assert run.returncode != 0, run.stderr
+    assert "on rank 1: abut: error:" in run.stderr and "nowhere.toml" in run.stderr, run.stderr
+
+
 def main():
-    program, scene = sys.argv[1:]
+    program, other, scene = sys.argv[1:]
     with tempfile.TemporaryDirectory() as here:
         folder = pathlib.Path(here)
         subprocess.run(command(program, scene, folder / "alone"), check=True)
@@ -77,20 +134,24 @@ def main():
         for ranks in ("2", "3"):
             subprocess.run(command(program, scene, folder / ranks, "--ranks", ranks), check=True)
             require_same(expected, files_of(folder / ranks), f"{ranks} ranks")
+        subprocess.run(command(program, scene, folder / "threads", "--ranks", "2", threads=2), check=True)
+        require_same(expected, files_of(folder / "threads"), "2 ranks of 2 threads")
+        subprocess.run([*MPIRUN, "-n", "1", *command(program, scene, folder / "mpirun")], check=True)
+        require_same(expected, files_of(folder / "mpirun"), "mpirun -n 1")
+        check_rebalancing(program, scene, folder, ("rebuilds", "candidates"))
+        check_pieces(program, scene, folder, expected)
 
         subprocess.run(command(program, scene, folder / "whole", **LONG), check=True)
         energies = (folder / "whole" / "energy.csv").read_bytes()
         for before, after, how in (("2", "0", end), ("0", "2", end), ("2", "2", kill_a_rank)):
             parted = folder / f"parted_{before}_{after}"
-            words = command(program, scene, parted, "--ranks", before, "--checkpoint-steps", "20", **LONG)
+            words = command(program, scene, parted, "--ranks", before, *AGAIN, "--checkpoint-steps", "30", **LONG)
             end_in_its_midst(words, parted, how)
-            subprocess.run([program, "restart", str(parted), "--ranks", after, "--quiet"], check=True)
+            subprocess.run([program, "restart", str(parted), "--ranks", after, "--rebalance", "700", "--quiet"], check=True)
             assert (parted / "energy.csv").read_bytes() == energies, f"began on {before} ranks, went on on {after}"
 
-        wrong = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", "--kinematics", "floating"),
-                               capture_output=True, text=True)
-        assert wrong.returncode != 0 and "not made for a run on several ranks" in wrong.stderr, wrong.stderr
-        assert wrong.stderr.count("error:") == 1, wrong.stderr
+        check_refused(program, other, scene, folder)
+        check_left_alone(program, scene, folder)
 
 
 main()

@@ -1,0 +1,153 @@
+#include "abut/run/frame_piece.hpp"
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "abut/run/cell_velocity.hpp"
+
+namespace abut::run {
+namespace {
+
+/// The part of a frame that needs no other rank than by a few gathered values.
+template <int Dim>
+class PieceMaker {
+public:
+    PieceMaker(FramePiece<Dim>& piece, solid::Solid<Dim>& solid)
+        : piece_(piece), solid_(solid), mesh_(*piece.mesh), is_own_(mesh_.cell_measure.size(), 0) {
+        if (const dynamics::Ranks* ranks = solid.ranks()) {
+            piece.cells.assign(ranks->numbers().begin(), ranks->numbers().end());
+            positions_.assign(ranks->positions().begin(), ranks->positions().end());
+            piece.number = ranks->rank();
+            piece.n_pieces = static_cast<int>(ranks->gather(std::vector{1.0}).size());
+        } else {
+            for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) piece.cells.push_back(c);
+            positions_ = piece.cells;
+        }
+        for (const std::int32_t cell : piece.cells) is_own_[static_cast<std::size_t>(cell)] = 1;
+    }
+
+    void take_cells(const dynamics::RunView<Dim>& run) {
+        static_cast<void>(solid_.potential(run.q));  // leaves the stresses of this state behind
+        const auto displacement = solid_.cell_displacement(run.q);
+        const auto velocity = cell_velocity(run, solid_);
+        for (const std::int32_t position : positions_) {
+            const auto c = static_cast<std::size_t>(position);
+            piece_.displacement.push_back(displacement[c]);
+            piece_.velocity.push_back(velocity[c]);
+            piece_.stress.push_back(solid_.stress(position));
+        }
+    }
+
+    void take_vertices(const dynamics::RunView<Dim>& run) {
+        const std::vector<int> around = count_around();
+        for (std::size_t v = 0; v < around.size(); ++v)
+            if (around[v] > 0) piece_.vertices.push_back(static_cast<std::int32_t>(v));
+        std::vector<Vector<Dim>> of_all;
+        // A body that turns is not where the mean displacement of its cells takes it; it is on one rank.
+        if (solid_.moment_arms() == dynamics::MomentArms::mid_step)
+            of_all = solid_.vertex_displacement(run.q);
+        else
+            of_all = vertex_means(around);
+        for (const std::int32_t v : piece_.vertices)
+            piece_.vertex_displacement.push_back(of_all[static_cast<std::size_t>(v)]);
+    }
+
+    /// Boundary faces of own cells come in the order of the whole mesh, in a part as well.
+    void take_boundary(const solid::ContactField& contact) {
+        const mesh::Mesh<Dim>& part = solid_.mesh();
+        std::vector<char> is_own_here(part.cell_measure.size(), 0);
+        for (const std::int32_t position : positions_) is_own_here[static_cast<std::size_t>(position)] = 1;
+        for (std::size_t b = 0; b < part.boundary_faces.size(); ++b) {
+            if (!is_own_here[first_cell(part, b)]) continue;
+            piece_.pressure.push_back(contact.pressure[b]);
+            piece_.gap.push_back(std::isfinite(contact.gap[b]) ? contact.gap[b] : std::numeric_limits<double>::quiet_NaN());
+        }
+        for (std::size_t b = 0; b < mesh_.boundary_faces.size(); ++b)
+            if (is_own_[first_cell(mesh_, b)]) piece_.boundary.push_back(static_cast<std::int32_t>(b));
+    }
+
+private:
+    [[nodiscard]] static std::size_t first_cell(const mesh::Mesh<Dim>& mesh, std::size_t boundary) {
+        return static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(mesh.boundary_faces[boundary])][0]);
+    }
+
+    /// Own cells around each vertex.
+    [[nodiscard]] std::vector<int> count_around() const {
+        std::vector<int> around(mesh_.vertices.size(), 0);
+        for (const std::int32_t cell : piece_.cells)
+            for (const std::int32_t v : mesh_.cell_vertices[cell]) ++around[static_cast<std::size_t>(v)];
+        return around;
+    }
+
+    /// Means over all cells around a vertex, one after the other by number. Those of other ranks come from these.
+    [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around) const {
+        std::vector<Vector<Dim>> of_cells(mesh_.cell_measure.size(), Vector<Dim>::Zero());
+        for (std::size_t i = 0; i < piece_.cells.size(); ++i)
+            of_cells[static_cast<std::size_t>(piece_.cells[i])] = piece_.displacement[i];
+        if (const dynamics::Ranks* ranks = solid_.ranks()) {
+            const std::vector<double> shared = ranks->gather(values_at_seams());
+            for (std::size_t i = 0; i < shared.size(); i += 1 + Dim)
+                for (int k = 0; k < Dim; ++k) of_cells[static_cast<std::size_t>(shared[i])][k] = shared[i + 1 + k];
+        }
+        std::vector<Vector<Dim>> mean(mesh_.vertices.size(), Vector<Dim>::Zero());
+        std::vector<int> count(mesh_.vertices.size(), 0);
+        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
+            for (const std::int32_t v : mesh_.cell_vertices[cell]) {
+                const auto vertex = static_cast<std::size_t>(v);
+                if (around[vertex] == 0) continue;
+                mean[vertex] += of_cells[static_cast<std::size_t>(cell)];
+                ++count[vertex];
+            }
+        for (const std::int32_t v : piece_.vertices) mean[static_cast<std::size_t>(v)] /= count[static_cast<std::size_t>(v)];
+        return mean;
+    }
+
+    /// Number and displacement of own cells that share a vertex with a cell of another rank.
+    [[nodiscard]] std::vector<double> values_at_seams() const {
+        std::vector<char> at_seam(mesh_.vertices.size(), 0);
+        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
+            if (!is_own_[static_cast<std::size_t>(cell)])
+                for (const std::int32_t v : mesh_.cell_vertices[cell]) at_seam[static_cast<std::size_t>(v)] = 1;
+        std::vector<double> values;
+        for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
+            bool shared = false;
+            for (const std::int32_t v : mesh_.cell_vertices[piece_.cells[i]])
+                shared = shared || at_seam[static_cast<std::size_t>(v)] != 0;
+            if (!shared) continue;
+            values.push_back(piece_.cells[i]);
+            values.insert(values.end(), piece_.displacement[i].begin(), piece_.displacement[i].end());
+        }
+        return values;
+    }
+
+    FramePiece<Dim>& piece_;
+    solid::Solid<Dim>& solid_;
+    const mesh::Mesh<Dim>& mesh_;
+    std::vector<char> is_own_;             // of the cells of the scene
+    std::vector<std::int32_t> positions_;  // of own cells in the mesh of the solid
+};
+
+}  // namespace
+
+template <int Dim>
+FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, const dynamics::RunView<Dim>& run,
+                            solid::Solid<Dim>& solid) {
+    FramePiece<Dim> piece;
+    piece.frame = frame;
+    piece.time = run.time;
+    piece.mesh = &mesh;
+    for (const solid::Material& material : solid.options().materials) piece.poisson.push_back(material.poisson);
+    PieceMaker<Dim> maker(piece, solid);
+    const solid::ContactField contact = solid.contact_field(run.q);
+    maker.take_cells(run);
+    maker.take_vertices(run);
+    maker.take_boundary(contact);
+    return piece;
+}
+
+template FramePiece<2> frame_piece(std::int64_t, const mesh::Mesh<2>&, const dynamics::RunView<2>&, solid::Solid<2>&);
+template FramePiece<3> frame_piece(std::int64_t, const mesh::Mesh<3>&, const dynamics::RunView<3>&, solid::Solid<3>&);
+
+}  // namespace abut::run

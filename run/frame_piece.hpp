@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "abut/base/vector.hpp"
+#include "abut/dynamics/ledger.hpp"
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/solid.hpp"
+
+namespace abut::run {
+
+/// What one rank has of a frame: its own cells, in their order in the scene.
+template <int Dim>
+struct FramePiece {
+    std::int64_t frame = 0;                 ///< number of the frame
+    double time = 0.0;                      ///< [s]
+    int number = 0;                         ///< of the piece, that of the rank
+    int n_pieces = 1;                       ///< of all ranks
+    std::vector<double> poisson;            ///< of the bodies [-]
+    const mesh::Mesh<Dim>* mesh = nullptr;  ///< of the scene
+
+    std::vector<std::int32_t> cells;        ///< in the mesh, increasing (n)
+    std::vector<Vector<Dim>> displacement;  ///< (n) [m]
+    std::vector<Vector<Dim>> velocity;      ///< (n) [m/s]
+    std::vector<Matrix<Dim>> stress;        ///< (n) [Pa]
+
+    std::vector<std::int32_t> vertices;            ///< of these cells, increasing (n_vertices)
+    std::vector<Vector<Dim>> vertex_displacement;  ///< as mesh::VtuSeries has it for the whole mesh (n_vertices) [m]
+
+    std::vector<std::int32_t> boundary;  ///< faces of these cells among Mesh::boundary_faces, increasing (n_faces)
+    std::vector<double> pressure;        ///< of contact (n_faces) [Pa]
+    std::vector<double> gap;             ///< (n_faces) [m]; NaN: nothing faces it
+};
+
+/// The piece of this rank, or the whole where there is one; `solid` is that of the run. A call of all ranks.
+template <int Dim>
+[[nodiscard]] FramePiece<Dim> frame_piece(std::int64_t frame, const mesh::Mesh<Dim>& mesh, const dynamics::RunView<Dim>& run,
+                                          solid::Solid<Dim>& solid);
+
+}  // namespace abut::run

@@ -1,0 +1,133 @@
+#include "abut/run/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/dynamics/mass.hpp"
+#include "abut/dynamics/ranks.hpp"
+#include "abut/solid/local_steps.hpp"
+
+namespace abut::run {
+namespace {
+
+std::int64_t choose_steps(const RunOptions& options, double time_of_scene, double dt) {
+    if (std::isnan(options.time) && options.steps > 0) return options.steps;
+    return steps_until(std::isnan(options.time) ? time_of_scene : options.time, dt);
+}
+
+/// With what the pilot run picked, if there was one.
+template <int Dim>
+solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions options,
+                                       const std::optional<PilotReport>& pilot) {
+    if (!pilot) return run::solid_options(scene, options);
+    options.kinematics = BodyKinematics::scene;
+    solid::SolidOptions<Dim> solid = run::solid_options(scene, options);
+    solid.kinematics = pilot->kinematics();
+    return solid;
+}
+
+}  // namespace
+
+EnergyScale known_scale(EnergyScale scale, double kinetic) {
+    if (scale.value == 0.0) scale.value = kinetic;
+    if (scale.name.empty())
+        throw BadInput("Scene::energy_scale has no name. Give a letter and what stands below it, such as H0.");
+    if (!(scale.value > 0.0))
+        throw BadInput(fmt::format(
+            "the kinetic energy at the start is {} J, above 0 J is needed to measure energies with. Raise the speed "
+            "at the start; a scene that starts at rest gives Scene::energy_scale.",
+            scale.value));
+    return scale;
+}
+
+solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a, const solid::SolidTimes& b) {
+    return {sum.bulk + a.bulk - b.bulk, sum.contact + a.contact - b.contact, sum.search + a.search - b.search,
+            sum.own_cells + a.own_cells - b.own_cells};
+}
+
+template <int Dim>
+void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, const RunOptions& options) {
+    if (options.kinematics == BodyKinematics::automatic)
+        dynamics::refuse_ranks(ranks, "a pilot run (--kinematics automatic)");
+    if (options.integrator == SolidIntegrator::memm_async) dynamics::refuse_ranks(ranks, "local steps (memm_async)");
+    if (options.filter) dynamics::refuse_ranks(ranks, "the filter");
+    if (options.restart != 0) dynamics::refuse_ranks(ranks, "a neutral restart");
+    if (scene.after_step) dynamics::refuse_ranks(ranks, "a scene that looks at each step (Scene::after_step)");
+}
+
+template <int Dim>
+Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<PilotReport> pilot, const Share<Dim>* share)
+    : scene(of), options(given), first_share(share) {
+    solid.emplace(share ? share->part : scene.mesh, solid_options<Dim>(scene, options, pilot),
+                  share ? &share->ranks : nullptr);
+    result.pilot = std::move(pilot);
+    dynamics::agreed(solid->ranks(), [&] {
+        if (share && share->ranks.rank() == 0) whole.emplace(scene.mesh, run::solid_options(scene, options));
+    });
+    result.stable = dynamics::stable_step(*solid);
+    result.finest_dt = result.dt = choose_step(options, result.stable.dt);
+    if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
+    result.steps = choose_steps(options, scene.time, result.dt);
+    const solid::Solid<Dim>& seen = whole ? *whole : *solid;
+    result.stencils = seen.ccg().stencil_report();
+    result.boundary_stencils = seen.ccg().boundary().report;
+    result.contact_faces_left_out = solid->contact_faces_left_out();
+    const auto& kinematics = solid->options().kinematics;
+    result.all_may_turn = !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
+    result.blind_corners = solid->blind_corners();
+    result.unseen_edges = solid->unseen_edges();
+    set_state();
+}
+
+template <int Dim>
+void Start<Dim>::set_state() {
+    dynamics::agreed(solid->ranks(), [&] {
+        q = displacement_at_start(scene, *solid);
+        momentum = momentum_at_start(scene, *solid);
+    });
+}
+
+/// The solid before goes first: there is never more than one of them, and references to it stay good.
+template <int Dim>
+void Start<Dim>::take_part(const Share<Dim>& share) {
+    solid.emplace(share.part, run::solid_options(scene, options), &share.ranks);
+    set_state();
+}
+
+template <int Dim>
+void Start<Dim>::set_local_steps() {
+    auto local =
+        solid::local_steps(*solid, result.stable,
+                           {.most_levels = options.levels == 0 ? solid::LocalStepOptions{}.most_levels : options.levels,
+                            .contact_margin = options.contact_margin,
+                            .contact_levels = options.contact_levels});
+    local_steps = std::move(local.steps);
+    result.level_cells = std::move(local.cells);
+    result.dt *= local.dt / result.stable.dt;
+    result.finest_dt = result.dt / local_steps.parts.back();
+}
+
+template <int Dim>
+double gauge(const Start<Dim>& start) {
+    if (!std::isnan(start.options.gauge)) return start.options.gauge;
+    if (start.scene.energy_scale.value > 0.0) return 2.0 * start.scene.energy_scale.value;  // V may sink by that scale
+    const std::vector<double>& p = start.momentum;
+    const auto inverse_mass = start.solid->inverse_mass();
+    if (const dynamics::Ranks* ranks = start.solid->ranks())
+        return 0.5 * dynamics::mass_product_over(*ranks, p, inverse_mass, p);
+    return 0.5 * dynamics::mass_product(p, inverse_mass, p);
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                         \
+    template void check_for_ranks<Dim>(const dynamics::Ranks*, const Scene<Dim>&, const RunOptions&); \
+    template struct Start<Dim>;                                                                       \
+    template double gauge<Dim>(const Start<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::run

@@ -1,0 +1,51 @@
+#pragma once
+// Private to the layer.
+#include <optional>
+#include <vector>
+
+#include "abut/dynamics/memm_async.hpp"
+#include "abut/run/options.hpp"
+#include "abut/run/scene.hpp"
+#include "abut/run/share.hpp"
+
+namespace abut::run {
+
+/// What is not made for several ranks, before anything is set up. Throws BadInput; null: there is one.
+template <int Dim>
+void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, const RunOptions& options);
+
+/// With the value that it has where the scene gives none. Throws BadInput where nothing moves, either.
+[[nodiscard]] EnergyScale known_scale(EnergyScale scale, double kinetic);
+/// sum + a - b
+[[nodiscard]] solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a, const solid::SolidTimes& b);
+
+/// What a run begins from, whatever its integrator.
+template <int Dim>
+struct Start {
+    /// All arguments but `pilot` must outlive it. `share` is null on one rank.
+    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>* share);
+
+    /// The solid, q and momentum of another part, at the start of the run again: everything that refers to the solid now refers
+    /// to this one.
+    void take_part(const Share<Dim>& share);
+
+    const Scene<Dim>& scene;
+    const RunOptions& options;
+    const Share<Dim>* first_share;           // null on one rank
+    std::optional<solid::Solid<Dim>> solid;  // always there
+    std::optional<solid::Solid<Dim>> whole;  // on rank 0 of several, for observers
+    RunResult<Dim> result;
+    std::vector<double> q;
+    std::vector<double> momentum;
+    dynamics::LocalSteps local_steps;  // of memm_async
+
+private:
+    void set_state();
+    void set_local_steps();
+};
+
+/// c of the Bilbao scheme [J].
+template <int Dim>
+[[nodiscard]] double gauge(const Start<Dim>& start);
+
+}  // namespace abut::run
