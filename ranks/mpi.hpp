@@ -124,7 +124,6 @@ template <class T>
     return result;
 }
 
-<<<<<<< HEAD
 /// All bytes of all ranks, on all of them. An instance keeps them from call to call.
 class BytesOfRanks {
 public:
@@ -136,13 +135,12 @@ private:
     std::vector<int> counts_, offsets_;
     std::vector<std::byte> all_;
 };
-=======
+
 /// Replaces each value by the largest of all ranks; none may be NaN.
 inline void take_largest(const Communicator& communicator, std::span<double> values) {
     require(MPI_Allreduce(MPI_IN_PLACE, values.data(), as_count(values.size()), MPI_DOUBLE, MPI_MAX, handle(communicator)),
             "MPI_Allreduce");
 }
->>>>>>> 67a6f6ae19028ec94a1fcd486eebc591db04a5dd
 
 /// What rank `root` has, on all ranks.
 template <class T>

@@ -81,15 +81,15 @@ void refuse_ranks(const char* what) {
 }
 
 template <int Dim>
-SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights) {
+SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights, int layers) {
     const ranks::Communicator& all = the_session->all();
     const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid, weights);
-    on_all([&] { part = mesh::part_of<Dim>(mesh, owner, all.rank()); });
+    on_all([&] { part = mesh::part_of<Dim>(mesh, owner, all.rank(), layers); });
     points.emplace(all, ranks::shared_cells(all, Dim, part.n_cells, part.cell_number, part.cell_owner));
 }
 
 template <int Dim>
-SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh) : mesh_(mesh) {
+SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh, int layers) : mesh_(mesh), layers_(layers) {
     if (!the_session || the_session->all().size() == 1) return;
     const ranks::Communicator& all = the_session->all();
     const double print = fingerprint(mesh), largest = all.largest(print), least = -all.largest(-print);
@@ -105,7 +105,7 @@ SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh) : mesh_(mesh) {
 template <int Dim>
 run::Share<Dim> SceneShare<Dim>::share_out(std::span<const double> weights) {
     part_before_ = std::move(part_);
-    part_ = std::make_unique<Part>(mesh_, weights);
+    part_ = std::make_unique<Part>(mesh_, weights, layers_);
     return {part_->part.mesh, *part_->points};
 }
 

@@ -46,9 +46,10 @@ void on_all(const Body& body) {
 template <int Dim>
 class SceneShare {
 public:
-    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on all where
+    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. `layers` of copies are as
+    /// solid::copy_layers says. Throws BadInput on all where
     /// their meshes differ, and as mesh::part_of and ranks::PointRanks.
-    explicit SceneShare(const mesh::Mesh<Dim>& mesh);
+    SceneShare(const mesh::Mesh<Dim>& mesh, int layers);
     SceneShare(const SceneShare&) = delete;
     SceneShare& operator=(const SceneShare&) = delete;
 
@@ -56,13 +57,14 @@ public:
 
 private:
     struct Part {
-        Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights);
+        Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights, int layers);
         mesh::MeshPart<Dim> part;
         std::optional<ranks::PointRanks> points;
     };
     [[nodiscard]] run::Share<Dim> share_out(std::span<const double> weights);
 
     const mesh::Mesh<Dim>& mesh_;
+    int layers_;
     std::unique_ptr<Part> part_, part_before_;
     std::optional<run::Share<Dim>> share_;
 };

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
@@ -19,6 +20,7 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
+#include "abut/solid/copy_layers.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
@@ -66,6 +68,13 @@ std::string how_to_go_on(const run::RunOptions& options) {
     return ", and --resume goes on from there (abut restart " + options.out.string() + " with a scene in TOML)";
 }
 
+/// What is refused on several ranks is left to the run.
+template <int Dim>
+int copy_layers(const run::Scene<Dim>& scene, const run::RunOptions& options) {
+    const auto of_all = run::kinematics_of_all(options.kinematics);
+    return of_all ? solid::copy_layers(std::vector{*of_all}) : solid::copy_layers(scene.solid.kinematics);
+}
+
 template <int Dim>
 run::Scene<Dim> timed_scene(const std::function<run::Scene<Dim>()>& make_scene, double& seconds) {
     const Stopwatch watch(seconds);
@@ -110,7 +119,7 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     on_all([&] { scene = timed_scene(make_scene, seconds); });
     const StopSignals signals;  // from here on there is something to save
     JsonLines<Dim> lines(program.name);
-    const SceneShare<Dim> share(scene->mesh);
+    const SceneShare<Dim> share(scene->mesh, copy_layers(*scene, options));
     run::RunResult<Dim> result =
         simulate_into(*files, *scene, options, from ? &*from : nullptr, share.get(), program.messages, lines);
     if (!result.complete)
@@ -137,7 +146,7 @@ void run_beside(const Program& program, const run::RunOptions& options, const st
     require_same_step(from);
     on_all([&] { scene = make_scene(); });
     const StopSignals signals;  // rank 0 decides
-    const SceneShare<Dim> share(scene->mesh);
+    const SceneShare<Dim> share(scene->mesh, copy_layers(*scene, options));
     run::PieceFiles<Dim> files(options.out, program.series, scene->outputs.fields);
     static_cast<void>(run::simulate<Dim>(*scene, options, files, from ? &*from : nullptr, share.get()));
 }
