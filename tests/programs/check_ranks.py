@@ -1,5 +1,5 @@
 """check_ranks.py PROGRAM OTHER_PROGRAM SCENE: runs a scene alone and on 2 and 3 ranks, also with two threads each, started by
-mpirun, and with cells that are shared out again, and compares all files that are left, byte by byte (report and summary without
+mpirun, with cells that are shared out again, and with bodies that turn and bend, and compares all files that are left, byte by byte (report and summary without
 times). Then a run on two ranks is ended in its midst and goes on alone, one that began alone goes on on two ranks, and one of
 which a rank was killed ends on all ranks and goes on: the energies are those of the run that nobody stopped. What ranks cannot
 do is refused once, and an error of one rank that the others wait for ends all of them."""
@@ -94,6 +94,14 @@ def check_pieces(program, scene, folder, expected):
     require_same(expected, files_of(pieces), "after frames in pieces")
 
 
+def check_turning(program, scene, folder):
+    """Bodies that turn in a frame, and bodies that bend, under the other law of contact."""
+    for kinematics in ("floating", "finite"):
+        for ranks in ("0", "3"):
+            subprocess.run(command(program, scene, folder / (kinematics + ranks), "--kinematics", kinematics, "--ranks", ranks), check=True)
+        require_same(files_of(folder / (kinematics + "0")), files_of(folder / (kinematics + "3")), kinematics)
+
+
 def check_one_message(run, words, what):
     assert run.returncode != 0, what
     for word in words:
@@ -104,7 +112,7 @@ def check_one_message(run, words, what):
 def check_refused(program, other, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
-    for name, *options in (("turns", "--kinematics", "floating"), ("pilot run", "--kinematics", "automatic"),
+    for name, *options in (("a rigid body", "--kinematics", "rigid"), ("pilot run", "--kinematics", "automatic"),
                            ("filter", "--filter", "neutral"), ("neutral restart", "--restart", "5"),
                            ("memm_async", "--integrator", "memm_async")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
@@ -140,6 +148,7 @@ def main():
         require_same(expected, files_of(folder / "mpirun"), "mpirun -n 1")
         check_rebalancing(program, scene, folder, ("rebuilds", "candidates"))
         check_pieces(program, scene, folder, expected)
+        check_turning(program, scene, folder)
 
         subprocess.run(command(program, scene, folder / "whole", **LONG), check=True)
         energies = (folder / "whole" / "energy.csv").read_bytes()
