@@ -193,7 +193,7 @@ Seconds time_steps(const Choices& choices, const Make& make) {
 }
 
 /// Of a product with the operator.
-double time_operator(const solid::Solid<3>& solid, std::int32_t n_cells, int repetitions) {
+double time_operator(solid::Solid<3>& solid, std::int32_t n_cells, int repetitions) {
     std::vector<Vector<3>> u(static_cast<std::size_t>(n_cells)), result(u.size());
     for (std::size_t c = 0; c < u.size(); ++c) u[c] = Vector<3>::Constant(std::sin(static_cast<double>(c)));
     return benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
@@ -206,7 +206,7 @@ struct Times {
     Seconds steps, steps_alone;  // `alone`: on rank 0, of the whole
 };
 
-Times measure(const Shared& shared, const Choices& choices, double dt, const Run& run, benchmark::RecordedRanks& recorded) {
+Times measure(const Shared& shared, const Choices& choices, double dt, Run& run, benchmark::RecordedRanks& recorded) {
     Times times;
     in_turn(shared.all, [&] {
         times.product = time_operator(run.solid, shared.part.mesh.n_cells(), choices.repetitions);
@@ -215,8 +215,8 @@ Times measure(const Shared& shared, const Choices& choices, double dt, const Run
             return std::make_unique<Run>(shared.part.mesh, choices, dt, &recorded);
         });
         if (shared.all.rank() != 0) return;
-        times.product_alone =
-            time_operator(solid::Solid<3>(shared.whole, options_of(choices)), shared.whole.n_cells(), choices.repetitions);
+        solid::Solid<3> alone(shared.whole, options_of(choices));
+        times.product_alone = time_operator(alone, shared.whole.n_cells(), choices.repetitions);
         times.steps_alone = time_steps(choices, [&] { return std::make_unique<Run>(shared.whole, choices, dt, nullptr); });
     });
     return times;

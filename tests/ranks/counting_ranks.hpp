@@ -1,5 +1,6 @@
 #pragma once
 // Ranks that count what is asked of them.
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <span>
@@ -22,6 +23,7 @@ public:
     CountingRanks(const dynamics::Ranks& ranks, Calls& calls) : ranks_(ranks), calls_(calls) {}
 
     [[nodiscard]] int rank() const override { return ranks_.rank(); }
+    [[nodiscard]] int n_ranks() const override { return ranks_.n_ranks(); }
     [[nodiscard]] std::span<const std::int32_t> numbers() const override { return ranks_.numbers(); }
     [[nodiscard]] std::span<const std::int32_t> positions() const override { return ranks_.positions(); }
     [[nodiscard]] std::int32_t n_points() const override { return ranks_.n_points(); }
@@ -46,6 +48,10 @@ public:
     [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override {
         ++calls_.gathers;
         return ranks_.gather(values);
+    }
+    [[nodiscard]] std::span<const std::byte> gather_bytes(std::span<const std::byte> mine) const override {
+        ++calls_.gathers;
+        return ranks_.gather_bytes(mine);
     }
     [[nodiscard]] double largest(double value) const override {
         ++calls_.largest;
