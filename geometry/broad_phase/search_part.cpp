@@ -67,7 +67,7 @@ std::vector<IndexPair> overlapping_pairs_of_part(const SearchPart& part, const S
         left.limits.pairs -= static_cast<std::int64_t>(pairs.size());
         // The parts of both boxes find the pair: one keeps those of even and odd numbers, the other one the rest.
         const auto in_order = [&, offset = static_cast<std::int32_t>(from)](std::int32_t i, std::int32_t j) {
-            const auto [a, b] = std::minmax(begin + i, offset + j);
+            const auto [a, b] = std::minmax({begin + i, offset + j});
             return IndexPair{a, b};
         };
         const PairFilter keeps = [&](std::int32_t i, std::int32_t j) {
