@@ -31,9 +31,9 @@ inline constexpr double same_time = 1e-6;  // of a step: sums of steps are round
 
 /// What is not made for several ranks.
 template <int Dim>
-void check_for_ranks(const dynamics::Ranks* ranks, const Bodies<Dim>& bodies) {
-    const SolidOptions<Dim>& options = bodies.options();
-    if (bodies.any_rigid()) dynamics::refuse_ranks(ranks, "a rigid body");
+void check_for_ranks(const dynamics::Ranks* ranks, const SolidOptions<Dim>& options) {
+    if (std::ranges::find(options.kinematics, Kinematics::rigid) != options.kinematics.end())
+        dynamics::refuse_ranks(ranks, "a rigid body");
     if (!options.springs.empty() || !options.moments.empty()) dynamics::refuse_ranks(ranks, "a spring or a moment");
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
@@ -56,9 +56,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
       options_(std::move(options)),
       bodies_(dynamics::agreed(ranks,
                                [&] {
-                                   auto bodies = std::make_unique<Bodies<Dim>>(mesh, options_);
-                                   if (ranks) check_for_ranks(ranks, *bodies);
-                                   return bodies;
+                                   if (ranks) check_for_ranks(ranks, options_);
+                                   return std::make_unique<Bodies<Dim>>(mesh, options_);
                                })),
       part_(ranks ? std::make_unique<RankPart<Dim>>(*ranks, *bodies_) : nullptr),
       ccg_(dynamics::agreed(ranks,

@@ -42,8 +42,8 @@ inline run::Scene<2> loaded_strip() {
                                           return {0.0, -0.02 * std::sin(3.0 * t + x[0])};
                                       }}};
     scene.solid.obstacles = {
-        {.faces = {{Vector<2>(5.0, -0.002), Vector<2>(1.0, -0.002)}}, .path = [](double t) -> Vector<2> {
-             return {0.0, 0.05 * t};
+        {.faces = {{Vector<2>(5.0, -0.002), Vector<2>(-1.0, -0.002)}}, .path = [](double t) -> Vector<2> {
+             return {0.0, 0.01 * t};
          }}};
     scene.velocity = {Vector<2>(0.0, -0.05)};
     scene.energy_scale = {.name = "E0", .value = 0.01};
