@@ -38,26 +38,6 @@ std::size_t renumber(std::string& text, const std::string& word, std::int64_t fr
     return at + renewed.size();
 }
 
-/// The ranks as parts that share the work of contact.
-class RankSharing final : public contact::Sharing {
-public:
-    RankSharing(const Communicator& communicator, Traffic& traffic) : communicator_(communicator), traffic_(traffic) {}
-
-    [[nodiscard]] int part() const override { return communicator_.rank(); }
-    [[nodiscard]] int n_parts() const override { return communicator_.size(); }
-    [[nodiscard]] std::span<const std::byte> gather(std::span<const std::byte> mine) override {
-        const auto all = bytes_.gather(communicator_, mine);
-        ++traffic_.gathers;
-        traffic_.gathered_bytes += static_cast<std::int64_t>(all.size() - mine.size());
-        return all;
-    }
-
-private:
-    const Communicator& communicator_;
-    Traffic& traffic_;
-    BytesOfRanks bytes_;
-};
-
 }  // namespace
 
 template <int Dim>
@@ -69,9 +49,7 @@ public:
           numbers_(std::move(shared.numbers)),
           forces_on_copies_(copies == CopyForce::on_each),
           checks_(communicator_.rank(), numbers_, shared.surface),
-          sharing_(communicator_, traffic_),
-          // `wanted` may fail on one rank alone, where others would wait for its share
-          contact_(std::move(shared.surface), in_numbers(options), options.wanted ? nullptr : &sharing_) {
+          contact_(std::move(shared.surface), in_numbers(std::move(options))) {
         every_node_.resize(numbers_.node.size());
         std::iota(every_node_.begin(), every_node_.end(), 0);
         all_.assign(communicator_, numbers_, every_node_);
@@ -210,9 +188,9 @@ private:
             agreed(communicator_, [&] {
                 checks_.check_copies(x_0, x_0_, all_.copies());
                 checks_.check_copies(x_1, x_1_, all_.copies());
+                named(body);
             });
-            agreed(communicator_, [&] { named(body); });
-            traffic_.reductions += 3;
+            traffic_.reductions += 2;
             if (!is_same(communicator_, checksum_of_list()))
                 throw BadInput(
                     "shared nodal contact: ranks have found different pairs that may touch. `wanted` must give the "
@@ -289,8 +267,6 @@ private:
     SharedNumbers numbers_;
     bool forces_on_copies_;
     CopyChecks<Dim> checks_;
-    Traffic traffic_;
-    RankSharing sharing_;
     contact::NodalContact<Dim> contact_;
 
     std::vector<std::int32_t> every_node_;
@@ -301,6 +277,7 @@ private:
     std::vector<Vector<Dim>> x_0_, x_1_, x_state_;
     std::vector<Vector<Dim>> searched_at_;
     NodalStep<Dim> step_;
+    Traffic traffic_;
 };
 
 template <int Dim>

@@ -17,8 +17,7 @@ namespace abut::ranks {
 /// forces on its own. With face numbers (NodalPart::face_number) all bits are those of contact::NodalContact on one rank that
 /// has the faces in the order of their numbers, for any number of ranks. docs/ranks.md, Nodes of a foreign code.
 ///
-/// Every rank has the whole surface. Searches and pairs are shared out (contact::Sharing), unless NodalOptions::wanted is set: each
-/// rank does all of them then. docs/ranks.md says what is sent.
+/// Every rank has the whole surface and does all pairs; what is sent in a step are positions, docs/ranks.md says how many.
 ///
 /// All functions but those marked so are calls of all ranks together. What one rank finds wrong ends the call on all of them
 /// with an error of the same type. After an exception the step did not happen, as with contact::NodalContact.
