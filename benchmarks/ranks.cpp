@@ -170,7 +170,7 @@ struct Seconds {
     }
 };
 
-/// Of the steps of a run; make() makes it anew. What the solid says of its parts is by the clock on the wall: it gets the
+/// Of the steps of a run, which make() makes each time. What the solid says of its parts is by the clock on the wall: it gets the
 /// share of it in which this rank had a processor.
 template <class Make>
 Seconds time_steps(const Choices& choices, const Make& make) {

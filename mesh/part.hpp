@@ -18,7 +18,8 @@ struct MeshPart {
     std::int32_t n_cells = 0;               ///< of the whole mesh
 };
 
-/// How many cells deep copies are: what a force on a cell depends on, with the operators of solid (docs/ranks.md).
+/// How many cells deep copies are: what a force on a cell of a linear body depends on, with the operators of solid
+/// (solid::copy_layers, docs/ranks.md).
 inline constexpr int default_layers = 8;
 
 /// The part of a rank: the cells that it owns, and `layers` of neighbours across faces around them. `owner` says whose each

@@ -147,8 +147,7 @@ TEST_CASE("a bar that bends far, and one that turns without contact, have the bi
     options.kinematics = {GENERATE(solid::Kinematics::floating, solid::Kinematics::finite)};
     const std::vector<Vector<2>> velocity{Vector<2>::Zero()};
     check_same_bits<2>(all, mesh, options, velocity, 100, parts(all, mesh), {.waves = 0.1, .spin = 0.2});
-    CHECK_NOTHROW(check_same_bits<2, dynamics::Leapfrog>(all, mesh, options, velocity, 40, parts(all, mesh),
-                                                         {.waves = 0.1, .spin = 0.2}));
+    check_same_bits<2, dynamics::Leapfrog>(all, mesh, options, velocity, 40, parts(all, mesh), {.waves = 0.1, .spin = 0.2});
 }
 
 TEST_CASE("central differences have the bits of one rank", "[ranks][solid][contact]") {
