@@ -195,6 +195,9 @@ TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]")
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner),
                       Catch::Contains("not made for a run on several ranks"));
     options.kinematics.clear();
+    options.precision = solid::Precision::single_precision;
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("single precision"));
+    options.precision = solid::Precision::double_precision;
     options.contact = contact::ContactOptions{};
     options.law = solid::ContactLaw::pair_potential;
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("pair potential"));
