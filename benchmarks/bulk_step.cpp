@@ -4,7 +4,8 @@
 // update, force at the midpoint, momentum update of MEMM. Rival: y = K x alone, K in 3 x 3 blocks in compressed rows;
 // Eigen's scalar RowMajor matrix beside it; STREAM's triad in the same rounds says what the memory gives. One thread,
 // processor time. Expected: the answers agree to 1e-12; the step is several times faster than the product, below
-// 90 ns per cell. The product of the form for cells of any shape (CellForm::general) is timed beside that of simplices.
+// 90 ns per cell. The same step in single precision (Precision) beside it: its forces within 1e-5 of the largest.
+// The product of the form for cells of any shape (CellForm::general) is timed beside that of simplices.
 // Other shapes, `--shape`: steps and products alone, hexahedra and squares of structured boxes, triangles of Gmsh's disc.
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
@@ -49,6 +50,18 @@ double relative_difference(std::span<const double> a, std::span<const double> b)
         largest = std::max(largest, std::abs(a[i]));
     }
     return difference / largest;
+}
+
+/// Forces of the bulk in single precision, against double.
+template <int Dim>
+double single_difference(solid::Ccg<Dim>& ccg, const std::vector<double>& x) {
+    std::vector<double> single(x.size()), expected(x.size());
+    const auto u = as_vectors<Dim>(std::span<const double>(x));
+    ccg.step_gradient(u, {}, {}, as_vectors<Dim>(std::span<double>(single)));
+    ccg.gradient(u, {}, {}, as_vectors<Dim>(std::span<double>(expected)));
+    const double difference = relative_difference(expected, single);
+    benchmark::require_small("forces in single precision against double", difference, 1e-5);
+    return difference;
 }
 
 /// Bytes a cell that the product cannot but move: the matrix and both vectors once.
@@ -102,8 +115,8 @@ Traffic step_traffic(const mesh::Mesh<3>& mesh, const solid::BoundaryReconstruct
 
 struct Result {
     std::int32_t cells;
-    double blocks_a_row, matrix_bytes, difference;
-    benchmark::Samples step, stiffness, general, product, eigen, triad;
+    double blocks_a_row, matrix_bytes, difference, single_difference;
+    benchmark::Samples step, single, stiffness, general, product, eigen, triad;
     double product_bytes, triad_bytes;
     Traffic traffic;
 };
@@ -130,11 +143,16 @@ Result measure(double size, const Choices& choices) {
     benchmark::require_small("stiffness product, matrix-free against assembled", difference, 1e-12);
     solid::Ccg<3> general(mesh, options.materials, {}, {}, solid::CellForm::general);
 
-    dynamics::Memm<solid::Solid<3>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
+    options.precision = solid::Precision::single_precision;
+    solid::Solid<3> single(mesh, options);
+    const double of_single = single_difference(single.ccg(), x);
+
+    const std::vector<double> at_rest(x.size(), 0.0);
+    dynamics::Memm<solid::Solid<3>> integrator(solid, at_rest, x, 0.01 * size), in_single(single, at_rest, x, 0.01 * size);
     benchmark::Triad triad;
     auto samples = benchmark::time_in_turn(
         choices.repetitions, benchmark::clock_for(choices.threads),
-        {[&] { integrator.step(); }, [&] { solid.stiffness_product(x, ours); },
+        {[&] { integrator.step(); }, [&] { in_single.step(); }, [&] { solid.stiffness_product(x, ours); },
          [&] { general.gradient(x_rows, {}, {}, as_vectors<3>(std::span<double>(ours))); },
          [&] { matrix.multiply(x_rows, y_rows); }, [&] { y_eigen.noalias() = scalar * x_eigen; }, [&] { triad.run(); }});
     const double rows = mesh.n_cells();
@@ -142,12 +160,14 @@ Result measure(double size, const Choices& choices) {
             static_cast<double>(matrix.n_blocks()) / rows,
             static_cast<double>(matrix.bytes()),
             difference,
+            of_single,
             std::move(samples[0]),
             std::move(samples[1]),
             std::move(samples[2]),
             std::move(samples[3]),
             std::move(samples[4]),
             std::move(samples[5]),
+            std::move(samples[6]),
             product_bytes(matrix),
             triad.bytes(),
             step_traffic(mesh, solid.ccg().boundary())};
@@ -166,12 +186,16 @@ nlohmann::json to_json(const Result& r) {
         {"blocks_a_row", r.blocks_a_row},
         {"matrix_bytes", r.matrix_bytes},
         {"difference", r.difference},
+        {"single_difference", r.single_difference},
         {"ns_a_cell",
          {{"step", nanoseconds_a_cell(r.step)},
+          {"single_step", nanoseconds_a_cell(r.single)},
           {"stiffness_product", nanoseconds_a_cell(r.stiffness)},
           {"general_form", nanoseconds_a_cell(r.general)},
           {"block_product", nanoseconds_a_cell(r.product)},
           {"eigen_product", nanoseconds_a_cell(r.eigen)}}},
+        {"single_over_double",
+         {{"least", r.single.least() / r.step.least()}, {"median", r.single.median() / r.step.median()}}},
         {"product_over_step",
          {{"least", r.product.least() / r.step.least()}, {"median", r.product.median() / r.step.median()}}},
         {"bytes_a_cell",
@@ -187,10 +211,12 @@ void print(const nlohmann::json& r) {
     const auto number = [&](const char* pointer) { return r.at(nlohmann::json::json_pointer(pointer)).get<double>(); };
     fmt::print("{} cells, {:.1f} blocks a row, matrix {:.0f} MB, largest relative difference of the answers {:.1e}\n",
                r.at("cells").get<int>(), number("/blocks_a_row"), 1e-6 * number("/matrix_bytes"), number("/difference"));
-    for (const char* name : {"step", "stiffness_product", "general_form", "block_product", "eigen_product"})
+    for (const char* name : {"step", "single_step", "stiffness_product", "general_form", "block_product", "eigen_product"})
         fmt::print("  {:<18} {:8.1f} ns per cell (median {:.1f})\n", name,
                    number(fmt::format("/ns_a_cell/{}/least", name).c_str()),
                    number(fmt::format("/ns_a_cell/{}/median", name).c_str()));
+    fmt::print("  single step / step: {:.2f} (median {:.2f}); its forces differ by {:.1e} of the largest\n",
+               number("/single_over_double/least"), number("/single_over_double/median"), number("/single_difference"));
     fmt::print("  block product / step: {:.2f} (median {:.2f})\n", number("/product_over_step/least"),
                number("/product_over_step/median"));
     fmt::print("  step: {:.0f} bytes a cell touched, {:.1f} GB/s; {:.0f} from memory, {:.1f} GB/s\n",
@@ -217,12 +243,17 @@ nlohmann::json measure_shape(const mesh::Mesh<Dim>& mesh, double size, const Cho
     multiply_general();
     const double difference = relative_difference(ours, theirs);
     benchmark::require_small("stiffness product, against the form for any cells", difference, 1e-12);
-    dynamics::Memm<solid::Solid<Dim>> integrator(solid, std::vector<double>(x.size(), 0.0), x, 0.01 * size);
-    const auto samples = benchmark::time_in_turn(choices.repetitions, benchmark::clock_for(choices.threads),
-                                                 {[&] { integrator.step(); }, multiply, multiply_general});
+    options.precision = solid::Precision::single_precision;
+    solid::Solid<Dim> single(mesh, options);
+    single_difference(single.ccg(), x);
+    const std::vector<double> at_rest(x.size(), 0.0);
+    dynamics::Memm<solid::Solid<Dim>> integrator(solid, at_rest, x, 0.01 * size), in_single(single, at_rest, x, 0.01 * size);
+    const auto samples =
+        benchmark::time_in_turn(choices.repetitions, benchmark::clock_for(choices.threads),
+                                {[&] { integrator.step(); }, [&] { in_single.step(); }, multiply, multiply_general});
     nlohmann::json result{{"cells", mesh.n_cells()}, {"shape", choices.shape}, {"difference", difference}};
     fmt::print("{} {}, largest relative difference of the answers {:.1e}\n", mesh.n_cells(), choices.shape, difference);
-    const std::array names{"step", "stiffness_product", "general_form"};
+    const std::array names{"step", "single_step", "stiffness_product", "general_form"};
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double least = 1e9 * samples[i].least() / mesh.n_cells(), median = 1e9 * samples[i].median() / mesh.n_cells();
         result["ns_a_cell"][names[i]] = {{"least", least}, {"median", median}};

@@ -115,6 +115,12 @@ void check(const RunOptions& options) {
             fmt::format("--levels, --contact-margin, --contact-levels: {} takes one step for all cells. Take --integrator "
                         "memm_async, or leave them out.",
                         name_of(options.integrator)));
+    if (options.precision == solid::Precision::single_precision && options.integrator != SolidIntegrator::memm &&
+        options.integrator != SolidIntegrator::leapfrog)
+        throw BadInput(
+            fmt::format("--precision single: steps in single precision are made by memm and leapfrog, and {} was "
+                        "chosen. Take --precision double.",
+                        name_of(options.integrator)));
     if (!std::isnan(options.gauge) && options.integrator != SolidIntegrator::bilbao)
         throw BadInput(fmt::format("--gauge: {} has no gauge. Take --integrator bilbao, or leave --gauge out.",
                                    name_of(options.integrator)));
@@ -141,7 +147,8 @@ NamedValues named_values(const RunOptions& options) {
                         {"contact_levels", options.contact_levels}});
     if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge))
         values.push_back({"gauge", options.gauge});
-    append(values, {{"filter", word_of(filter_words, options.filter)},
+    append(values, {{"precision", word_of(precision_words, options.precision)},
+                    {"filter", word_of(filter_words, options.filter)},
                     {"restart", options.restart},
                     {"kinematics", word_of(kinematics_words, options.kinematics)},
                     {"law", word_of(law_words, options.law)},

@@ -9,6 +9,7 @@
 #include "abut/contact/options.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 
 namespace abut::run {
@@ -36,7 +37,8 @@ struct RunOptions {
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;
-    int levels = 0;            ///< of memm_async, at most; 0: 8
+    solid::Precision precision = solid::Precision::double_precision;  ///< of the bulk in steps
+    int levels = 0;                                                   ///< of memm_async, at most; 0: 8
     int contact_margin = 1;    ///< of memm_async: levels that cells in contact are finer than they need to be alone
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
@@ -65,6 +67,8 @@ inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm",
                                                                         {"memm_async", SolidIntegrator::memm_async},
                                                                         {"leapfrog", SolidIntegrator::leapfrog},
                                                                         {"bilbao", SolidIntegrator::bilbao}}};
+inline constexpr std::array<Word<solid::Precision>, 2> precision_words{
+    {{"double", solid::Precision::double_precision}, {"single", solid::Precision::single_precision}}};
 inline constexpr std::array<Word<BodyKinematics>, 6> kinematics_words{{{"scene", BodyKinematics::scene},
                                                                        {"automatic", BodyKinematics::automatic},
                                                                        {"small", BodyKinematics::small},

@@ -10,6 +10,7 @@
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "abut/solid/attachments.hpp"
 #include "abut/solid/boundary_conditions.hpp"
+#include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material.hpp"
 
@@ -32,6 +33,7 @@ struct SolidOptions {
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
     /// Pairs of bodies, in either order, that pass through each other; obstacle i is body n_bodies + i
     std::vector<std::array<std::int32_t, 2>> ignored_pairs = {};
+    Precision precision = Precision::double_precision;  ///< of the bulk in steps: `mean_force` and `end_force`
 };
 
 /// Where the time of all steps of a Solid went [s].

@@ -37,6 +37,7 @@ void check_for_ranks(const dynamics::Ranks* ranks, const SolidOptions<Dim>& opti
     if (!options.springs.empty() || !options.moments.empty()) dynamics::refuse_ranks(ranks, "a spring or a moment");
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
+    if (options.precision == Precision::single_precision) dynamics::refuse_ranks(ranks, "a bulk in single precision");
 }
 
 /// Where the cells of each body begin, one more at the end.
@@ -64,7 +65,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                             [&] {
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
-                                                deformable.kinematics);
+                                                deformable.kinematics, CellForm::automatic, deformable.precision);
                             })),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(part_.get()))),
       point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_)),
@@ -352,7 +353,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     if (!is_autonomous()) {  // the work is shared between the forces at both ends
         frames_->stand_at_start();
         if (contact_) contact_->take_start();
-        ccg_.gradient(in_frames(u_0, all_cells_), loads_->start(), corrections(), gradient);
+        ccg_.step_gradient(in_frames(u_0, all_cells_), loads_->start(), corrections(), gradient);
         add_work(0.5);
     }
     frames_->stand_at_end();
@@ -360,7 +361,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
     const Stopwatch watch(times_.bulk);
     {
         const ProcessorStopwatch of_cells(times_.own_cells);
-        ccg_.gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
+        ccg_.step_gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
     }
     require_no_collapse();
     add_work(0.5);
@@ -447,6 +448,10 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
                        ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "
                        "body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. Take "
                        "one step for all (memm), or other kinematics and law.");
+    if (options_.precision == Precision::single_precision)
+        throw BadInput(mesh_.name +
+                       ": local steps are made in double precision alone. Take Precision::double_precision "
+                       "(--precision double), or one step for all cells (memm).");
     levels_ = std::make_unique<LocalLevels<Dim>>(mesh_, ccg_, *loads_, n_levels, level);
 }
 

@@ -14,6 +14,7 @@ const auto weights = choices_of(run::weighting_words);
 const auto kinematics = choices_of(run::kinematics_words);
 const auto laws = choices_of(run::law_words);
 const auto integrators = choices_of(run::integrator_words);
+const auto precisions = choices_of(run::precision_words);
 const auto switches = choices_of(run::event_words);
 const auto filters = choices_of(run::filter_words);
 const auto free_face_rules = choices_of(run::free_face_words);
@@ -49,6 +50,11 @@ void add_time_options(CLI::App& app, run::RunOptions& options, const std::string
         ->default_str("off")
         ->group("Time");
     add_choice(app, "--integrator", options.integrator, "scheme in time (docs/integrators.md)", integrators)->group("Time");
+    add_choice(app, "--precision", options.precision,
+               "of the bulk in steps of memm and leapfrog: single is less exact (docs/trade.md); contact is always "
+               "double",
+               precisions)
+        ->group("Time");
     add_count(app, "--levels", options.levels, "of memm_async: different steps at most, each half the one before; 0: 8", 0)
         ->group("Time");
     add_count(app, "--contact-margin", options.contact_margin,

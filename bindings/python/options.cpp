@@ -43,6 +43,7 @@ const std::map<std::string, Take>& known_options() {
         {"dt", take_value<double>(ABUT_OPTION(dt))},
         {"allow_unstable", take_value<bool>(ABUT_OPTION(allow_unstable))},
         {"integrator", take_word(run::integrator_words, ABUT_OPTION(integrator))},
+        {"precision", take_word(run::precision_words, ABUT_OPTION(precision))},
         {"levels", take_value<int>(ABUT_OPTION(levels))},
         {"contact_margin", take_value<int>(ABUT_OPTION(contact_margin))},
         {"contact_levels", take_value<int>(ABUT_OPTION(contact_levels))},

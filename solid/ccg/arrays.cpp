@@ -10,17 +10,17 @@ namespace {
 
 /// visit(i, row, weight) is called for every entry by for_each_entry(visit), rows increasing; i in [0, n).
 template <class Row, class Weight, class ForEachEntry>
-Occurrences<Row, Weight> occurrences(std::size_t n, const ForEachEntry& for_each_entry) {
-    Occurrences<Row, Weight> found;
+Occurrences<Row> occurrences(std::size_t n, LargeArray<Weight>& weights, const ForEachEntry& for_each_entry) {
+    Occurrences<Row> found;
     found.offsets.assign(n + 1, 0);
     for_each_entry([&](std::int32_t i, Row, const Weight&) { ++found.offsets[i + 1]; });
     std::partial_sum(found.offsets.begin(), found.offsets.end(), found.offsets.begin());
     found.rows.resize(static_cast<std::size_t>(found.offsets.back()));
-    found.weights.resize(found.rows.size());
+    weights.resize(found.rows.size());
     std::vector<std::int32_t> next(found.offsets.begin(), found.offsets.end() - 1);
     for_each_entry([&](std::int32_t i, Row row, const Weight& weight) {
         found.rows[next[i]] = row;
-        found.weights[next[i]++] = weight;
+        weights[next[i]++] = weight;
     });
     return found;
 }
@@ -94,7 +94,7 @@ void CcgArrays<Dim>::set_cells(const mesh::Mesh<Dim>& mesh, std::span<const Mate
         }
     }
     body_begin.push_back(n_cells());
-    of_cell = occurrences<std::int32_t, double>(cells.size(), [&](const auto& visit) {
+    of_cell = occurrences<std::int32_t>(cells.size(), of_cell_weights, [&](const auto& visit) {
         for (std::int32_t f = 0; f < mesh.n_faces(); ++f)
             if (boundary_index[f] == no_face)
                 for (int j = 0; j <= Dim; ++j) visit(stencils[f].cells[j], f, stencils[f].weights[j]);
@@ -117,7 +117,7 @@ void CcgArrays<Dim>::set_boundary(const mesh::Mesh<Dim>& mesh, std::span<const M
     boundary_cell_position.assign(cells.size(), -1);
     for (std::size_t i = 0; i < boundary_cells.size(); ++i)
         boundary_cell_position[boundary_cells[i]] = static_cast<std::int32_t>(i);
-    of_boundary_cell = occurrences<BoundaryFace, LaneTensor<Dim>>(boundary_cells.size(), [&](const auto& visit) {
+    of_boundary_cell = occurrences<BoundaryFace>(boundary_cells.size(), boundary_cell_weights, [&](const auto& visit) {
         for (const BoundaryFace b : row_faces)
             for (std::int32_t i = boundary.offsets[number_of(b)]; i < boundary.offsets[number_of(b) + 1]; ++i)
                 visit(boundary_cell_position[boundary.cells[i]], b,

@@ -7,7 +7,7 @@
 
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
-#include "abut/solid/ccg/lanes.hpp"
+#include "abut/solid/ccg/coefficients.hpp"
 #include "abut/solid/ccg/simplices.hpp"
 
 namespace abut::solid {
@@ -19,32 +19,24 @@ struct HalfFace {
     std::int32_t twin;   // that of the cell on the other side of the face; itself on the boundary
 };
 
-/// A boundary face has no stiffness.
-template <int Dim>
-struct FaceGeometry {
-    std::array<double, Dim> area_vector;  // |f| n_f, out of the first side
-    double jump_stiffness;                // k_f = |f| eta / h_f
-};
-
-template <int Dim>
-struct CellGeometry {
-    double inverse_measure;  // 1/|c|
-    double lambda;
-    double mu;
-};
-
-/// For each index of a range: the rows in which it occurs, increasing, and its weights there. The transpose of a sparse
-/// matrix.
-template <class Row, class Weight>
+/// For each index of a range: the rows in which it occurs, increasing. The transpose of a sparse matrix, without its weights.
+template <class Row>
 struct Occurrences {
     LargeArray<std::int32_t> offsets;
     LargeArray<Row> rows;
-    LargeArray<Weight> weights;
 };
 
 /// What the operators of a mesh are made of, in the order in which they run over it.
 template <int Dim>
-struct CcgArrays {
+struct CcgArrays : CcgCoefficients<Dim, double> {
+    using CcgCoefficients<Dim, double>::faces;
+    using CcgCoefficients<Dim, double>::cells;
+    using CcgCoefficients<Dim, double>::stencils;
+    using CcgCoefficients<Dim, double>::lever_arms;
+    using CcgCoefficients<Dim, double>::of_cell_weights;
+    using CcgCoefficients<Dim, double>::boundary_weights;
+    using CcgCoefficients<Dim, double>::boundary_cell_weights;
+
     CcgArrays(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const FaceConditions<Dim>& conditions,
               FreeFaceRule rule, CornerRule corner_rule, std::span<const Kinematics> kinematics = {},
               CellForm form = CellForm::automatic);
@@ -67,26 +59,21 @@ struct CcgArrays {
 
     // Faces. A boundary face has its one cell on both sides, no stiffness and an empty stencil: the sweeps need no branch.
     LargeArray<std::array<std::int32_t, 2>> face_cells;
-    LargeArray<FaceStencil<Dim>> stencils;
-    LargeArray<FaceGeometry<Dim>> faces;
     StencilReport report;
     // Cells and their half-faces, cell by cell.
-    LargeArray<CellGeometry<Dim>> cells;
     std::vector<std::int32_t> half_face_offsets;  // (n_cells + 1)
     std::vector<HalfFace> half_faces;
-    std::vector<std::array<double, Dim>> lever_arms;  // x_f - x_c, by half-face
-    Occurrences<std::int32_t, double> of_cell;        // interior stencils that use a cell
-    std::vector<std::int32_t> body_begin;             // first cell of each body, one more at the end
+    Occurrences<std::int32_t> of_cell;     // interior stencils that use a cell
+    std::vector<std::int32_t> body_begin;  // first cell of each body, one more at the end
     Simplices<Dim> simplices;
     // Boundary faces.
     std::vector<std::int32_t> boundary_faces;
     std::vector<BoundaryFace> boundary_index;  // of a face; none inside
     BoundaryReconstruction<Dim> boundary;
-    std::vector<LaneTensor<Dim>> boundary_weights;     // as boundary.weights
     std::vector<BoundaryFace> row_faces;               // those that the sweeps reconstruct by rows of R: not condensed
     std::vector<std::int32_t> boundary_cells;          // cells that one of them depends on
     std::vector<std::int32_t> boundary_cell_position;  // of a cell, -1 elsewhere
-    Occurrences<BoundaryFace, LaneTensor<Dim>> of_boundary_cell;  // these rows by position in boundary_cells, transposed
+    Occurrences<BoundaryFace> of_boundary_cell;        // these rows by position in boundary_cells, transposed
 
 private:
     void set_faces(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials);

@@ -28,15 +28,35 @@ std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const M
     return materials;
 }
 
+template <int Dim>
+void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics) {
+    for (std::size_t body = 0; body < kinematics.size(); ++body)
+        if (kinematics[body] == Kinematics::finite)
+            throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
+                           "' is of Kinematics::finite, whose steps are not made in single precision. Take "
+                           "Precision::double_precision (--precision double), or other kinematics.");
+}
+
 }  // namespace
 
 template <int Dim>
 struct Ccg<Dim>::Impl {
+    struct Single {
+        CcgCoefficients<Dim, float> coefficients;
+        CcgSweeps<Dim, float> sweeps;
+        bool was_last = false;   // to compute gradients
+        bool has_state = false;  // was the last to be given a state
+
+        Single(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite)
+            : coefficients(in_single_precision(arrays)), sweeps(arrays, coefficients, finite) {}
+    };
+
     BoundaryConditions<Dim> conditions;
     FaceConditions<Dim> face_conditions;
     CcgArrays<Dim> arrays;
     FiniteCells<Dim> finite;
     CcgSweeps<Dim> sweeps;
+    std::unique_ptr<Single> single;  // null in double precision
     std::optional<MotionBound<Dim>> motion_bound;
     IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
     IdVector<BoundaryFace, double> boundary_measure;
@@ -44,19 +64,38 @@ struct Ccg<Dim>::Impl {
     bool varies = false;
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
-         const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form);
+         const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
+         Precision precision);
+
+    /// evaluate(sweeps) in the precision of steps.
+    template <class Evaluate>
+    void take_step(const Evaluate& evaluate) {
+        if (single) {
+            evaluate(single->sweeps);
+            single->was_last = single->has_state = true;
+        } else {
+            evaluate(sweeps);
+        }
+    }
+    void leave_single() {
+        if (single) single->was_last = single->has_state = false;
+    }
 };
 
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                      const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics,
-                     CellForm form)
+                     CellForm form, Precision precision)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
              form),
       finite(mesh, face_conditions, kinematics),
-      sweeps(arrays, finite) {
+      sweeps(arrays, arrays, finite) {
+    if (precision == Precision::single_precision) {
+        refuse_finite(mesh, kinematics);
+        single = std::make_unique<Single>(arrays, finite);
+    }
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
     for (const std::int32_t f : arrays.boundary_faces) {
@@ -73,8 +112,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 
 template <int Dim>
 Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
-              std::span<const Kinematics> kinematics, CellForm form)
-    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form)) {}
+              std::span<const Kinematics> kinematics, CellForm form, Precision precision)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision)) {}
 
 template <int Dim>
 Ccg<Dim>::~Ccg() = default;
@@ -192,24 +231,32 @@ template <int Dim>
 void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result, const StepEnds<Dim>& ends) {
     impl_->sweeps.gradient(u, load, corrections, result, ends);
+    impl_->leave_single();
+}
+
+template <int Dim>
+void Ccg<Dim>::step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                             const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    impl_->take_step([&](auto& sweeps) { sweeps.gradient(u, load, corrections, result, {}); });
 }
 
 template <int Dim>
 void Ccg<Dim>::mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load,
                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    impl_->sweeps.mean_gradient(ends, load, corrections, result);
+    impl_->take_step([&](auto& sweeps) { sweeps.mean_gradient(ends, load, corrections, result); });
 }
 
 template <int Dim>
 void Ccg<Dim>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
                                   const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
                                   const StepEnds<Dim>& ends) {
-    impl_->sweeps.gradient_of_packed(u, load, corrections, result, ends);
+    impl_->take_step([&](auto& sweeps) { sweeps.gradient_of_packed(u, load, corrections, result, ends); });
 }
 
 template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
-    return impl_->sweeps.face_gradient(face);
+    const auto& single = impl_->single;
+    return single && single->was_last ? single->sweeps.face_gradient(face) : impl_->sweeps.face_gradient(face);
 }
 
 template <int Dim>
@@ -227,6 +274,7 @@ std::vector<double> Ccg<Dim>::cell_energies(std::span<const Vector<Dim>> u, cons
                                             const FaceCorrections<Dim>& corrections) {
     std::vector<double> energy(static_cast<std::size_t>(n_cells()));
     impl_->sweeps.cell_energies(u, load, corrections, energy);
+    if (impl_->single) impl_->single->has_state = false;
     return energy;
 }
 
@@ -278,7 +326,9 @@ contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const BoundaryFace> face
 
 template <int Dim>
 void Ccg<Dim>::compute_only(std::span<const std::int32_t> cells) {
-    impl_->sweeps.compute_only(solid::region_of_cells(impl_->arrays, cells));
+    const Region<Dim> region = solid::region_of_cells(impl_->arrays, cells);
+    impl_->sweeps.compute_only(region);
+    if (impl_->single) impl_->single->sweeps.compute_only(region);
 }
 
 template <int Dim>
@@ -304,12 +354,15 @@ double Ccg<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm)
 
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::displacement_gradient(std::int32_t cell) const {
-    return impl_->sweeps.displacement_gradient(cell);
+    const auto& single = impl_->single;
+    return single && single->has_state ? single->sweeps.displacement_gradient(cell)
+                                       : impl_->sweeps.displacement_gradient(cell);
 }
 
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
-    return impl_->sweeps.stress(cell);
+    const auto& single = impl_->single;
+    return single && single->has_state ? single->sweeps.stress(cell) : impl_->sweeps.stress(cell);
 }
 
 template <int Dim>

@@ -9,6 +9,7 @@
 #include "abut/contact/step.hpp"
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
+#include "abut/solid/ccg/precision.hpp"
 
 namespace abut::solid {
 
@@ -75,9 +76,11 @@ class Ccg {
 public:
     /// One material per body. Throws BadInput for another number of them, and as `check(Material)`,
     /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as all are
-    /// where none are given.
+    /// where none are given. `precision`: that of `step_gradient`, `mean_gradient` and `gradient_of_packed`; all else is in
+    /// double. Throws BadInput where it is single and a body is finite.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
-        std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic);
+        std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic,
+        Precision precision = Precision::double_precision);
     ~Ccg();
     Ccg(Ccg&&) noexcept;
     Ccg& operator=(Ccg&&) noexcept;
@@ -112,6 +115,9 @@ public:
     /// of Kinematics::finite with `ends` the discrete gradient: its work along the step is the change of V.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
+    /// The same in the precision of steps.
+    void step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                       const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
     /// The same of the mean of both ends: the mean of the gradient along the step.
     void mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                        std::span<Vector<Dim>> result);
@@ -119,8 +125,8 @@ public:
     /// of its size.
     void gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                             std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
-    /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient`; `evaluate_cells`
-    /// since then has set those of its region.
+    /// dV/dû_f of a boundary face [N], tractions and pairs included, after the last call of `gradient` or its like;
+    /// `evaluate_cells` since then has set those of its region, in double precision.
     [[nodiscard]] Vector<Dim> boundary_gradient(BoundaryFace face) const;
 
     /// V(u, û + delta) less the work of tractions [J].
@@ -165,7 +171,7 @@ public:
     /// The same of |dû_f + dG_c arm|, a point of a boundary face at `arm` from its centroid that tilts with the cell behind.
     [[nodiscard]] double corner_amplification(BoundaryFace face, const Vector<Dim>& arm) const;
 
-    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient` or `potential`. Where `evaluate_faces`,
+    /// G_c and sigma_c [-], [Pa], as of the last call of `gradient`, its like or `potential`. Where `evaluate_faces`,
     /// `evaluate_tilted_faces` or `evaluate_cells` were called since then, those of their region are of that state, and of
     /// cells beside it they are not to be used unless it was the same.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell) const;

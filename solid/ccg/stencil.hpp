@@ -10,10 +10,10 @@ namespace abut::solid {
 
 /// u_f = sum_j weights[j] u_cells[j]: barycentric coordinates of x_f in a simplex of cell centroids, exact for affine
 /// fields.
-template <int Dim>
+template <int Dim, class Real = double>
 struct FaceStencil {
     std::array<std::int32_t, Dim + 1> cells;
-    std::array<double, Dim + 1> weights;  ///< they sum to 1
+    std::array<Real, Dim + 1> weights;  ///< they sum to 1
 };
 
 /// How far the reconstruction had to extrapolate: faces whose point lies outside every acceptable simplex.

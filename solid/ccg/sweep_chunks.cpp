@@ -19,8 +19,8 @@ inline constexpr std::size_t one_chunk = 1024;
 }  // namespace
 
 /// Chunks of cells with the faces they are the first side of, and which of them read each other's results.
-template <int Dim>
-void CcgSweeps<Dim>::set_chunks() {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::set_chunks() {
     const CcgArrays<Dim>& a = arrays_;
     const auto position = [](const auto& sorted, auto value) {
         return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
@@ -84,8 +84,8 @@ void CcgSweeps<Dim>::set_chunks() {
     schedule_ = SweepSchedule<n_stages>(n_chunks, needs);
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::compute_only(const Region<Dim>& region) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::compute_only(const Region<Dim>& region) {
     const std::size_t n_chunks = chunks_.size() - 1;
     const auto want = [&](Stage stage, std::int32_t cell) {
         const auto behind = std::ranges::upper_bound(chunks_, cell, {}, &Chunk::cell);
@@ -106,8 +106,8 @@ void CcgSweeps<Dim>::compute_only(const Region<Dim>& region) {
     }
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::divide_into_chunks(Region<Dim>& region) const {
     region.chunks.clear();
     if (region.cells.size() < one_chunk) {  // all in one: it costs no more than its cells
         const auto n = [](const auto& list) { return static_cast<std::int32_t>(list.size()); };
@@ -136,6 +136,10 @@ void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>& region) const {
     template void CcgSweeps<Dim>::divide_into_chunks(Region<Dim>&) const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
+template void CcgSweeps<2, float>::set_chunks();
+template void CcgSweeps<3, float>::set_chunks();
+template void CcgSweeps<2, float>::compute_only(const Region<2>&);
+template void CcgSweeps<3, float>::compute_only(const Region<3>&);
 #undef ABUT_INSTANTIATE
 
 }  // namespace abut::solid

@@ -7,137 +7,151 @@
 namespace abut::solid {
 
 /// sigma of linear elasticity for the displacement gradient g.
-template <int Dim>
-[[nodiscard]] inline LaneTensor<Dim> elastic_stress(const CellGeometry<Dim>& cell, const LaneTensor<Dim>& g) {
-    const LaneTensor<Dim> transposed = g.transposed();
-    double trace = 0.0;
+template <int Dim, class Real>
+[[nodiscard]] inline LaneTensor<Dim, Real> elastic_stress(const CellGeometry<Dim, Real>& cell,
+                                                          const LaneTensor<Dim, Real>& g) {
+    const LaneTensor<Dim, Real> transposed = g.transposed();
+    Real trace = 0;
     for (int j = 0; j < Dim; ++j) trace += g.col[j][j];
-    LaneTensor<Dim> sigma;
+    LaneTensor<Dim, Real> sigma;
     for (int j = 0; j < Dim; ++j) {
-        Lanes<Dim> unit;
-        unit.r[j] = 1.0;
+        Lanes<Dim, Real> unit;
+        unit.r[j] = 1;
         sigma.col[j] = cell.mu * (g.col[j] + transposed.col[j]) + (cell.lambda * trace) * unit;
     }
     return sigma;
 }
 
-// Displacements enter by their differences to that of a cell nearby: a translation of the body costs no accuracy.
+// Displacements enter by their differences to that of a cell nearby, which are taken in double whatever Real is: a translation
+// of the body costs no accuracy.
 
 /// Of a face of a simplex in the mean of all of them.
-template <int Dim>
-inline constexpr double simplex_share = 1.0 / (Dim + 1);
+template <int Dim, class Real>
+inline constexpr Real simplex_share = Real{1} / (Dim + 1);
 
-template <int Dim>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::reconstructed(const LargeArray<double>& u, std::ptrdiff_t f) const {
-    const FaceStencil<Dim>& stencil = arrays_.stencils[f];
+template <int Dim, class Real>
+[[gnu::always_inline]] inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::reconstructed(const LargeArray<double>& u,
+                                                                                   std::ptrdiff_t f) const {
+    const FaceStencil<Dim, Real>& stencil = coefficients_.stencils[f];
     const Lanes<Dim> u_0 = load_packed<Dim>(u, stencil.cells[0]);
-    Lanes<Dim> sum = u_0 - load_packed<Dim>(u, arrays_.face_cells[f][0]);
-    for (int j = 1; j <= Dim; ++j) sum += stencil.weights[j] * (load_packed<Dim>(u, stencil.cells[j]) - u_0);
+    Lanes<Dim, Real> sum = units_.displacement(u_0 - load_packed<Dim>(u, arrays_.face_cells[f][0]));
+    for (int j = 1; j <= Dim; ++j)
+        sum += stencil.weights[j] * units_.displacement(load_packed<Dim>(u, stencil.cells[j]) - u_0);
     return sum;
 }
 
 /// relative(f): u_f less that of its first side.
-template <int Dim>
+template <int Dim, class Real>
 template <class Relative>
-[[gnu::always_inline]] inline LaneTensor<Dim> CcgSweeps<Dim>::gradient_of(const LargeArray<double>& u, std::ptrdiff_t c,
-                                                                          const Relative& relative) const {
+[[gnu::always_inline]] inline LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::gradient_of(const LargeArray<double>& u,
+                                                                                      std::ptrdiff_t c,
+                                                                                      const Relative& relative) const {
     const Lanes<Dim> u_c = load_packed<Dim>(u, c);
-    LaneTensor<Dim> g{};
+    LaneTensor<Dim, Real> g{};
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];
-        const double sign = half_face.first == c ? 1.0 : -1.0;
-        g.add_outer(sign * (relative(half_face.face) + (load_packed<Dim>(u, half_face.first) - u_c)),
-                    arrays_.faces[half_face.face].area_vector);
+        const Real sign = half_face.first == c ? 1 : -1;
+        g.add_outer(sign * (relative(half_face.face) + units_.displacement(load_packed<Dim>(u, half_face.first) - u_c)),
+                    coefficients_.faces[half_face.face].area_vector);
     }
-    for (Lanes<Dim>& column : g.col) column = arrays_.cells[c].inverse_measure * column;
+    for (Lanes<Dim, Real>& column : g.col) column = coefficients_.cells[c].inverse_measure * column;
     return g;
 }
 
-template <int Dim>
-[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_traces(std::ptrdiff_t c, const LaneTensor<Dim>& g) {
+template <int Dim, class Real>
+[[gnu::always_inline]] inline void CcgSweeps<Dim, Real>::set_traces(std::ptrdiff_t c, const LaneTensor<Dim, Real>& g) {
     const Lanes<Dim> u_c = displacement(c);
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i)
-        store(g.times(arrays_.lever_arms[i]) + (u_c - displacement(arrays_.half_faces[i].first)), trace_, i);
+        store(g.times(coefficients_.lever_arms[i]) + units_.displacement(u_c - displacement(arrays_.half_faces[i].first)),
+              trace_, i);
 }
 
-template <int Dim>
-[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_displacement_gradient(std::ptrdiff_t c) {
-    const LaneTensor<Dim> g = gradient_of(u_, c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
+template <int Dim, class Real>
+[[gnu::always_inline]] inline void CcgSweeps<Dim, Real>::set_displacement_gradient(std::ptrdiff_t c) {
+    const LaneTensor<Dim, Real> g = gradient_of(u_, c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
     store_tensor(g, g_, c);
     set_traces(c, g);
 }
 
 /// Sets the sum of k [u], and returns that of k [u] (x) (x_f - x_c) over |c|.
-template <int Dim>
-[[gnu::always_inline]] inline LaneTensor<Dim> CcgSweeps<Dim>::sum_jumps(std::ptrdiff_t c) {
-    LaneTensor<Dim> sum{};
-    Lanes<Dim> direct;
+template <int Dim, class Real>
+[[gnu::always_inline]] inline LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_jumps(std::ptrdiff_t c) {
+    LaneTensor<Dim, Real> sum{};
+    Lanes<Dim, Real> direct;
     for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
         const HalfFace& half_face = arrays_.half_faces[i];
-        const Lanes<Dim> jump_gradient = arrays_.faces[half_face.face].jump_stiffness *
-                                         (load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin));
-        sum.add_outer(jump_gradient, arrays_.lever_arms[i]);
+        const Lanes<Dim, Real> jump_gradient = coefficients_.faces[half_face.face].jump_stiffness *
+                                               (load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin));
+        sum.add_outer(jump_gradient, coefficients_.lever_arms[i]);
         direct += jump_gradient;
     }
     store(direct, direct_, c);
-    for (Lanes<Dim>& column : sum.col) column = arrays_.cells[c].inverse_measure * column;
+    for (Lanes<Dim, Real>& column : sum.col) column = coefficients_.cells[c].inverse_measure * column;
     return sum;
 }
 
-template <int Dim>
-[[gnu::always_inline]] inline void CcgSweeps<Dim>::set_stress(std::ptrdiff_t c) {
-    LaneTensor<Dim> sum = sum_jumps(c);
-    const LaneTensor<Dim> sigma = elastic_stress(arrays_.cells[c], load_tensor<Dim>(g_, c));
+template <int Dim, class Real>
+[[gnu::always_inline]] inline void CcgSweeps<Dim, Real>::set_stress(std::ptrdiff_t c) {
+    LaneTensor<Dim, Real> sum = sum_jumps(c);
+    const LaneTensor<Dim, Real> sigma = elastic_stress(coefficients_.cells[c], load_tensor<Dim>(g_, c));
     for (int j = 0; j < Dim; ++j) sum.col[j] = sigma.col[j] + sum.col[j];
     store_tensor(sum, s_, c);
 }
 
-template <int Dim>
-inline Lanes<Dim> CcgSweeps<Dim>::reconstructed_boundary(const LargeArray<double>& u, BoundaryFace face,
-                                                         const BoundaryLoad<Dim>& boundary_load) const {
+template <int Dim, class Real>
+inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::reconstructed_boundary(const LargeArray<double>& u, BoundaryFace face,
+                                                                     const BoundaryLoad<Dim>& boundary_load) const {
     const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
     const Lanes<Dim> origin = load_packed<Dim>(u, arrays_.cell_of(face));
     const std::int32_t b = number_of(face);
-    Lanes<Dim> sum;
+    Lanes<Dim, Real> sum;
     for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-        sum += arrays_.boundary_weights[i] * (load_packed<Dim>(u, boundary.cells[i]) - origin);
+        sum += coefficients_.boundary_weights[i] * units_.displacement(load_packed<Dim>(u, boundary.cells[i]) - origin);
     sum += load_packed<Dim>(correction_, b);
     if (boundary_load.displacement.empty()) return sum;
-    return sum + load_packed<Dim>(Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin)));
+    return sum + units_.displacement(load_packed<Dim>(
+                     Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin))));
 }
 
-template <int Dim>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::interior_gradient(std::ptrdiff_t f) const {
+template <int Dim, class Real>
+[[gnu::always_inline]] inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::interior_gradient(std::ptrdiff_t f) const {
     const auto [a, b] = arrays_.face_cells[f];
-    LaneTensor<Dim> difference = load_tensor<Dim>(s_, a);
-    const LaneTensor<Dim> other = load_tensor<Dim>(s_, b);
+    LaneTensor<Dim, Real> difference = load_tensor<Dim>(s_, a);
+    const LaneTensor<Dim, Real> other = load_tensor<Dim>(s_, b);
     for (int j = 0; j < Dim; ++j) difference.col[j] -= other.col[j];
-    return difference.times(arrays_.faces[f].area_vector);
+    return difference.times(coefficients_.faces[f].area_vector);
 }
 
-template <int Dim>
-inline Lanes<Dim> CcgSweeps<Dim>::boundary_gradient(BoundaryFace face, const BoundaryLoad<Dim>& boundary_load) const {
+template <int Dim, class Real>
+inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_gradient(BoundaryFace face,
+                                                                const BoundaryLoad<Dim>& boundary_load) const {
     const std::int32_t f = arrays_.face_of(face), b = number_of(face), c = arrays_.face_cells[f][0];
-    Lanes<Dim> gradient = load_tensor<Dim>(s_, c).times(arrays_.faces[f].area_vector) + load_packed<Dim>(pair_gradient_, b);
-    if (arrays_.simplices.contains(c)) gradient -= simplex_share<Dim> * load_packed<Dim>(direct_, c);
-    return boundary_load.traction.empty() ? gradient : gradient - load_packed<Dim>(boundary_load.traction[b]);
+    Lanes<Dim, Real> gradient =
+        load_tensor<Dim>(s_, c).times(coefficients_.faces[f].area_vector) + load_packed<Dim>(pair_gradient_, b);
+    if (arrays_.simplices.contains(c)) gradient -= simplex_share<Dim, Real> * load_packed<Dim>(direct_, c);
+    return boundary_load.traction.empty() ? gradient : gradient - units_.force(load_packed<Dim>(boundary_load.traction[b]));
 }
 
-template <int Dim>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim>::cell_gradient(std::ptrdiff_t c) const {
-    const auto& [offsets, rows, weights] = arrays_.of_cell;
-    Lanes<Dim> sum = load_packed<Dim>(direct_, c);
-    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i) sum += weights[i] * load_packed<Dim>(of_face_, rows[i]);
-    return sum;
+// What cells receive is summed in double.
+
+template <int Dim, class Real>
+[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim, Real>::cell_gradient(std::ptrdiff_t c) const {
+    const auto& [offsets, rows] = arrays_.of_cell;
+    const auto& weights = coefficients_.of_cell_weights;
+    Lanes<Dim> sum = converted<double>(load_packed<Dim>(direct_, c));
+    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i)
+        sum += weights[i] * converted<double>(load_packed<Dim>(of_face_, rows[i]));
+    return units_.in_newtons(sum);
 }
 
-template <int Dim>
-inline Lanes<Dim> CcgSweeps<Dim>::boundary_cell_gradient(std::ptrdiff_t position) const {
-    const auto& [offsets, rows, weights] = arrays_.of_boundary_cell;
+template <int Dim, class Real>
+inline Lanes<Dim> CcgSweeps<Dim, Real>::boundary_cell_gradient(std::ptrdiff_t position) const {
+    const auto& [offsets, rows] = arrays_.of_boundary_cell;
+    const auto& weights = coefficients_.boundary_cell_weights;
     Lanes<Dim> sum;
     for (std::int32_t i = offsets[position]; i < offsets[position + 1]; ++i)
-        sum += weights[i] * load_packed<Dim>(boundary_y_, number_of(rows[i]));
-    return sum;
+        sum += converted<double>(weights[i] * load_packed<Dim>(boundary_y_, number_of(rows[i])));
+    return units_.in_newtons(sum);
 }
 
 }  // namespace abut::solid

@@ -23,8 +23,8 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 // Whole meshes -------------------------------------------------------------------------------------------------------
 
 /// The sweeps see the corrections face by face; zero everywhere else.
-template <int Dim>
-class CcgSweeps<Dim>::PlacedCorrections {
+template <int Dim, class Real>
+class CcgSweeps<Dim, Real>::PlacedCorrections {
 public:
     PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
         : sweeps_(sweeps), corrections_(corrections) {
@@ -32,24 +32,21 @@ public:
         for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
             const std::int32_t b = number_of(corrections.faces[i]);
             if (!corrections.energy_gradient.empty())
-                store(load_packed<Dim>(corrections.energy_gradient[i]), sweeps.pair_gradient_, b);
+                store(sweeps.units_.force(load_packed<Dim>(corrections.energy_gradient[i])), sweeps.pair_gradient_, b);
             if (corrections.displacement.empty()) continue;
             const Vector<Dim>& correction = corrections.displacement[i];
-            store(load_packed<Dim>(sweeps.correction_, b) + load_packed<Dim>(correction), sweeps.correction_, b);
-            sweeps.arrays_.boundary.for_each_answer(corrections.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
-                store(load_packed<Dim>(sweeps.correction_, number_of(face)) +
-                          load_packed<Dim>(Vector<Dim>(answer * correction)),
-                      sweeps.correction_, number_of(face));
-            });
+            add(correction, corrections.faces[i]);
+            sweeps.arrays_.boundary.for_each_answer(
+                corrections.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) { add(answer * correction, face); });
         }
     }
     ~PlacedCorrections() {
         sweeps_.moments_.clear();
         for (const BoundaryFace face : corrections_.faces) {
-            store(Lanes<Dim>{}, sweeps_.correction_, number_of(face));
-            store(Lanes<Dim>{}, sweeps_.pair_gradient_, number_of(face));
+            store(Lanes<Dim, Real>{}, sweeps_.correction_, number_of(face));
+            store(Lanes<Dim, Real>{}, sweeps_.pair_gradient_, number_of(face));
             sweeps_.arrays_.boundary.for_each_answer(face, [&](BoundaryFace answering, const Matrix<Dim>&) {
-                store(Lanes<Dim>{}, sweeps_.correction_, number_of(answering));
+                store(Lanes<Dim, Real>{}, sweeps_.correction_, number_of(answering));
             });
         }
     }
@@ -57,12 +54,20 @@ public:
     PlacedCorrections& operator=(const PlacedCorrections&) = delete;
 
 private:
+    void add(const Vector<Dim>& correction, BoundaryFace face) {
+        const std::int32_t b = number_of(face);
+        store(load_packed<Dim>(sweeps_.correction_, b) + sweeps_.units_.displacement(load_packed<Dim>(correction)),
+              sweeps_.correction_, b);
+    }
+
     CcgSweeps& sweeps_;
     const FaceCorrections<Dim>& corrections_;
 };
 
-template <int Dim>
-CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite) : arrays_(arrays), finite_(finite) {
+template <int Dim, class Real>
+CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
+                                const FiniteCells<Dim>& finite)
+    : arrays_(arrays), coefficients_(coefficients), finite_(finite), units_(coefficients.units) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -85,38 +90,38 @@ CcgSweeps<Dim>::CcgSweeps(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& 
     set_chunks();
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
-                              const StepEnds<Dim>& ends) {
-    load_change(ends);
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                    const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                    const StepEnds<Dim>& ends) {
+    if constexpr (takes_finite) load_change(ends);
     run_sweeps([&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), u_, c); }, load, corrections, result);
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load,
-                                   const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    load_change(ends);
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::mean_gradient(const StepEnds<Dim>& ends, const BoundaryLoad<Dim>& load,
+                                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+    if constexpr (takes_finite) load_change(ends);
     const auto load_midpoint = [&](std::ptrdiff_t c) {
         store(0.5 * (load_packed<Dim>(ends.start[c]) + load_packed<Dim>(ends.end[c])), u_, c);
     };
     run_sweeps(load_midpoint, load, corrections, result);
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
-                                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
-                                        const StepEnds<Dim>& ends) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
+                                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
+                                              const StepEnds<Dim>& ends) {
     std::swap(u_, u);
-    load_change(ends);
+    if constexpr (takes_finite) load_change(ends);
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
 
 /// load_cell(c) sets u_ of a cell.
-template <int Dim>
+template <int Dim, class Real>
 template <class LoadCell>
-void CcgSweeps<Dim>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load,
-                                const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
+void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load,
+                                      const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     schedule_.run([&](int stage, std::int32_t chunk) {
         if (const auto& wanted = is_wanted_[static_cast<std::size_t>(stage)];
@@ -141,9 +146,9 @@ void CcgSweeps<Dim>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Di
     has_change_ = false;
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                                   const FaceCorrections<Dim>& corrections, std::span<double> result) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                         const FaceCorrections<Dim>& corrections, std::span<double> result) {
     const PlacedCorrections placed(*this, corrections);
     load_displacement(u);
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
@@ -152,9 +157,9 @@ void CcgSweeps<Dim>::cell_energies(std::span<const Vector<Dim>> u, const Boundar
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
-                                           std::span<Vector<Dim>> displacement) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
+                                                 std::span<Vector<Dim>> displacement) {
     LargeArray<double> packed(u_.size());  // u_ is of the last gradient
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), packed, c); });
     parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
@@ -165,9 +170,9 @@ void CcgSweeps<Dim>::boundary_displacement(std::span<const Vector<Dim>> u, const
 
 // A part of the mesh -------------------------------------------------------------------------------------------------
 
-template <int Dim>
-void CcgSweeps<Dim>::evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
-                                                        const BoundaryLoad<Dim>& boundary_load) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                                              const BoundaryLoad<Dim>& boundary_load) {
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
     for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(u_, f), of_face_, f); });
     for_all(region.reconstructed_boundary,
@@ -175,19 +180,19 @@ void CcgSweeps<Dim>::evaluate_to_displacement_gradients(const Region<Dim>& regio
     for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_any_displacement_gradient(c, boundary_load); });
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
-                                           const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
-                                           std::span<Matrix<Dim>> gradient) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::evaluate_tilted_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                                 const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
+                                                 std::span<Matrix<Dim>> gradient) {
     evaluate_to_displacement_gradients(region, u, boundary_load);
     for (std::size_t i = 0; i < region.faces.size(); ++i)
         std::tie(displacement[i], gradient[i]) = tilted_face(region.faces[i]);
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
-                                    const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
-                                    std::span<Vector<Dim>> gradient) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::evaluate_faces(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                          const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> displacement,
+                                          std::span<Vector<Dim>> gradient) {
     evaluate_to_displacement_gradients(region, u, boundary_load);
     for_all(region.stress_cells, [&](std::int32_t c) { set_any_stress(c); });
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
@@ -199,10 +204,10 @@ void CcgSweeps<Dim>::evaluate_faces(const Region<Dim>& region, std::span<const V
     }
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u,
-                                    const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
-                                    std::span<Vector<Dim>> result) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u,
+                                          const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
+                                          std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
     const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); };
@@ -210,9 +215,9 @@ void CcgSweeps<Dim>::evaluate_cells(const Region<Dim>& region, std::span<const V
     for (int stage = 0; stage < n_stages; ++stage) task(stage, 0);
 }
 
-template <int Dim>
-void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
-                              std::span<Vector<Dim>> result) {
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::int32_t k,
+                                    const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> result) {
     using Offsets = typename Region<Dim>::Offsets;
     const auto each = [&](const auto& list, std::int32_t Offsets::*of, const auto& body) {
         for (std::int32_t i = region.chunks[k].*of; i < region.chunks[k + 1].*of; ++i) body(list[i]);
@@ -252,5 +257,21 @@ void CcgSweeps<Dim>::run_task(const Region<Dim>& region, int stage, std::int32_t
 
 template class CcgSweeps<2>;
 template class CcgSweeps<3>;
+
+// In single precision there are whole steps alone.
+#define ABUT_INSTANTIATE(Dim)                                                                                    \
+    template CcgSweeps<Dim, float>::CcgSweeps(const CcgArrays<Dim>&, const CcgCoefficients<Dim, float>&,         \
+                                              const FiniteCells<Dim>&);                                          \
+    template void CcgSweeps<Dim, float>::gradient(std::span<const Vector<Dim>>, const BoundaryLoad<Dim>&,        \
+                                                  const FaceCorrections<Dim>&, std::span<Vector<Dim>>,           \
+                                                  const StepEnds<Dim>&);                                         \
+    template void CcgSweeps<Dim, float>::mean_gradient(const StepEnds<Dim>&, const BoundaryLoad<Dim>&,           \
+                                                       const FaceCorrections<Dim>&, std::span<Vector<Dim>>);     \
+    template void CcgSweeps<Dim, float>::gradient_of_packed(LargeArray<double>&, const BoundaryLoad<Dim>&,       \
+                                                            const FaceCorrections<Dim>&, std::span<Vector<Dim>>, \
+                                                            const StepEnds<Dim>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::solid

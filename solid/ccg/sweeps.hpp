@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,10 +17,10 @@
 namespace abut::solid {
 
 /// sigma of a simplex, and the sum of u_f - u_c over its faces.
-template <int Dim>
+template <int Dim, class Real>
 struct SimplexState {
-    LaneTensor<Dim> stress;
-    Lanes<Dim> sum;
+    LaneTensor<Dim, Real> stress;
+    Lanes<Dim, Real> sum;
 };
 
 /// The operators of CcgArrays applied to a displacement, element by element, in five sweeps:
@@ -38,11 +39,15 @@ struct SimplexState {
 ///
 /// and in a condensed cell the free face follows from the others: û_b - u_c = -A_bb^-1 sigma' |b| n_b, sigma' without it; with
 /// z = A_bb^-1 y_b, R^T y_b is what the stress -C:(z (x) |b| n_b)/|c| does on the faces of the cell.
-template <int Dim>
+///
+/// Real is what the numbers of the operators and the work arrays are, all but displacements: these are double, and so are
+/// their differences, before they are rounded, and the sums that cells receive. In float there are no bodies of
+/// Kinematics::finite.
+template <int Dim, class Real = double>
 class CcgSweeps {
 public:
-    /// Both must outlive the sweeps.
-    CcgSweeps(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite);
+    /// All must outlive the sweeps.
+    CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients, const FiniteCells<Dim>& finite);
     CcgSweeps(const CcgSweeps&) = delete;
     CcgSweeps& operator=(const CcgSweeps&) = delete;
 
@@ -78,12 +83,14 @@ public:
         return unload<Dim>(load_packed<Dim>(of_face_, arrays_.face_of(b)) + load_packed<Dim>(u_, arrays_.cell_of(b)));
     }
     [[nodiscard]] Vector<Dim> face_gradient(BoundaryFace b) const {
-        return unload<Dim>(load_packed<Dim>(boundary_y_, number_of(b)));
+        return unload<Dim>(units_.in_newtons(converted<double>(load_packed<Dim>(boundary_y_, number_of(b)))));
     }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(present_gradient(c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
 
 private:
+    static constexpr bool takes_finite = std::is_same_v<Real, double>;
+
     class PlacedCorrections;
     enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
     /// Of one body. Where it begins among the cells, faces, boundary faces, row_faces, boundary_cells and condensed cells.
@@ -95,46 +102,47 @@ private:
 
     // One element
     [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load_packed<Dim>(u_, c); }
-    [[nodiscard]] Lanes<Dim> reconstructed(const LargeArray<double>& u, std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> reconstructed_boundary(const LargeArray<double>& u, BoundaryFace b,
-                                                    const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] Lanes<Dim, Real> reconstructed(const LargeArray<double>& u, std::ptrdiff_t f) const;
+    [[nodiscard]] Lanes<Dim, Real> reconstructed_boundary(const LargeArray<double>& u, BoundaryFace b,
+                                                          const BoundaryLoad<Dim>& boundary_load) const;
     template <class Relative>
-    [[nodiscard]] LaneTensor<Dim> gradient_of(const LargeArray<double>& u, std::ptrdiff_t c, const Relative& relative) const;
-    void set_traces(std::ptrdiff_t c, const LaneTensor<Dim>& g);
+    [[nodiscard]] LaneTensor<Dim, Real> gradient_of(const LargeArray<double>& u, std::ptrdiff_t c,
+                                                    const Relative& relative) const;
+    void set_traces(std::ptrdiff_t c, const LaneTensor<Dim, Real>& g);
     void set_displacement_gradient(std::ptrdiff_t c);
-    [[nodiscard]] LaneTensor<Dim> sum_jumps(std::ptrdiff_t c);
+    [[nodiscard]] LaneTensor<Dim, Real> sum_jumps(std::ptrdiff_t c);
     void set_stress(std::ptrdiff_t c);
-    [[nodiscard]] Lanes<Dim> interior_gradient(std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] Lanes<Dim, Real> interior_gradient(std::ptrdiff_t f) const;
+    [[nodiscard]] Lanes<Dim, Real> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
     [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
-    [[nodiscard]] LaneTensor<Dim> present_gradient(std::ptrdiff_t c) const;
+    [[nodiscard]] LaneTensor<Dim, Real> present_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
 
     // One element of a body of simplices
     template <class Relative>
-    [[nodiscard]] SimplexState<Dim> simplex_state(const LargeArray<double>& u, std::int32_t c,
-                                                  const Relative& relative) const;
-    [[nodiscard]] Lanes<Dim> condensed_face(const CondensedCell& condensed, const LaneTensor<Dim>& stress,
-                                            const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] SimplexState<Dim, Real> simplex_state(const LargeArray<double>& u, std::int32_t c,
+                                                        const Relative& relative) const;
+    [[nodiscard]] Lanes<Dim, Real> condensed_face(const CondensedCell& condensed, const LaneTensor<Dim, Real>& stress,
+                                                  const BoundaryLoad<Dim>& boundary_load) const;
     void add_condensed_face(const CondensedCell& condensed, const BoundaryLoad<Dim>& boundary_load);
     void set_simplex_stress(std::int32_t c);
     void set_simplex_jumps(std::int32_t c);
-    [[nodiscard]] Lanes<Dim> interior_gradient_of_simplices(std::ptrdiff_t f) const;
+    [[nodiscard]] Lanes<Dim, Real> interior_gradient_of_simplices(std::ptrdiff_t f) const;
     void condense(const CondensedCell& condensed, const BoundaryLoad<Dim>& boundary_load);
 
     // One element of any body
-    [[nodiscard]] Lanes<Dim> any_boundary_displacement(const LargeArray<double>& u, BoundaryFace b,
-                                                       const BoundaryLoad<Dim>& boundary_load) const;
+    [[nodiscard]] Lanes<Dim, Real> any_boundary_displacement(const LargeArray<double>& u, BoundaryFace b,
+                                                             const BoundaryLoad<Dim>& boundary_load) const;
     void set_any_displacement_gradient(std::int32_t c, const BoundaryLoad<Dim>& boundary_load);
     void set_any_stress(std::int32_t c);
     void answer_to_corrections(std::int32_t c, const BoundaryLoad<Dim>& boundary_load);
     void set_any_face_gradient(std::int32_t f);
 
     // One element of a finite body
-    [[nodiscard]] LaneTensor<Dim> finite_stress(std::ptrdiff_t c, const LaneTensor<Dim>& strain) const;
+    [[nodiscard]] LaneTensor<Dim, Real> finite_stress(std::ptrdiff_t c, const LaneTensor<Dim, Real>& strain) const;
     [[nodiscard]] CellStretch end_stretch(std::ptrdiff_t c) const;
-    [[nodiscard]] Lanes<Dim> boundary_change(BoundaryFace b) const;
+    [[nodiscard]] Lanes<Dim, Real> boundary_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::ptrdiff_t c);
     void set_finite_stress(std::ptrdiff_t c);
     void load_change(const StepEnds<Dim>& ends);
@@ -169,23 +177,25 @@ private:
                                             const BoundaryLoad<Dim>& boundary_load);
 
     const CcgArrays<Dim>& arrays_;
+    const CcgCoefficients<Dim, Real>& coefficients_;
     const FiniteCells<Dim>& finite_;
+    [[no_unique_address]] SweepUnits<Dim, Real> units_;
     // Work arrays of registers.
-    LargeArray<double> u_;              // displacement, by cell
-    LargeArray<double> of_face_;        // u_f - u_c of the first side, later y of interior faces, by face
-    LargeArray<double> g_;              // displacement gradient, by cell
-    LargeArray<double> trace_;          // I_c(x_f) - u_c of the first side, by half-face
-    LargeArray<double> s_;              // S_c, by cell
-    LargeArray<double> deviation_;      // d_c, by cell of simplices
-    LargeArray<double> direct_;         // sum of k [u], by cell
-    LargeArray<double> boundary_y_;     // dV/dũ_f, by boundary face
-    LargeArray<double> correction_;     // delta_f and answers, by boundary face; zero except during a call
-    LargeArray<double> pair_gradient_;  // by boundary face; zero but during a call
-    CellMoments<Dim> moments_;          // empty except during a call
+    LargeArray<double> u_;            // displacement, by cell
+    LargeArray<Real> of_face_;        // u_f - u_c of the first side, later y of interior faces, by face
+    LargeArray<Real> g_;              // displacement gradient, by cell
+    LargeArray<Real> trace_;          // I_c(x_f) - u_c of the first side, by half-face
+    LargeArray<Real> s_;              // S_c, by cell
+    LargeArray<Real> deviation_;      // d_c, by cell of simplices
+    LargeArray<Real> direct_;         // sum of k [u], by cell
+    LargeArray<Real> boundary_y_;     // dV/dũ_f, by boundary face
+    LargeArray<Real> correction_;     // delta_f and answers, by boundary face; zero except during a call
+    LargeArray<Real> pair_gradient_;  // by boundary face; zero but during a call
+    CellMoments<Dim> moments_;        // empty except during a call
     // Of finite bodies, changes from the start of a step to its end; empty without any.
     LargeArray<double> u_change_;
-    LargeArray<double> relative_change_;
-    LargeArray<double> g_change_;
+    LargeArray<Real> relative_change_;
+    LargeArray<Real> g_change_;
     std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
     bool has_change_ = false;
     std::vector<Chunk> chunks_;                          // one more at the end

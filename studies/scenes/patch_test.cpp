@@ -84,6 +84,21 @@ BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, s
 }
 
 template <int Dim>
+double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann) {
+    const AffineField<Dim> field;
+    solid::SolidOptions<Dim> options = patch(field, boundary, neumann);
+    options.precision = solid::Precision::single_precision;
+    const double stress = field.stress(options.materials[0]).norm();
+    solid::Solid<Dim> solid(box, std::move(options));
+    std::vector<Vector<Dim>> u, force(box.cell_centroid.size());
+    for (const Vector<Dim>& x : box.cell_centroid) u.push_back(field(x));
+    solid.ccg().step_gradient(u, solid.ccg().load_at(0.0, 0.0), {}, force);
+    double worst = 0.0;
+    for (const Vector<Dim>& of_cell : force) worst = std::max(worst, of_cell.norm());
+    return worst / (stress * std::ranges::max(box.face_measure));
+}
+
+template <int Dim>
 ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann) {
     solid::SolidOptions<Dim> options;
     options.materials = {{.young = 1.0, .poisson = 0.3}};
@@ -105,6 +120,8 @@ ZeroModes zero_modes(const mesh::Mesh<Dim>& mesh, solid::FreeFaceRule neumann) {
 
 template BulkPatchErrors patch_test(const mesh::Mesh<2>&, PatchBoundary, solid::FreeFaceRule);
 template BulkPatchErrors patch_test(const mesh::Mesh<3>&, PatchBoundary, solid::FreeFaceRule);
+template double single_precision_force(const mesh::Mesh<2>&, PatchBoundary, solid::FreeFaceRule);
+template double single_precision_force(const mesh::Mesh<3>&, PatchBoundary, solid::FreeFaceRule);
 template ZeroModes zero_modes(const mesh::Mesh<2>&, solid::FreeFaceRule);
 template ZeroModes zero_modes(const mesh::Mesh<3>&, solid::FreeFaceRule);
 

@@ -24,6 +24,11 @@ struct BulkPatchErrors {
 template <int Dim>
 [[nodiscard]] BulkPatchErrors patch_test(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
 
+/// Largest force on a cell [-], over |sigma| times the largest face, that a step in single precision finds in the exact field
+/// of `patch_test`, where there is none.
+template <int Dim>
+[[nodiscard]] double single_precision_force(const mesh::Mesh<Dim>& box, PatchBoundary boundary, solid::FreeFaceRule neumann);
+
 /// Eigenvalues of the stiffness K of a free body.
 struct ZeroModes {
     int count;            ///< of |eigenvalue| below 1e-11 of the highest

@@ -41,6 +41,7 @@ const std::vector<Axis>& axes() {
                                           {"--corners", {"fixed"}, Of::bulk},
                                           {"--cfl", {"0.3", "0.6"}, Of::run},
                                           {"--filter", {"neutral"}, Of::run},
+                                          {"--precision", {"single"}, Of::run},
                                           {"--integrator", {"memm_async", "leapfrog", "bilbao"}, Of::run}};
     return all;
 }

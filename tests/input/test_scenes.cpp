@@ -135,6 +135,10 @@ frames = 4
     const input::SceneFile bilbao(written.path(), {.set = {"run.integrator='bilbao'", "run.gauge=3", "run.levels=0",
                                                            "run.contact_margin=1", "run.contact_levels=0"}});
     CHECK(bilbao.options().gauge == 3.0);
+    const input::SceneFile single(written.path(), {.set = {"run.integrator=leapfrog", "run.precision=single", "run.levels=0",
+                                                           "run.contact_margin=1", "run.contact_levels=0"}});
+    CHECK(single.options().precision == solid::Precision::single_precision);
+    CHECK(o.precision == solid::Precision::double_precision);
 }
 
 TEST_CASE("a preset stands below all other keys, wherever it stands", "[input][scenes]") {

@@ -93,3 +93,27 @@ TEST_CASE("a body that falls from rest runs under every scheme", "[programs]") {
     CHECK(summary["impulse_first"].get<double>() == Approx(266.667).epsilon(0.02));
     if (integrator != "leapfrog") CHECK(relative_drift(outcome) <= 1e-11);
 }
+
+TEST_CASE("--precision single is said in the summary, misses no contact, and parts the bodies as double does",
+          "[programs]") {
+    const std::string integrator = GENERATE("memm", "leapfrog");
+    const auto of_double = read_summary(run_scheme(integrator));
+    const auto outcome = run_scheme(integrator, "--precision single");
+    const auto summary = read_summary(outcome);
+    CHECK(of_double["options"]["precision"] == "double");
+    CHECK(summary["options"]["precision"] == "single");
+    CHECK(summary["lost_contacts"] == 0);
+    CHECK(summary["active_pairs_max"] > 0);
+    CHECK(summary["restitution"].get<double>() == Approx(of_double["restitution"].get<double>()).margin(1e-4));
+    CHECK(summary["restitution"] != of_double["restitution"]);
+    CHECK(summary["momentum_drift_max"].get<double>() < 1e-5);  // docs/trade.md, Single precision
+    if (integrator == "memm") CHECK(relative_drift(outcome) < 1e-5);
+}
+
+TEST_CASE("a run in single precision has the same bits for any number of threads", "[programs]") {
+    const auto energies = [](const char* threads) {
+        return read_text(run_scheme("memm", std::string("--dim 3 --precision single --threads ") + threads).directory /
+                         "energy.csv");
+    };
+    CHECK(energies("1") == energies("2"));
+}

@@ -222,4 +222,7 @@ TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]")
     options.kinematics = {solid::Kinematics::rigid};
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner),
                       Catch::Contains("not made for a run on several ranks"));
+    options.kinematics.clear();
+    options.precision = solid::Precision::single_precision;
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("single precision"));
 }

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace abut::solid {
+
+/// What the bulk of a step is computed in. Displacements, momenta, contact and energies are double in both.
+/// docs/method.md, Single precision.
+enum class Precision {
+    double_precision,
+    single_precision,  ///< in float, where roundings are 2^-24 of a number; for bodies of linear elasticity, on one rank
+};
+
+}  // namespace abut::solid
