@@ -100,8 +100,8 @@ void append_overlap(const Scene<Dim>& scene, IndexPair pair, AreaMethod method, 
 // are seen from corner 0 of b.
 class TriangleBlock {
 public:
-    static constexpr int capacity = 32;
-    static_assert(capacity % TriangleBatch::size == 0 && TriangleBatch::size % lane_count == 0);
+    static constexpr int capacity = TriangleBatch::size;
+    static_assert(capacity % lane_count == 0);
 
     [[nodiscard]] int size() const { return size_; }
 
@@ -125,8 +125,26 @@ public:
     // Appends what the pairs share and forgets them.
     void flush(AreaMethod method, Overlaps<3>& overlaps) {
         if (size_ == 0) return;
-        for (int k = size_; k < capacity; ++k) repeat_first(k);
-        for (int first = 0; first < size_; first += TriangleBatch::size) flush(first, method, overlaps);
+        for (int k = size_; k % lane_count != 0; ++k) repeat_first(k);
+        TriangleBatch batch;
+        batch.x_b[0].fill(0.0);
+        batch.y_b[0].fill(0.0);
+        batch.rounded_shift.fill(0.0);
+        for (int k = 0; k < size_; k += lane_count) project(k, batch);
+        geometry::AreaBatch result;
+        if (method == AreaMethod::fast)
+            result = geometry::overlap_areas(batch, size_);
+        else
+            result.undecided = ~std::uint64_t{0};
+        for (int k = 0; k < size_; ++k) {
+            if (result.undecided >> k & 1) {
+                append(k, one_by_one(batch, k, is_swapped_[k], method, overlaps.report.decided), overlaps);
+            } else {
+                ++overlaps.report.decided.by_doubles;
+                const PlaneVector<3> derivative(result.area_gradient[0][k], result.area_gradient[1][k]);
+                append(k, {result.area[k], is_swapped_[k] ? PlaneVector<3>(-derivative) : derivative}, overlaps);
+            }
+        }
         size_ = 0;
     }
 
@@ -179,14 +197,14 @@ private:
                            along_x ? n.y : (along_y ? -n.x : zero)});
     }
 
-    // The columns from k on that fit in one register, into the columns from `to` of the batch.
-    void project(int k, TriangleBatch& batch, int to) {
+    // The columns from k on that fit in one register.
+    void project(int k, TriangleBatch& batch) {
         const VectorLanes normal = normalized(load(normal_, k)), tangent_0 = tangent_of(normal),
                           tangent_1 = cross(normal, tangent_0);
         const auto project_corner = [&](const Rows& corner, TriangleBatch::Row& x, TriangleBatch::Row& y) {
             const VectorLanes arm = load(corner, k);
-            store_lanes(dot(tangent_0, arm), &x[to]);
-            store_lanes(dot(tangent_1, arm), &y[to]);
+            store_lanes(dot(tangent_0, arm), &x[k]);
+            store_lanes(dot(tangent_1, arm), &y[k]);
         };
         for (int i = 0; i < 3; ++i) project_corner(a_[i], batch.x_a[i], batch.y_a[i]);
         for (int i = 0; i < 2; ++i) project_corner(b_[i], batch.x_b[i + 1], batch.y_b[i + 1]);
@@ -196,29 +214,6 @@ private:
         store(tangent_1, tangent_1_, k);
     }
 
-    void flush(int first, AreaMethod method, Overlaps<3>& overlaps) {
-        TriangleBatch batch;
-        batch.x_b[0].fill(0.0);
-        batch.y_b[0].fill(0.0);
-        batch.rounded_shift.fill(0.0);
-        for (int k = 0; k < TriangleBatch::size; k += lane_count) project(first + k, batch, k);
-        geometry::AreaBatch result;
-        if (method == AreaMethod::fast)
-            result = geometry::overlap_areas(batch);
-        else
-            result.undecided = ~0u;
-        const int end = std::min(size_ - first, TriangleBatch::size);
-        for (int k = 0; k < end; ++k) {
-            if (result.undecided >> k & 1u) {
-                append(first + k, one_by_one(batch, k, is_swapped_[first + k], method, overlaps.report.decided), overlaps);
-            } else {
-                ++overlaps.report.decided.by_doubles;
-                const PlaneVector<3> derivative(result.area_gradient[0][k], result.area_gradient[1][k]);
-                append(first + k, {result.area[k], is_swapped_[first + k] ? PlaneVector<3>(-derivative) : derivative},
-                       overlaps);
-            }
-        }
-    }
     static geometry::OverlapArea<3> one_by_one(const TriangleBatch& batch, int k, bool is_swapped, AreaMethod method,
                                                geometry::DecisionCounts& counts) {
         std::array<PlaneVector<3>, 3> a, b;

@@ -1,6 +1,7 @@
 #include "abut/geometry/overlap/batch.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <string>
 
@@ -172,13 +173,6 @@ AreaLanes area_of(const LanePair& pair, const Heights& b_over_a, const Sides& si
     return sum;
 }
 
-void store(const AreaLanes& sum, LaneMask is_separated, AreaBatch& result, int first) {
-    const Lanes zero{}, smallest = Lanes{} + std::numeric_limits<double>::min();
-    store_lanes(is_separated ? zero : larger(0.5 * sum.twice_area, smallest), &result.area[first]);
-    store_lanes(is_separated ? zero : sum.along.y, &result.area_gradient[0][first]);
-    store_lanes(is_separated ? zero : -sum.along.x, &result.area_gradient[1][first]);
-}
-
 // A register where some heights are within the limit: their signs are found with more care, and coinciding edges count as
 // `WeightsOfCoinciding` has it. The columns without such a height give what they give elsewhere, to the last bit.
 struct Close {
@@ -200,23 +194,54 @@ struct Close {
     }
 };
 
+Close look_closely(const LanePair& pair, const Heights& a_over_b, const Heights& b_over_a) {
+    const Close close(pair, a_over_b, b_over_a, HeightInDoubles{});
+    if (!any(pair.is_given & pair.is_proper & ~close.is_known)) return close;
+    return {pair, a_over_b, b_over_a, HeightInTwiceTheDigits{}};
+}
+
 // The columns from `first` on that fit in one register.
-void share(const TriangleBatch& batch, int first, AreaBatch& result) {
-    const LanePair pair(batch, first);
-    const Heights a_over_b(pair.b, pair.a), b_over_a(pair.a, pair.b);
-    LaneMask is_separated = a_over_b.separate(pair.limit) | b_over_a.separate(pair.limit);
-    LaneMask is_known = is_separated | ((a_over_b.least() > pair.limit) & (b_over_a.least() > pair.limit));
-    if (!any(~is_known)) {
-        store(area_of(pair, b_over_a, Sides(a_over_b, b_over_a), WeightsApart{}), is_separated, result, first);
-    } else {
-        Close close(pair, a_over_b, b_over_a, HeightInDoubles{});
-        if (any(pair.is_given & pair.is_proper & ~close.is_known))
-            close = Close(pair, a_over_b, b_over_a, HeightInTwiceTheDigits{});
+struct PairHeights {
+    LanePair pair;
+    Heights a_over_b, b_over_a;
+    LaneMask is_separated, is_clear;  // by the limit: clear of it are those with no height within it, and those apart
+
+    PairHeights(const TriangleBatch& batch, int first)
+        : pair(batch, first), a_over_b(pair.b, pair.a), b_over_a(pair.a, pair.b) {
+        is_separated = a_over_b.separate(pair.limit) | b_over_a.separate(pair.limit);
+        is_clear = is_separated | ((a_over_b.least() > pair.limit) & (b_over_a.least() > pair.limit));
+    }
+};
+
+struct Decisions {
+    std::uint64_t overlap = 0, undecided = 0;  // bit k: pair k
+};
+
+void decide(const TriangleBatch& batch, int first, Decisions& decisions) {
+    const PairHeights heights(batch, first);
+    LaneMask is_separated = heights.is_separated, is_known = heights.is_clear;
+    if (any(~is_known)) {
+        const Close close = look_closely(heights.pair, heights.a_over_b, heights.b_over_a);
         is_separated = close.is_separated;
         is_known = close.is_known;
-        store(any(~is_separated) ? close.area(pair) : AreaLanes{}, is_separated, result, first);
     }
-    result.undecided |= bits_of(~(is_known & pair.is_proper)) << first;
+    const LaneMask is_decided = is_known & heights.pair.is_proper;
+    decisions.undecided |= std::uint64_t{bits_of(~is_decided)} << first;
+    decisions.overlap |= std::uint64_t{bits_of(is_decided & ~is_separated)} << first;
+}
+
+// Of columns that all overlap.
+AreaLanes area_of_columns(const TriangleBatch& batch, int first) {
+    const PairHeights heights(batch, first);
+    const auto& [pair, a_over_b, b_over_a, is_separated, is_clear] = heights;
+    if (any(~is_clear)) return look_closely(pair, a_over_b, b_over_a).area(pair);
+    return area_of(pair, b_over_a, Sides(a_over_b, b_over_a), WeightsApart{});
+}
+
+void copy_column(const TriangleBatch& from, int column, TriangleBatch& to, int k) {
+    for (auto rows : {&TriangleBatch::x_a, &TriangleBatch::y_a, &TriangleBatch::x_b, &TriangleBatch::y_b})
+        for (int i = 0; i < 3; ++i) (to.*rows)[i][k] = (from.*rows)[i][column];
+    to.rounded_shift[k] = from.rounded_shift[column];
 }
 
 double twice_area_of(const std::array<PlaneVector<3>, 3>& face) {
@@ -246,15 +271,18 @@ OverlapArea<3> taken(const AreaBatch& result, int k, bool is_swapped) {
     return {result.area[k], is_swapped ? PlaneVector<3>(-derivative) : derivative};
 }
 
-// At most TriangleBatch::size pairs. Columns that are left over repeat the first one.
+// At most TriangleBatch::size pairs. Columns that fill up a register repeat the first one.
 void share(std::span<const TrianglePair> pairs, std::span<OverlapArea<3>> areas, DecisionCounts& counts) {
     TriangleBatch batch;
     std::array<bool, TriangleBatch::size> is_swapped;
     const int n = static_cast<int>(pairs.size());
-    for (int k = 0; k < TriangleBatch::size; ++k) is_swapped[k] = put(pairs[k < n ? k : 0], k, batch);
-    const AreaBatch result = overlap_areas(batch);
+    int n_put = 0;
+    do {
+        is_swapped[n_put] = put(pairs[n_put < n ? n_put : 0], n_put, batch);
+    } while (++n_put < n || n_put % lane_count != 0);
+    const AreaBatch result = overlap_areas(batch, n);
     for (int k = 0; k < n; ++k) {
-        if (result.undecided >> k & 1u) {
+        if (result.undecided >> k & 1) {
             areas[k] = counted_overlap_area(pairs[k].face_1, pairs[k].face_2, pairs[k].shift, counts);
         } else {
             areas[k] = taken(result, k, is_swapped[k]);
@@ -272,9 +300,30 @@ DecisionCounts& DecisionCounts::operator+=(const DecisionCounts& other) {
     return *this;
 }
 
-AreaBatch overlap_areas(const TriangleBatch& triangles) {
-    AreaBatch result;
-    for (int first = 0; first < TriangleBatch::size; first += lane_count) share(triangles, first, result);
+// Most candidates share nothing. Those that do are moved together: only their areas are computed.
+AreaBatch overlap_areas(const TriangleBatch& triangles, int n) {
+    Decisions decisions;
+    for (int first = 0; first < n; first += lane_count) decide(triangles, first, decisions);
+
+    AreaBatch result{};
+    result.undecided = decisions.undecided;
+    TriangleBatch overlapping;
+    std::array<int, TriangleBatch::size> column;
+    int n_overlapping = 0;
+    for (std::uint64_t rest = decisions.overlap; rest != 0; rest &= rest - 1) {
+        column[n_overlapping] = std::countr_zero(rest);
+        copy_column(triangles, column[n_overlapping], overlapping, n_overlapping);
+        ++n_overlapping;
+    }
+    for (int k = n_overlapping; k % lane_count != 0; ++k) copy_column(overlapping, 0, overlapping, k);
+    for (int first = 0; first < n_overlapping; first += lane_count) {
+        const AreaLanes sum = area_of_columns(overlapping, first);
+        for (int k = first; k < std::min(first + lane_count, n_overlapping); ++k) {
+            result.area[column[k]] = std::max(0.5 * sum.twice_area[k - first], std::numeric_limits<double>::min());
+            result.area_gradient[0][column[k]] = sum.along.y[k - first];
+            result.area_gradient[1][column[k]] = -sum.along.x[k - first];
+        }
+    }
     return result;
 }
 
