@@ -35,10 +35,13 @@ public:
     [[nodiscard]] std::int32_t n_points() const override { return ranks_.n_points(); }
     [[nodiscard]] int dimension() const override { return ranks_.dimension(); }
 
-    void fill(std::span<double> values, int width) const override {
+    [[nodiscard]] dynamics::CopySet copy_set(std::span<const std::int32_t> positions) const override {
+        return ranks_.copy_set(positions);
+    }
+    void fill(std::span<double> values, int width, dynamics::CopySet copies) const override {
         const auto n = static_cast<std::size_t>(width);
         if (!is_replay_) {
-            ranks_.fill(values, width);
+            ranks_.fill(values, width, copies);
             auto& copied = values_.emplace_back();
             for (const std::size_t i : copies_)
                 for (std::size_t k = 0; k < n; ++k) copied.push_back(values[i * n + k]);

@@ -98,13 +98,6 @@ private:
     double size_;  // of a motion of unit velocity
 };
 
-/// About which the moments of the patch are taken.
-template <int Dim>
-Vector<Dim> moment_position(const detail::PatchState<Dim>& state, std::int32_t i) {
-    if (state.arms == MomentArms::rest) return state.rest_position[i];
-    return state.rest_position[i] + state.q[i] - (0.5 * state.dt / state.mass[i]) * state.p_before[i];
-}
-
 }  // namespace
 
 void detail::check_kappa(double kappa) {
@@ -115,32 +108,60 @@ void detail::check_kappa(double kappa) {
 }
 
 template <int Dim>
-void detail::filter_patch(const ContactPatch<Dim>& patch, const PatchState<Dim>& state, double kappa) {
+std::vector<Vector<Dim>> detail::parasitic_part(const ContactPatch<Dim>& patch, std::span<const std::int32_t> numbers,
+                                                std::span<const PatchPoint<Dim>> points, double kappa) {
     const std::size_t n = patch.points.size();
     std::vector<double> mass(n), root_mass(n);
     std::vector<Vector<Dim>> position(n);
     Eigen::VectorXd e(Dim * static_cast<Eigen::Index>(n)), v(e.size());  // M^-1/2 times momenta
     for (std::size_t k = 0; k < n; ++k) {
-        const std::int32_t i = patch.points[k];
-        const auto at = std::lower_bound(state.points.begin(), state.points.end(), i) - state.points.begin();
+        const auto at = std::ranges::lower_bound(numbers, patch.points[k]) - numbers.begin();
+        const PatchPoint<Dim>& point = points[static_cast<std::size_t>(at)];
         const auto own = Eigen::seqN(Dim * static_cast<Eigen::Index>(k), Eigen::fix<Dim>);
-        mass[k] = state.mass[i];
+        mass[k] = point.mass;
         root_mass[k] = std::sqrt(mass[k]);
-        position[k] = moment_position<Dim>(state, i);
-        v(own) = state.p_before[i] / root_mass[k];
-        e(own) = (state.p_after[i] - state.p_before[i] - state.dt * state.force[at]) / root_mass[k];
+        position[k] = point.position;
+        v(own) = point.momentum / root_mass[k];
+        e(own) = point.parasitic / root_mass[k];
     }
     OrthonormalVectors kept(e.size(), FreeRigidMotions<Dim>::n_motions + 1);
     FreeRigidMotions<Dim>(mass, std::move(position), patch.holds).append_to(kept, root_mass);
     const double speed = v.norm();
     kept.add(std::move(v), speed);
     kept.remove_from(e);
+    std::vector<Vector<Dim>> part(n);
     for (std::size_t k = 0; k < n; ++k)
-        state.p_after[patch.points[k]] -= (kappa * root_mass[k]) * e.segment<Dim>(Dim * static_cast<Eigen::Index>(k));
+        part[k] = (kappa * root_mass[k]) * e.segment<Dim>(Dim * static_cast<Eigen::Index>(k));
+    return part;
 }
 
-template void detail::filter_patch<1>(const ContactPatch<1>&, const PatchState<1>&, double);
-template void detail::filter_patch<2>(const ContactPatch<2>&, const PatchState<2>&, double);
-template void detail::filter_patch<3>(const ContactPatch<3>&, const PatchState<3>&, double);
+template <int Dim>
+void detail::gather_points(const Ranks& ranks, std::span<const std::size_t> own, std::span<PatchPoint<Dim>> points) {
+    constexpr std::size_t n_values = 2 + 3 * Dim;  // place among the points, mass, vectors
+    std::vector<double> mine;
+    for (const std::size_t i : own) {
+        const PatchPoint<Dim>& point = points[i];
+        mine.insert(mine.end(), {static_cast<double>(i), point.mass});
+        for (const Vector<Dim>* vector : {&point.position, &point.momentum, &point.parasitic})
+            mine.insert(mine.end(), vector->begin(), vector->end());
+    }
+    const std::vector<double> all = ranks.gather(mine);
+    for (auto values = all.begin(); values != all.end(); values += n_values) {
+        PatchPoint<Dim>& point = points[static_cast<std::size_t>(values[0])];
+        point.mass = values[1];
+        auto from = values + 2;
+        for (Vector<Dim>* vector : {&point.position, &point.momentum, &point.parasitic})
+            for (double& value : *vector) value = *from++;
+    }
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                         \
+    template std::vector<Vector<Dim>> detail::parasitic_part(const ContactPatch<Dim>&, std::span<const std::int32_t>, \
+                                                             std::span<const PatchPoint<Dim>>, double);               \
+    template void detail::gather_points(const Ranks&, std::span<const std::size_t>, std::span<PatchPoint<Dim>>);
+ABUT_INSTANTIATE(1)
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::dynamics

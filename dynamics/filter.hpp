@@ -21,11 +21,12 @@ struct Hold {
 /// Points that touched something in the last step and so may carry the parasitic mode of the scheme.
 template <int Dim>
 struct ContactPatch {
-    std::vector<std::int32_t> points;  ///< increasing; no point is in two patches
+    std::vector<std::int32_t> points;  ///< by their numbers among those of all ranks, increasing; none is in two patches
     std::vector<Hold<Dim>> holds;      ///< the momentum of rigid motions that these prevent is not the patch's own
 };
 
-/// A system that says which of its points were in contact, and what acts on them now.
+/// A system that says which of its points were in contact, and what acts on them now. On several ranks both are calls of all:
+/// the patches are the same everywhere, and each asks for forces on points of its own.
 template <class S>
 concept PatchSystem = MomentSystem<S> && requires(S& system, std::span<const std::int32_t> points, std::span<const double> q,
                                                   std::span<Vector<S::dimension>> force) {
@@ -38,23 +39,24 @@ namespace detail {
 /// Throws BadInput for a kappa that is not from 0 to 1.
 void check_kappa(double kappa);
 
-/// One patch and the arrays of the whole system.
+/// What the filter has to know of a point.
 template <int Dim>
-struct PatchState {
-    std::span<const double> mass;                ///< of all points (n)
-    std::span<const Vector<Dim>> rest_position;  ///< (n)
-    std::span<const Vector<Dim>> q;              ///< (n)
-    std::span<const Vector<Dim>> p_before;       ///< (n)
-    std::span<Vector<Dim>> p_after;              ///< (n)
-    std::span<const std::int32_t> points;        ///< of all patches, increasing
-    std::span<const Vector<Dim>> force;          ///< on these
-    MomentArms arms;
-    double dt;
+struct PatchPoint {
+    double mass;
+    Vector<Dim> position;   ///< of the kind of the system's `moment_arms`
+    Vector<Dim> momentum;   ///< p^{n+1/2}
+    Vector<Dim> parasitic;  ///< e
 };
 
-/// Takes kappa e' out of the patch.
+/// What is kappa e' of the points of a patch, in its order. `points`: those of all patches, whose numbers are `numbers`,
+/// increasing.
 template <int Dim>
-void filter_patch(const ContactPatch<Dim>& patch, const PatchState<Dim>& state, double kappa);
+[[nodiscard]] std::vector<Vector<Dim>> parasitic_part(const ContactPatch<Dim>& patch, std::span<const std::int32_t> numbers,
+                                                      std::span<const PatchPoint<Dim>> points, double kappa);
+
+/// Fills in the points of other ranks. `own`: those of this one, by position.
+template <int Dim>
+void gather_points(const Ranks& ranks, std::span<const std::size_t> own, std::span<PatchPoint<Dim>> points);
 
 }  // namespace detail
 
@@ -76,36 +78,71 @@ public:
     /// BadInput for a kappa outside.
     explicit NeutralFilter(S& system, double kappa = 1.0) : system_(system), kappa_(kappa) { detail::check_kappa(kappa); }
 
-    /// To be called after each step (Integrator::set_after_step).
+    /// To be called after each step (Integrator::set_after_step); a call of all ranks.
     void operator()(std::span<const double> q, double dt, std::span<const double> p_before, std::span<double> p_after) {
-        refuse_ranks(ranks_of(system_), "filter");
         const std::vector<ContactPatch<Dim>> patches = system_.contact_patches();
         if (patches.empty()) return;
-        points_.clear();
-        for (const ContactPatch<Dim>& patch : patches)
-            points_.insert(points_.end(), patch.points.begin(), patch.points.end());
-        std::sort(points_.begin(), points_.end());
-        force_.resize(points_.size());
-        system_.end_force_on(points_, q, force_);
-        const detail::PatchState<Dim> state{.mass = system_.masses(),
-                                            .rest_position = system_.rest_positions(),
-                                            .q = as_vectors<Dim>(q),
-                                            .p_before = as_vectors<Dim>(p_before),
-                                            .p_after = as_vectors<Dim>(p_after),
-                                            .points = points_,
-                                            .force = force_,
-                                            .arms = system_.moment_arms(),
-                                            .dt = dt};
-        for (const ContactPatch<Dim>& patch : patches) detail::filter_patch<Dim>(patch, state, kappa_);
+        find_points(patches);
+        const auto before = as_vectors<Dim>(p_before);
+        const auto after = as_vectors<Dim>(p_after);
+        force_.resize(own_.size());
+        system_.end_force_on(own_, q, force_);
+        points_.resize(numbers_.size());
+        for (std::size_t k = 0; k < own_.size(); ++k) {
+            const auto i = static_cast<std::size_t>(own_[k]);
+            points_[own_position_[k]] = {.mass = system_.masses()[i],
+                                         .position = moment_position(i, as_vectors<Dim>(q)[i], dt, before[i]),
+                                         .momentum = before[i],
+                                         .parasitic = after[i] - before[i] - dt * force_[k]};
+        }
+        if (const Ranks* ranks = ranks_of(system_)) detail::gather_points<Dim>(*ranks, own_position_, points_);
+        for (const ContactPatch<Dim>& patch : patches) {
+            const auto removed = detail::parasitic_part<Dim>(patch, numbers_, points_, kappa_);
+            for (std::size_t k = 0, own = 0; k < patch.points.size(); ++k) {
+                while (own < own_.size() && numbers_[own_position_[own]] < patch.points[k]) ++own;
+                if (own < own_.size() && numbers_[own_position_[own]] == patch.points[k]) after[own_[own]] -= removed[k];
+            }
+        }
         // Along the lines of the last step: that changes no more of H~, momentum and J~ than the step itself.
         if constexpr (ConstrainedSystem<S>) system_.constrain_along(q, dt, p_after);
     }
 
 private:
+    /// The points of all patches, and which of them are here.
+    void find_points(std::span<const ContactPatch<Dim>> patches) {
+        numbers_.clear();
+        for (const ContactPatch<Dim>& patch : patches)
+            numbers_.insert(numbers_.end(), patch.points.begin(), patch.points.end());
+        std::sort(numbers_.begin(), numbers_.end());
+        own_.clear();
+        own_position_.clear();
+        const Ranks* ranks = ranks_of(system_);
+        for (std::size_t k = 0; k < numbers_.size(); ++k) {
+            std::int32_t point = numbers_[k];
+            if (ranks) {
+                const auto here = ranks->numbers();
+                const auto found = std::lower_bound(here.begin(), here.end(), numbers_[k]);
+                if (found == here.end() || *found != numbers_[k]) continue;
+                point = static_cast<std::int32_t>(found - here.begin());
+            }
+            own_.push_back(point);
+            own_position_.push_back(k);
+        }
+    }
+    /// About which the moments of the patch are taken.
+    Vector<Dim> moment_position(std::size_t i, const Vector<Dim>& q, double dt, const Vector<Dim>& p_before) const {
+        const Vector<Dim>& rest = system_.rest_positions()[i];
+        if (system_.moment_arms() == MomentArms::rest) return rest;
+        return rest + q - (0.5 * dt / system_.masses()[i]) * p_before;
+    }
+
     S& system_;
     double kappa_;
-    std::vector<std::int32_t> points_;
-    std::vector<Vector<Dim>> force_;
+    std::vector<std::int32_t> numbers_;            // of the points of all patches, among those of all ranks, increasing
+    std::vector<detail::PatchPoint<Dim>> points_;  // of these
+    std::vector<std::int32_t> own_;                // those that are here, as the system has them
+    std::vector<std::size_t> own_position_;        // of these among numbers_
+    std::vector<Vector<Dim>> force_;               // on these
 };
 
 }  // namespace abut::dynamics

@@ -29,7 +29,8 @@ Inertia<Dim> inertia_of(double mass, const Vector<Dim>& arm) {
 template <int Dim>
 class BodyAtNode {
 public:
-    BodyAtNode(std::span<const std::int32_t> points, const detail::NodeView<Dim>& node) : points_(points), node_(node) {
+    BodyAtNode(const detail::BodyPoints& body, const detail::NodeView<Dim>& node)
+        : points_(body.points), among_all_(body.among_all), node_(node) {
         mass_ = sum(0.0, [&](std::int32_t i) { return node_.mass[i]; });
         momentum_ = sum(zero_vector, [&](std::int32_t i) { return p(i); });
         f_e_ = product([&](std::int32_t i) { return f(i); }, [&](std::int32_t i) { return e(i); });
@@ -84,7 +85,9 @@ private:
 
     template <class Value, class Term>
     Value sum(const Value& zero, const Term& term) const {
-        return ordered_sum(std::ssize(points_), zero, [&](std::ptrdiff_t at) -> Value { return term(points_[at]); });
+        const auto of_point = [&](std::ptrdiff_t at) -> Value { return term(points_[at]); };
+        return node_.ranks ? sum_over(*node_.ranks, among_all_, std::ssize(points_), zero, of_point)
+                           : ordered_sum(std::ssize(points_), zero, of_point);
     }
     template <class A, class B>
     double product(const A& a, const B& b) const {
@@ -109,6 +112,7 @@ private:
     Vector<Dim> k(std::int32_t i) const { return p(i) - rigid(i, own_); }
 
     std::span<const std::int32_t> points_;
+    Summands among_all_;
     const detail::NodeView<Dim>& node_;
     double mass_, f_e_, e_e_, p_p_;
     Vector<Dim> momentum_;
@@ -121,20 +125,52 @@ private:
 
 }  // namespace
 
-detail::BodyPoints detail::points_of_bodies(std::span<const std::int32_t> body_of_points, std::size_t n) {
-    const auto lowest = std::ranges::min_element(body_of_points);
-    if (body_of_points.size() != n || (n > 0 && *lowest < 0))
-        throw BadInput("restart: " + std::to_string(body_of_points.size()) + " points have a body, the lowest of which is " +
-                       std::to_string(n > 0 && !body_of_points.empty() ? *lowest : 0) + ", the system has " +
-                       std::to_string(n) + " points. Give the body of each, counted from 0.");
-    BodyPoints bodies{.points = std::vector<std::int32_t>(n), .offset = {0}};
-    std::iota(bodies.points.begin(), bodies.points.end(), 0);
-    std::ranges::stable_sort(bodies.points, {}, [&](std::int32_t i) { return body_of_points[static_cast<std::size_t>(i)]; });
-    for (std::size_t at = 1; at <= n; ++at)
-        if (at == n || body_of_points[static_cast<std::size_t>(bodies.points[at])] !=
-                           body_of_points[static_cast<std::size_t>(bodies.points[at - 1])])
-            bodies.offset.push_back(static_cast<std::ptrdiff_t>(at));
-    return bodies;
+detail::PointsOfBodies::PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks* ranks) {
+    double last = -1.0;  // body that has points here
+    agreed(ranks, [&] {
+        const auto [lowest, highest] = std::ranges::minmax_element(body_of_points);
+        if (body_of_points.size() != n || (n > 0 && *lowest < 0))
+            throw BadInput("restart: " + std::to_string(body_of_points.size()) +
+                           " points have a body, the lowest of which is " +
+                           std::to_string(n > 0 && !body_of_points.empty() ? *lowest : 0) + ", the system has " +
+                           std::to_string(n) + " points. Give the body of each, counted from 0.");
+        if (n > 0) last = *highest;
+    });
+    const auto n_bodies = static_cast<std::size_t>((ranks ? ranks->largest(last) : last) + 1.0);
+    const auto body_of = [&](std::int32_t i) {
+        return static_cast<std::size_t>(body_of_points[static_cast<std::size_t>(i)]);
+    };
+    points_.resize(n);
+    std::iota(points_.begin(), points_.end(), 0);
+    std::ranges::stable_sort(points_, {}, body_of);
+    for (std::size_t body = 0; body <= n_bodies; ++body)
+        offset_.push_back(static_cast<std::size_t>(std::ranges::lower_bound(points_, body, {}, body_of) - points_.begin()));
+    if (ranks) find_among_all(*ranks);
+}
+
+void detail::PointsOfBodies::find_among_all(const Ranks& ranks) {
+    std::vector<double> counts;
+    for (std::size_t body = 0; body < n_bodies(); ++body)
+        counts.push_back(static_cast<double>(offset_[body + 1] - offset_[body]));
+    const std::vector<double> of_ranks = ranks.gather(counts);
+    among_all_.assign(n_bodies(), Summands{.first = 0, .last = 0});
+    for (std::size_t i = 0; i < of_ranks.size(); ++i)
+        among_all_[i % n_bodies()].last += static_cast<std::int32_t>(of_ranks[i]);
+    for (std::size_t body = 1; body < n_bodies(); ++body) {
+        among_all_[body].first = among_all_[body - 1].last;
+        among_all_[body].last += among_all_[body].first;
+    }
+    agreed(&ranks, [&] {
+        for (std::size_t body = 0; body < n_bodies(); ++body)
+            for (const std::int32_t point : (*this)[body].points) {
+                const std::int32_t number = ranks.numbers()[static_cast<std::size_t>(point)];
+                if (number < among_all_[body].first || number >= among_all_[body].last)
+                    throw BadInput("restart: point " + std::to_string(number) + " of body " + std::to_string(body) +
+                                       " does not follow the points of its body and those of the bodies before. On several "
+                                       "ranks, number the points body by body.",
+                                   {.value = static_cast<double>(number)});
+            }
+    });
 }
 
 void detail::check_restart(const RestartOptions& options) {
@@ -148,7 +184,7 @@ void detail::check_restart(const RestartOptions& options) {
 }
 
 template <int Dim>
-void detail::restart_body(std::span<const std::int32_t> points, const NodeView<Dim>& node, RestartReport& report) {
+void detail::restart_body(const BodyPoints& points, const NodeView<Dim>& node, RestartReport& report) {
     BodyAtNode<Dim> body(points, node);
     if (!body.has_e()) return;
     double theta = 1.0;
@@ -163,8 +199,8 @@ void detail::restart_body(std::span<const std::int32_t> points, const NodeView<D
     report.paid += body.paid();
 }
 
-template void detail::restart_body<1>(std::span<const std::int32_t>, const NodeView<1>&, RestartReport&);
-template void detail::restart_body<2>(std::span<const std::int32_t>, const NodeView<2>&, RestartReport&);
-template void detail::restart_body<3>(std::span<const std::int32_t>, const NodeView<3>&, RestartReport&);
+template void detail::restart_body<1>(const BodyPoints&, const NodeView<1>&, RestartReport&);
+template void detail::restart_body<2>(const BodyPoints&, const NodeView<2>&, RestartReport&);
+template void detail::restart_body<3>(const BodyPoints&, const NodeView<3>&, RestartReport&);
 
 }  // namespace abut::dynamics

@@ -5,6 +5,7 @@
 
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/ranks.hpp"
 
 namespace abut::dynamics {
 
@@ -22,13 +23,35 @@ struct RestartOptions {
 
 namespace detail {
 
-/// The points of each body, as a list of lists.
+/// The points of one body, or those of them that a rank has.
 struct BodyPoints {
-    std::vector<std::int32_t> points;    ///< body by body, increasing
-    std::vector<std::ptrdiff_t> offset;  ///< of the first point of each body, and the end (n_bodies + 1)
+    std::span<const std::int32_t> points;  ///< increasing
+    Summands among_all = {};               ///< of several ranks: the numbers of all its points
 };
-/// Throws BadInput unless there are n bodies' numbers, none below 0.
-[[nodiscard]] BodyPoints points_of_bodies(std::span<const std::int32_t> body_of_points, std::size_t n);
+
+/// The points of each body.
+class PointsOfBodies {
+public:
+    /// Throws BadInput unless there are n bodies' numbers, none below 0; on several ranks, of which it is a call of all,
+    /// also where the points of a body do not follow each other.
+    PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks* ranks);
+
+    /// Of all ranks.
+    [[nodiscard]] std::size_t n_bodies() const { return offset_.size() - 1; }
+    [[nodiscard]] BodyPoints operator[](std::size_t body) const {
+        const std::span<const std::int32_t> all(points_);
+        return {all.subspan(offset_[body], offset_[body + 1] - offset_[body]),
+                among_all_.empty() ? Summands{} : among_all_[body]};
+    }
+
+private:
+    void find_among_all(const Ranks& ranks);
+
+    std::vector<std::int32_t> points_;  // body by body
+    std::vector<std::size_t> offset_;   // of the first point of each body, and the end
+    std::vector<Summands> among_all_;   // by body; empty on one rank
+};
+
 /// Throws BadInput for a period below 1 or steps below 0.
 void check_restart(const RestartOptions& options);
 
@@ -43,11 +66,12 @@ struct NodeView {
     std::span<Vector<Dim>> p_after;              ///< (n)
     MomentArms arms;
     double dt;
+    const Ranks* ranks;  ///< null: the system is on one
 };
 
-/// Restarts one body.
+/// Restarts one body. A call of all ranks.
 template <int Dim>
-void restart_body(std::span<const std::int32_t> points, const NodeView<Dim>& node, RestartReport& report);
+void restart_body(const BodyPoints& body, const NodeView<Dim>& node, RestartReport& report);
 
 }  // namespace detail
 
@@ -60,22 +84,22 @@ void restart_body(std::span<const std::int32_t> points, const NodeView<Dim>& nod
 /// x + dt/4 M^-1 w', with which J~ is sum arm × p. r' is the rigid motion that carries the momentum and the angular momentum
 /// of the body; sigma makes H~ what it was: the vibration pays for e, the motion as a whole does not, whether something
 /// holds the body or not. theta = 1 takes all of e; it is halved until 1/4 <= sigma^2 <= 1.21. A body in which nothing
-/// vibrates is left as it is, and counted; a rigid one is left as it is. One force evaluation a restart; the bits do not depend on the number of threads.
+/// vibrates is left as it is, and counted; a rigid one is left as it is. One force evaluation a restart; the bits do not depend on the number of threads and ranks.
 template <BodySystem S>
 class NeutralRestart {
 public:
     static constexpr int Dim = S::dimension;
 
-    /// The system must outlive it. Throws BadInput for options out of range, or if not every point has a body.
+    /// The system must outlive it. Throws BadInput for options out of range, or if not every point has a body. On several
+    /// ranks it and every restart are calls of all.
     explicit NeutralRestart(S& system, RestartOptions options = {})
         : system_(system),
           options_(options),
           steps_(options.steps_before),
-          bodies_(detail::points_of_bodies(system.body_of_points(), system.masses().size())),
+          bodies_(system.body_of_points(), system.masses().size(), ranks_of(system)),
           force_(system.size()),
           report_(options.report_before) {
         detail::check_restart(options);
-        refuse_ranks(ranks_of(system), "neutral restart");
     }
 
     /// To be called after each step, and after a filter (Integrator::set_node_restart).
@@ -89,15 +113,14 @@ public:
                                          .p_before = as_vectors<Dim>(p_before),
                                          .p_after = as_vectors<Dim>(p_after),
                                          .arms = system_.moment_arms(),
-                                         .dt = dt};
+                                         .dt = dt,
+                                         .ranks = ranks_of(system_)};
         ++report_.restarts;
-        const std::span<const std::int32_t> points(bodies_.points);
-        for (std::size_t body = 0; body + 1 < bodies_.offset.size(); ++body) {
-            const auto begin = static_cast<std::size_t>(bodies_.offset[body]);
-            const auto end = static_cast<std::size_t>(bodies_.offset[body + 1]);
-            if constexpr (ConstrainedSystem<S>)
-                if (system_.is_constrained(points[begin])) continue;  // nothing in it vibrates, and it would not stay rigid
-            detail::restart_body<Dim>(points.subspan(begin, end - begin), node, report_);
+        for (std::size_t body = 0; body < bodies_.n_bodies(); ++body) {
+            const detail::BodyPoints of_body = bodies_[body];
+            if constexpr (ConstrainedSystem<S>)  // nothing in it vibrates, and it would not stay rigid
+                if (!of_body.points.empty() && system_.is_constrained(of_body.points.front())) continue;
+            detail::restart_body<Dim>(of_body, node, report_);
         }
     }
 
@@ -107,7 +130,7 @@ private:
     S& system_;
     RestartOptions options_;
     std::int64_t steps_;
-    detail::BodyPoints bodies_;
+    detail::PointsOfBodies bodies_;
     std::vector<double> force_;
     RestartReport report_;
 };

@@ -19,6 +19,9 @@ struct Summands {
     std::int32_t last = std::numeric_limits<std::int32_t>::max();
 };
 
+/// A choice among the copies that a rank has of others.
+enum class CopySet : std::int32_t { all = 0 };
+
 /// The ranks that the points of a system are shared out to, as one of them sees them; a system on one rank has none of this
 /// (a null pointer). The points of a rank are numbered in the order of their numbers among all points.
 ///
@@ -36,8 +39,10 @@ public:
     [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
     [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
 
-    /// Fills what this rank copies of others: values by cell of its part of the mesh (n_cells, width).
-    virtual void fill(std::span<double> values, int width) const = 0;
+    /// Chooses those at these positions among the cells of this rank's part of the mesh, as long as the ranks last.
+    [[nodiscard]] virtual CopySet copy_set(std::span<const std::int32_t> positions) const = 0;
+    /// Fills what this rank copies of others, or chose of it: values by cell of its part of the mesh (n_cells, width).
+    virtual void fill(std::span<double> values, int width, CopySet copies) const = 0;
     /// Sums of the terms of all ranks by component (width), with the bits that one rank gets which adds all of them up in
     /// blocks of 1,024 values (base/parallel.hpp). `terms` are those of this rank's points in the range (n, per_point, width).
     virtual void sum(const Summands& summands, std::span<const double> terms, std::span<double> total) const = 0;

@@ -94,7 +94,8 @@ const SharedPoints& checked(const Communicator& communicator, const SharedPoints
 struct PointRanks::Impl {
     const Communicator& communicator;
     SharedPoints points;
-    Exchange exchange;
+    std::vector<std::int32_t> copied_position;  // of each copy, at its owner
+    std::vector<Exchange> exchanges;            // by CopySet
     OrderedSums sums;
     Traffic traffic;
     BytesOfRanks bytes;
@@ -102,8 +103,10 @@ struct PointRanks::Impl {
     Impl(const Communicator& all, SharedPoints shared)
         : communicator(all),
           points(std::move(shared)),
-          exchange(all, points.n_entries, points.copies, points.owner, positions_at_owners(all, checked(all, points))),
-          sums(all, points.numbers, points.n_points) {}
+          copied_position(positions_at_owners(all, checked(all, points))),
+          sums(all, points.numbers, points.n_points) {
+        exchanges.emplace_back(all, points.n_entries, points.copies, points.owner, copied_position);
+    }
 };
 
 PointRanks::PointRanks(const Communicator& communicator, SharedPoints points)
@@ -118,11 +121,36 @@ std::span<const std::int32_t> PointRanks::positions() const { return impl_->poin
 std::int32_t PointRanks::n_points() const { return impl_->points.n_points; }
 int PointRanks::dimension() const { return impl_->points.dimension; }
 
-void PointRanks::fill(std::span<double> values, int width) const {
-    impl_->exchange.fill(values, width);
+dynamics::CopySet PointRanks::copy_set(std::span<const std::int32_t> positions) const {
+    const SharedPoints& points = impl_->points;
+    std::vector<bool> chosen(points.n_entries, false);
+    agreed(impl_->communicator, [&] {
+        for (const std::int32_t position : positions) {
+            if (position < 0 || static_cast<std::size_t>(position) >= points.n_entries)
+                throw BadInput("ranks: a copy is chosen at entry " + std::to_string(position) + " of an array of " +
+                                   std::to_string(points.n_entries) + ", counted from 0.",
+                               {.value = static_cast<double>(position), .allowed = static_cast<double>(points.n_entries)});
+            chosen[static_cast<std::size_t>(position)] = true;
+        }
+    });
+    std::vector<std::int32_t> copies, copied_position;
+    std::vector<int> owner;
+    for (std::size_t i = 0; i < points.copies.size(); ++i) {
+        if (!chosen[static_cast<std::size_t>(points.copies[i])]) continue;
+        copies.push_back(points.copies[i]);
+        owner.push_back(points.owner[i]);
+        copied_position.push_back(impl_->copied_position[i]);
+    }
+    impl_->exchanges.emplace_back(impl_->communicator, points.n_entries, copies, owner, copied_position);
+    return static_cast<dynamics::CopySet>(impl_->exchanges.size() - 1);
+}
+
+void PointRanks::fill(std::span<double> values, int width, dynamics::CopySet copies) const {
+    const Exchange& exchange = impl_->exchanges[static_cast<std::size_t>(copies)];
+    exchange.fill(values, width);
     ++impl_->traffic.fills;
-    impl_->traffic.messages += counts().neighbours_to;
-    impl_->traffic.bytes += counts().sent * width * static_cast<std::int64_t>(sizeof(double));
+    impl_->traffic.messages += exchange.counts().neighbours_to;
+    impl_->traffic.bytes += exchange.counts().sent * width * static_cast<std::int64_t>(sizeof(double));
 }
 
 void PointRanks::sum(const dynamics::Summands& summands, std::span<const double> terms, std::span<double> total) const {
@@ -178,7 +206,7 @@ void PointRanks::agree(const std::exception_ptr& error) const {
     impl_->communicator.agree(error);
 }
 
-const ExchangeCounts& PointRanks::counts() const { return impl_->exchange.counts(); }
+const ExchangeCounts& PointRanks::counts() const { return impl_->exchanges.back().counts(); }
 const Traffic& PointRanks::traffic() const { return impl_->traffic; }
 
 }  // namespace abut::ranks

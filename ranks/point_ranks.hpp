@@ -48,7 +48,8 @@ public:
     [[nodiscard]] std::span<const std::int32_t> positions() const override;
     [[nodiscard]] std::int32_t n_points() const override;
     [[nodiscard]] int dimension() const override;
-    void fill(std::span<double> values, int width) const override;
+    [[nodiscard]] dynamics::CopySet copy_set(std::span<const std::int32_t> positions) const override;
+    void fill(std::span<double> values, int width, dynamics::CopySet copies) const override;
     void sum(const dynamics::Summands& summands, std::span<const double> terms, std::span<double> total) const override;
     [[nodiscard]] double fold(double start, std::span<const std::int64_t> numbers,
                               std::span<const double> terms) const override;
@@ -58,7 +59,7 @@ public:
     [[nodiscard]] double largest(double value) const override;
     void agree(const std::exception_ptr& error) const override;
 
-    [[nodiscard]] const ExchangeCounts& counts() const;  ///< of one `fill`
+    [[nodiscard]] const ExchangeCounts& counts() const;  ///< of one `fill` of the copies that were chosen last
     [[nodiscard]] const Traffic& traffic() const;
 
 private:

@@ -57,10 +57,7 @@ public:
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
           balance_(start.first_share && start.first_share->again ? options_.rebalance : 0, options_.rebalance_above) {
-        if constexpr (Integrator::takes_after_step)
-            if (options_.filter)
-                integrator_->set_after_step(
-                    [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+        set_filter();
         make_restart({.period = options_.restart, .report_before = {}});
     }
 
@@ -186,6 +183,10 @@ private:
             start_.take_part(start_.first_share->again(weights));
             integrator_.emplace(make_(start_));
             go_on_from(motion, memory);
+            set_filter();
+            if (restart_)
+                make_restart(
+                    {.period = options_.restart, .steps_before = integrator_->steps(), .report_before = restart_->report()});
             sound_ = own_of<Dim>(solid_.ranks(), sound);
             times_of_setup_ = solid_.times();
             own_seconds_before_ = times_of_setup_.own_cells;
@@ -251,6 +252,13 @@ private:
             observer_.resume(scene_, result_, state);
             state.finish();
         });
+    }
+
+    void set_filter() {
+        if constexpr (Integrator::takes_after_step)
+            if (options_.filter)
+                integrator_->set_after_step(
+                    [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
     }
 
     void make_restart(const dynamics::RestartOptions& options) {

@@ -54,8 +54,6 @@ void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, cons
     if (options.kinematics == BodyKinematics::automatic)
         dynamics::refuse_ranks(ranks, "a pilot run (--kinematics automatic)");
     if (options.integrator == SolidIntegrator::memm_async) dynamics::refuse_ranks(ranks, "local steps (memm_async)");
-    if (options.filter) dynamics::refuse_ranks(ranks, "the filter");
-    if (options.restart != 0) dynamics::refuse_ranks(ranks, "a neutral restart");
     if (scene.after_step) dynamics::refuse_ranks(ranks, "a scene that looks at each step (Scene::after_step)");
 }
 

@@ -14,8 +14,8 @@ constexpr double smallest_part = 1e-6;  // of a unit vector in a prescribed dire
 template <int Dim>
 class PatchFinder {
 public:
-    PatchFinder(const Ccg<Dim>& ccg, std::span<const TouchingPoints<Dim>> touching)
-        : ccg_(ccg), touching_(touching), points_(all_points()), sets_(points_.size()), patch_of_root_(points_.size(), -1) {
+    explicit PatchFinder(std::span<const TouchingPoints<Dim>> touching)
+        : touching_(touching), points_(all_points()), sets_(points_.size()), patch_of_root_(points_.size(), -1) {
         for (const TouchingPoints<Dim>& pair : touching_) {
             const std::int32_t first = any_position(pair);
             for (const auto& side : {pair.points_1, pair.points_2})
@@ -23,12 +23,13 @@ public:
         }
     }
 
-    std::vector<dynamics::ContactPatch<Dim>> find() {
+    template <class HoldsOf>
+    std::vector<dynamics::ContactPatch<Dim>> find(const HoldsOf& holds_of_point) {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             dynamics::ContactPatch<Dim>& patch = patch_of(static_cast<std::int32_t>(i));
             patch.points.push_back(points_[i]);
-            if (points_[i] >= ccg_.n_cells()) continue;
-            for (const BoundaryFace face : ccg_.prescribed_faces_of(points_[i])) append_holds(patch, face);
+            const auto holds = holds_of_point(points_[i]);
+            patch.holds.insert(patch.holds.end(), holds.begin(), holds.end());
         }
         for (const TouchingPoints<Dim>& pair : touching_)
             if (pair.points_1.empty() || pair.points_2.empty())
@@ -37,14 +38,6 @@ public:
     }
 
 private:
-    /// The columns of a projector span the directions that it keeps.
-    void append_holds(dynamics::ContactPatch<Dim>& patch, BoundaryFace face) const {
-        const Matrix<Dim>& projector = ccg_.prescribed()[face];
-        for (int i = 0; i < Dim; ++i)
-            if (const Vector<Dim> kept = projector.col(i); kept.norm() > smallest_part)
-                patch.holds.push_back({ccg_.centroid(face), kept.normalized()});
-    }
-
     std::vector<std::int32_t> all_points() const {
         std::vector<std::int32_t> points;
         for (const TouchingPoints<Dim>& pair : touching_)
@@ -69,7 +62,6 @@ private:
         return patches_[patch];
     }
 
-    const Ccg<Dim>& ccg_;
     std::span<const TouchingPoints<Dim>> touching_;
     std::vector<std::int32_t> points_;
     DisjointSets sets_;
@@ -79,13 +71,29 @@ private:
 
 }  // namespace
 
+/// The columns of a projector span the directions that it keeps.
 template <int Dim>
-std::vector<dynamics::ContactPatch<Dim>> contact_patches(const Ccg<Dim>& ccg,
-                                                         std::span<const TouchingPoints<Dim>> touching) {
-    return PatchFinder<Dim>(ccg, touching).find();
+std::vector<dynamics::Hold<Dim>> holds_of_cell(const Ccg<Dim>& ccg, std::int32_t cell) {
+    std::vector<dynamics::Hold<Dim>> holds;
+    for (const BoundaryFace face : ccg.prescribed_faces_of(cell))
+        for (const Vector<Dim> kept : ccg.prescribed()[face].colwise())
+            if (kept.norm() > smallest_part) holds.push_back({ccg.centroid(face), kept.normalized()});
+    return holds;
 }
 
-template std::vector<dynamics::ContactPatch<2>> contact_patches<2>(const Ccg<2>&, std::span<const TouchingPoints<2>>);
-template std::vector<dynamics::ContactPatch<3>> contact_patches<3>(const Ccg<3>&, std::span<const TouchingPoints<3>>);
+template <int Dim>
+std::vector<dynamics::ContactPatch<Dim>> contact_patches(
+    std::span<const TouchingPoints<Dim>> touching,
+    const std::function<std::vector<dynamics::Hold<Dim>>(std::int32_t point)>& holds_of_point) {
+    return PatchFinder<Dim>(touching).find(holds_of_point);
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                               \
+    template std::vector<dynamics::Hold<Dim>> holds_of_cell(const Ccg<Dim>&, std::int32_t); \
+    template std::vector<dynamics::ContactPatch<Dim>> contact_patches(                      \
+        std::span<const TouchingPoints<Dim>>, const std::function<std::vector<dynamics::Hold<Dim>>(std::int32_t)>&);
+ABUT_INSTANTIATE(2)
+ABUT_INSTANTIATE(3)
+#undef ABUT_INSTANTIATE
 
 }  // namespace abut::solid

@@ -1,6 +1,7 @@
 #pragma once
 // Private to the sources of this layer.
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -10,7 +11,8 @@
 
 namespace abut::solid {
 
-/// Two faces in contact, by the points that move them: cells, or the points of a rigid body; none move an obstacle.
+/// Two faces in contact, by the points that move them: cells, or the points of a rigid body; none move an obstacle. On several
+/// ranks, by their numbers among the points of all.
 template <int Dim>
 struct TouchingPoints {
     std::span<const std::int32_t> points_1;
@@ -19,11 +21,15 @@ struct TouchingPoints {
     Vector<Dim> normal;    ///< along which it does
 };
 
-/// These points, sorted into patches: those of one face are in one patch, and so are the two faces of a pair. In the order of
-/// their first points. Obstacles hold a patch where they touch it; prescribed faces of its cells in the directions that are
-/// prescribed.
+/// The prescribed faces of a cell hold it in the directions that are prescribed.
 template <int Dim>
-[[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches(const Ccg<Dim>& ccg,
-                                                                       std::span<const TouchingPoints<Dim>> touching);
+[[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of_cell(const Ccg<Dim>& ccg, std::int32_t cell);
+
+/// These points, sorted into patches: those of one face are in one patch, and so are the two faces of a pair. In the order of
+/// their first points. Obstacles hold a patch where they touch it, and what holds its points.
+template <int Dim>
+[[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> contact_patches(
+    std::span<const TouchingPoints<Dim>> touching,
+    const std::function<std::vector<dynamics::Hold<Dim>>(std::int32_t point)>& holds_of_point);
 
 }  // namespace abut::solid

@@ -6,6 +6,7 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
 
@@ -136,8 +137,21 @@ template <int Dim>
 std::span<const std::int32_t> CornerSurface<Dim>::points_of(contact::SurfaceFace face) const {
     const auto i = static_cast<std::size_t>(face);
     if (is_obstacle(i)) return {};
-    if (is_deformable(i)) return ccg_.cells_of(boundary_[i]);
-    return rigid_points_[rigid_of(i)];
+    if (!is_deformable(i)) return rigid_points_[rigid_of(i)];
+    if (ranks_) return ranks_->faces()[i].cells;
+    return ccg_.cells_of(boundary_[i]);
+}
+
+template <int Dim>
+std::vector<dynamics::Hold<Dim>> CornerSurface<Dim>::holds_of(std::int32_t point) const {
+    if (ranks_) return ranks_->holds_of(point);
+    return point < ccg_.n_cells() ? holds_of_cell(ccg_, point) : std::vector<dynamics::Hold<Dim>>{};
+}
+
+template <int Dim>
+Vector<Dim> CornerSurface<Dim>::rest_centroid(contact::SurfaceFace face) const {
+    const auto i = static_cast<std::size_t>(face);
+    return ranks_ ? ranks_->faces()[i].centroid : ccg_.centroid(boundary_[i]);
 }
 
 template <int Dim>

@@ -69,8 +69,12 @@ public:
     [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const {
         return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
     }
-    /// Points of the system that move a face; none of an obstacle.
+    /// Points of the system that move a face; none of an obstacle. On several ranks, by their numbers among those of all.
     [[nodiscard]] std::span<const std::int32_t> points_of(contact::SurfaceFace face) const;
+    /// What holds such a point; nothing does one of a rigid body.
+    [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const;
+    /// Of a body that deforms.
+    [[nodiscard]] Vector<Dim> rest_centroid(contact::SurfaceFace face) const;
     /// Mean of its corners, of a body.
     [[nodiscard]] Vector<Dim> middle(contact::SurfaceFace face, const Points& x) const;
 

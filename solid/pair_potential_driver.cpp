@@ -258,7 +258,6 @@ void PairPotentialDriver<Dim>::add_impulses(double dt) {
 template <int Dim>
 void PairPotentialDriver<Dim>::keep_touching_faces() {
     touching_.clear();
-    if (ranks_) return;  // for `patches`, which ranks do not have
     for (const contact::PairStep<Dim>& pair : contact_.last().pairs) {
         TouchingPoints<Dim> touching{corners_.points_of(pair.face_1), corners_.points_of(pair.face_2), Vector<Dim>::Zero(),
                                      pair.normal};
@@ -275,8 +274,7 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
 /// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
 Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::SurfaceFace face) const {
-    if (!frames_.any_turns() && !bodies_.any_rigid() && !bodies_.any_finite())
-        return ccg_.centroid(corners_.boundary(static_cast<std::size_t>(face)));
+    if (!frames_.any_turns() && !bodies_.any_rigid() && !bodies_.any_finite()) return corners_.rest_centroid(face);
     return 0.5 * (corners_.middle(face, x_0_) + corners_.middle(face, x_1_));
 }
 
@@ -318,7 +316,7 @@ std::vector<TouchingPair<Dim>> PairPotentialDriver<Dim>::touching_pairs(double g
 
 template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> PairPotentialDriver<Dim>::patches() const {
-    return contact_patches<Dim>(ccg_, touching_);
+    return contact_patches<Dim>(touching_, [&](std::int32_t point) { return corners_.holds_of(point); });
 }
 
 template class PairPotentialDriver<2>;

@@ -4,6 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "abut/base/sort_unique.hpp"
+#include "abut/solid/contact_patches.hpp"
+
 namespace abut::solid {
 namespace {
 
@@ -49,6 +52,7 @@ RankFaces<Dim>::RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh
         if (!is_prescribed) append_own(mesh, ccg, face, part.face_keys()[i], mine);
     }
     take_all(part.ranks().gather(mine));
+    gather_holds(mesh, ccg);
     find_here(mesh);
 }
 
@@ -57,10 +61,12 @@ void RankFaces<Dim>::append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg
                                 std::vector<double>& values) const {
     const std::int32_t in_mesh = mesh_face(mesh, face);
     const auto corners = mesh.face_vertices[in_mesh];
-    values.insert(values.end(),
-                  {static_cast<double>(key), static_cast<double>(mesh.cell_body[cell_of(mesh, face)]),
-                   cell_depth(mesh, in_mesh), ccg.normal_stiffness(face), static_cast<double>(corners.size())});
+    values.insert(values.end(), {static_cast<double>(key), static_cast<double>(mesh.cell_body[cell_of(mesh, face)]),
+                                 cell_depth(mesh, in_mesh), ccg.normal_stiffness(face), static_cast<double>(corners.size()),
+                                 static_cast<double>(ccg.cells_of(face).size())});
+    append(values, mesh.face_centroid[in_mesh]);
     for (const std::int32_t v : corners) append(values, mesh.vertices[v]);
+    for (const std::int32_t c : ccg.cells_of(face)) values.push_back(part_.cell_numbers()[static_cast<std::size_t>(c)]);
 }
 
 template <int Dim>
@@ -76,13 +82,46 @@ void RankFaces<Dim>::take_all(std::span<const double> values) {
             face.cell_depth = reader.next();
             face.stiffness = reader.next();
             face.corners.resize(reader.next_as<std::size_t>());
+            face.cells.resize(reader.next_as<std::size_t>());
+            face.centroid = reader.next_array<Vector<Dim>>();
             for (Vector<Dim>& corner : face.corners) corner = reader.next_array<Vector<Dim>>();
+            for (std::int32_t& cell : face.cells) cell = reader.next_as<std::int32_t>();
         }
     }
     std::ranges::sort(faces_, {}, &Face::key);
     std::vector<std::size_t> all(faces_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     all_by_owner_ = by_owner(all);
+}
+
+template <int Dim>
+void RankFaces<Dim>::gather_holds(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg) {
+    std::vector<std::int32_t> cells;
+    for (const BoundaryFace face : part_.own_faces())
+        if (!ccg.prescribed()[face].isZero(0.0)) cells.push_back(cell_of(mesh, face));
+    sort_unique(cells);
+    std::vector<double> mine;  // cell, hold
+    for (const std::int32_t c : cells)
+        for (const dynamics::Hold<Dim>& hold : holds_of_cell(ccg, c)) {
+            mine.push_back(part_.cell_numbers()[static_cast<std::size_t>(c)]);
+            append(mine, hold.position);
+            append(mine, hold.direction);
+        }
+    const std::vector<double> all = part_.ranks().gather(mine);
+    for (Reader reader(all); !reader.is_done();) {
+        const auto cell = reader.next_as<std::int32_t>();
+        const auto position = reader.next_array<Vector<Dim>>(), direction = reader.next_array<Vector<Dim>>();
+        holds_.emplace_back(cell, dynamics::Hold<Dim>{position, direction});
+    }
+    std::ranges::stable_sort(holds_, {}, [](const auto& entry) { return entry.first; });
+}
+
+template <int Dim>
+std::vector<dynamics::Hold<Dim>> RankFaces<Dim>::holds_of(std::int32_t cell) const {
+    std::vector<dynamics::Hold<Dim>> holds;
+    for (const auto& entry : std::ranges::equal_range(holds_, cell, {}, [](const auto& of) { return of.first; }))
+        holds.push_back(entry.second);
+    return holds;
 }
 
 /// Faces with the same key. Where the part ends inside a body it has others, of which the surface knows nothing.

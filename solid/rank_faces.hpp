@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/contact/step.hpp"
 #include "abut/contact/surface.hpp"
+#include "abut/dynamics/filter.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/rank_part.hpp"
 
@@ -23,7 +25,9 @@ public:
         int owner;
         std::int32_t body;
         double cell_depth, stiffness;
+        Vector<Dim> centroid;              // at rest
         std::vector<Vector<Dim>> corners;  // at rest
+        std::vector<std::int32_t> cells;   // that move it, by their numbers in the whole mesh
     };
 
     /// All arguments must outlive it. Faces with a prescribed displacement are left out.
@@ -37,6 +41,8 @@ public:
     /// Of each, the boundary face here; `no_face`: it is on other ranks alone.
     [[nodiscard]] std::span<const BoundaryFace> here() const { return here_; }
     [[nodiscard]] bool is_own(std::size_t face) const { return faces_[face].owner == part_.ranks().rank(); }
+    /// Of a cell, by its number in the whole mesh (holds_of_cell).
+    [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t cell) const;
     /// Places in a list of faces, in the order in which `gather` brings what their owners give, each in the order of the list.
     [[nodiscard]] std::vector<std::size_t> by_owner(std::span<const std::size_t> faces) const;
     /// A number of each face, from those of the own faces in their order.
@@ -59,15 +65,17 @@ private:
     void append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg, BoundaryFace face, std::int64_t key,
                     std::vector<double>& values) const;
     void take_all(std::span<const double> values);
+    void gather_holds(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg);
     void find_here(const mesh::Mesh<Dim>& mesh);
 
     const RankPart<Dim>& part_;
     std::int64_t n_left_out_ = 0;
-    std::vector<Face> faces_;                   // in the order of the whole mesh
-    std::vector<BoundaryFace> here_;            // of each; none: it is on other ranks alone
-    std::vector<std::size_t> all_by_owner_;     // faces as `gather` brings them: rank after rank
-    std::vector<std::size_t> listed_;           // in the surface
-    std::vector<std::size_t> listed_by_owner_;  // as `gather` brings them, in the list
+    std::vector<Face> faces_;                                          // in the order of the whole mesh
+    std::vector<std::pair<std::int32_t, dynamics::Hold<Dim>>> holds_;  // of cells, by their numbers in the whole mesh
+    std::vector<BoundaryFace> here_;                                   // of each; none: it is on other ranks alone
+    std::vector<std::size_t> all_by_owner_;                            // faces as `gather` brings them: rank after rank
+    std::vector<std::size_t> listed_;                                  // in the surface
+    std::vector<std::size_t> listed_by_owner_;                         // as `gather` brings them, in the list
     std::vector<BoundaryFace> own_listed_;
 };
 

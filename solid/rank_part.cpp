@@ -30,7 +30,7 @@ RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies)
         inverse_masses_.insert(inverse_masses_.end(), Dim, bodies.inverse_masses()[cell * Dim]);
         body_.push_back(bodies.body_of_points()[cell]);
     }
-    ranks.fill(cell_numbers_, 1);
+    ranks.fill(cell_numbers_, 1, dynamics::CopySet::all);
     dynamics::agreed(&ranks, [&] {
         if (std::ranges::adjacent_find(cell_numbers_, std::greater_equal{}) != cell_numbers_.end())
             throw BadInput(mesh.name +
@@ -149,7 +149,7 @@ template <int Dim>
 std::span<const Vector<Dim>> RankPart<Dim>::fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const {
     const auto own = own_cells();
     for (std::size_t i = 0; i < own.size(); ++i) of_part[static_cast<std::size_t>(own[i])] = q[i];
-    ranks_.fill(as_values<Dim>(of_part), Dim);
+    ranks_.fill(as_values<Dim>(of_part), Dim, copies_);
     return of_part;
 }
 

@@ -52,6 +52,9 @@ public:
 
     // By cell of the part, from values of own cells: calls of all ranks
 
+    /// From now on only own cells and these are filled. A call of all ranks.
+    void fill_only(std::span<const std::int32_t> cells) { copies_ = ranks_.copy_set(cells); }
+
     /// A state; valid until the next call.
     [[nodiscard]] std::span<const Vector<Dim>> state(std::span<const Vector<Dim>> q) { return fill(q, state_); }
     /// Both ends of a step, valid until the next call; the start is exchanged only where it is not the end of the call before.
@@ -103,6 +106,7 @@ private:
     [[nodiscard]] std::size_t position_of(std::int64_t key) const;
 
     const dynamics::Ranks& ranks_;
+    dynamics::CopySet copies_ = dynamics::CopySet::all;
     std::vector<double> cell_numbers_;
     std::vector<BoundaryFace> own_faces_;
     std::vector<std::int64_t> face_keys_;

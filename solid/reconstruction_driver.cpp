@@ -207,14 +207,17 @@ void ReconstructionDriver<Dim>::take_end() {
 template <int Dim>
 void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
+    const auto points = [&](contact::SurfaceFace face) {
+        if (is_of_obstacle(face)) return std::span<const std::int32_t>{};
+        if (ranks_) return std::span<const std::int32_t>(ranks_->faces()[static_cast<std::size_t>(face)].cells);
+        return ccg_.cells_of(mesh_boundary(face));
+    };
     for (const contact::PairStep<Dim>& pair : step.pairs) {
-        const BoundaryFace face_1 = mesh_boundary(pair.face_1), face_2 = mesh_boundary(pair.face_2);
-        const auto points = [&](BoundaryFace face) {
-            return face == no_face ? std::span<const std::int32_t>{} : ccg_.cells_of(face);
-        };
-        const BoundaryFace here = std::max(face_1, face_2);  // none: both are on other ranks
-        touching_.push_back({points(face_1), points(face_2),
-                             here == no_face ? Vector<Dim>(Vector<Dim>::Zero()) : ccg_.centroid(here), pair.normal});
+        const contact::SurfaceFace of_body = is_of_obstacle(pair.face_1) ? pair.face_2 : pair.face_1;
+        touching_.push_back(
+            {points(pair.face_1), points(pair.face_2),
+             ranks_ ? ranks_->faces()[static_cast<std::size_t>(of_body)].centroid : ccg_.centroid(mesh_boundary(of_body)),
+             pair.normal});
     }
 }
 
@@ -321,7 +324,8 @@ std::vector<TouchingPair<Dim>> ReconstructionDriver<Dim>::touching_pairs(double 
 
 template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> ReconstructionDriver<Dim>::patches() const {
-    return contact_patches<Dim>(ccg_, touching_);
+    return contact_patches<Dim>(
+        touching_, [&](std::int32_t cell) { return ranks_ ? ranks_->holds_of(cell) : holds_of_cell(ccg_, cell); });
 }
 
 template <int Dim>

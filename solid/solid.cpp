@@ -31,12 +31,21 @@ inline constexpr double same_time = 1e-6;  // of a step: sums of steps are round
 
 /// What is not made for several ranks.
 template <int Dim>
-void check_for_ranks(const dynamics::Ranks* ranks, const SolidOptions<Dim>& options) {
+void check_for_ranks(const dynamics::Ranks* ranks, const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
     if (std::ranges::find(options.kinematics, Kinematics::rigid) != options.kinematics.end())
         dynamics::refuse_ranks(ranks, "a rigid body");
     if (!options.springs.empty() || !options.moments.empty()) dynamics::refuse_ranks(ranks, "a spring or a moment");
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
+    const bool turns = std::ranges::any_of(options.kinematics, [](Kinematics of) { return of != Kinematics::small; });
+    for (const TractionCondition<Dim>& condition : options.boundary.traction)
+        for (const mesh::BoundaryGroup& group : mesh.groups)
+            for (const std::int32_t face : group.faces) {
+                if (!turns || group.name != condition.group) continue;
+                const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
+                if (options.kinematics[std::min(body, options.kinematics.size() - 1)] != Kinematics::small)
+                    dynamics::refuse_ranks(ranks, "a traction on a body that turns");
+            }
     if (options.precision == Precision::single_precision) dynamics::refuse_ranks(ranks, "a bulk in single precision");
 }
 
@@ -57,7 +66,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
       options_(std::move(options)),
       bodies_(dynamics::agreed(ranks,
                                [&] {
-                                   if (ranks) check_for_ranks(ranks, options_);
+                                   if (ranks) check_for_ranks(ranks, mesh, options_);
                                    return std::make_unique<Bodies<Dim>>(mesh, options_);
                                })),
       part_(ranks ? std::make_unique<RankPart<Dim>>(*ranks, *bodies_) : nullptr),
@@ -75,7 +84,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
     if (part_) {
         check_rows_of_ranks(*part_, mesh, ccg_);
-        ccg_.compute_only(part_->own_cells());
+        part_->fill_only(ccg_.compute_only(part_->own_cells()));
         ccg_.watch_only(part_->own_faces());
         const auto begin = part_->body_begin();
         rotation_ = std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(),
@@ -251,10 +260,11 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
 template <int Dim>
 void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
                               std::span<Vector<Dim>> force) {
-    refuse_ranks("a force on some points alone");
     const auto n_cells = std::ranges::lower_bound(points, bodies_->n_cells()) - points.begin();
-    const auto cells = points.first(static_cast<std::size_t>(n_cells));
-    const auto u = as_vectors<Dim>(q);
+    std::vector<std::int32_t> cells(points.begin(), points.begin() + n_cells);
+    if (part_)
+        for (std::int32_t& cell : cells) cell = part_->own_cells()[static_cast<std::size_t>(cell)];
+    const auto u = state_here(q);
     frames_->stand_at_end();
     if (contact_) contact_->evaluate_last_end(u);
     if (!cells.empty()) {

@@ -54,7 +54,8 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
     if (!bodies_->any_finite()) return ccg_.gradient(u, ccg_.load_free(), {}, result);
     const mesh::Mesh<Dim>& part = bodies_->deformable();
     double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
-    for (const Vector<Dim>& of_cell : u) largest = larger(largest, of_cell.cwiseAbs().maxCoeff());
+    for (const std::int32_t c : part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_))
+        largest = larger(largest, u[static_cast<std::size_t>(c)].cwiseAbs().maxCoeff());
     for (const double measure : part.cell_measure) smallest = std::min(smallest, measure);
     if (part_) {
         largest = part_->ranks().largest(largest);

@@ -325,10 +325,11 @@ contact::FaceCoupling<Dim> Ccg<Dim>::coupling(std::span<const BoundaryFace> face
 }
 
 template <int Dim>
-void Ccg<Dim>::compute_only(std::span<const std::int32_t> cells) {
-    const Region<Dim> region = solid::region_of_cells(impl_->arrays, cells);
+std::vector<std::int32_t> Ccg<Dim>::compute_only(std::span<const std::int32_t> cells) {
+    Region<Dim> region = solid::region_of_cells(impl_->arrays, cells);
     impl_->sweeps.compute_only(region);
     if (impl_->single) impl_->single->sweeps.compute_only(region);
+    return std::move(region.input_cells);
 }
 
 template <int Dim>

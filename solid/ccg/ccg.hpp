@@ -158,9 +158,10 @@ public:
     /// Q_ff' among these boundary faces: how the gradients of `evaluate_faces` answer to corrections. docs/method.md, Time.
     [[nodiscard]] contact::FaceCoupling<Dim> coupling(std::span<const BoundaryFace> faces) const;
 
-    /// From now on `gradient` and its like give dV/du_c of these cells alone, increasing, and boundary gradients of their
-    /// faces: what no such value depends on is left out, chunk by chunk, and holds what it held.
-    void compute_only(std::span<const std::int32_t> cells);
+    /// From now on `gradient` and its like give dV/du_c and energies of these cells alone, increasing, and boundary
+    /// gradients of their faces: what no such value depends on is left out, and holds what it held. Returns the cells whose displacements these
+    /// values depend on, increasing; those of others are not read.
+    std::vector<std::int32_t> compute_only(std::span<const std::int32_t> cells);
     /// From now on the two below look at these boundary faces alone, not at all.
     void watch_only(std::span<const BoundaryFace> faces);
     /// How far a boundary face has moved at most from one state to another [m]; a close bound, much cheaper than the motion.

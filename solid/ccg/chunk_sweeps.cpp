@@ -104,81 +104,65 @@ void CcgSweeps<Dim, Real>::load_displacement(std::span<const Vector<Dim>> u) {
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), u_, c); });
 }
 
-/// body(f) for the interior faces whose first sides are of the chunk.
-template <int Dim, class Real>
-template <class Body>
-void CcgSweeps<Dim, Real>::for_interior_faces(std::int32_t k, const Body& body) const {
-    std::int32_t f = chunks_[k].face;
-    for (const std::int32_t boundary_face : of_chunk(k, arrays_.boundary_faces, &Chunk::boundary)) {
-        for (; f < boundary_face; ++f) body(f);
-        f = boundary_face + 1;
-    }
-    for (; f < chunks_[k + 1].face; ++f) body(f);
-}
-
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
-    const auto row_faces = of_chunk(k, arrays_.row_faces, &Chunk::row_face);
-    for_interior_faces(k, [&](std::int32_t f) { store(reconstructed(u_, f), of_face_, f); });
-    for (const BoundaryFace b : row_faces) store(reconstructed_boundary(u_, b, boundary_load), of_face_, arrays_.face_of(b));
+    for_runs(wanted_.reconstructed[k], [&](std::int32_t f) { store(reconstructed(u_, f), of_face_, f); });
+    for (const BoundaryFace b : wanted_.reconstructed_rows[k])
+        store(reconstructed_boundary(u_, b, boundary_load), of_face_, arrays_.face_of(b));
     if constexpr (takes_finite) {
         if (!has_change_ || !chunks_[k].has_finite) return;
-        for_interior_faces(k, [&](std::int32_t f) { store(reconstructed(u_change_, f), relative_change_, f); });
-        for (const BoundaryFace b : row_faces) store(boundary_change(b), relative_change_, arrays_.face_of(b));
+        for_runs(wanted_.reconstructed[k], [&](std::int32_t f) { store(reconstructed(u_change_, f), relative_change_, f); });
+        for (const BoundaryFace b : wanted_.reconstructed_rows[k])
+            store(boundary_change(b), relative_change_, arrays_.face_of(b));
     }
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::displacement_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
-    const std::int32_t begin = chunks_[k].cell, end = chunks_[k + 1].cell;
-    const auto each_cell = [&](const auto& body) {
-        for (std::int32_t c = begin; c < end; ++c) body(c);
-    };
+    const auto cells = wanted_.displacement_gradients[k];
     if (chunks_[k].simplices) {
-        const auto condensed = of_chunk(k, arrays_.simplices.condensed(), &Chunk::condensed);
+        const auto condensed = wanted_.condensed_gradients[k];
         for (const auto& [c, b] : condensed) store(Lanes<Dim, Real>{}, of_face_, arrays_.face_of(b));
-        each_cell([&](std::int32_t c) { set_simplex_stress(c); });
+        for_runs(cells, [&](std::int32_t c) { set_simplex_stress(c); });
         for (const CondensedCell& cell : condensed) add_condensed_face(cell, boundary_load);
     } else if (!chunks_[k].has_finite) {
-        each_cell([&](std::int32_t c) { set_displacement_gradient(c); });
+        for_runs(cells, [&](std::int32_t c) { set_displacement_gradient(c); });
     } else if constexpr (takes_finite) {
-        each_cell([&](std::int32_t c) { set_finite_displacement_gradient(c); });
+        for_runs(cells, [&](std::int32_t c) { set_finite_displacement_gradient(c); });
     }
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::stresses_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
-    const std::int32_t begin = chunks_[k].cell, end = chunks_[k + 1].cell;
-    const auto each_cell = [&](const auto& body) {
-        for (std::int32_t c = begin; c < end; ++c) body(c);
-    };
+    const auto cells = wanted_.stresses[k];
     if (chunks_[k].simplices) {
-        each_cell([&](std::int32_t c) { set_simplex_jumps(c); });
+        for_runs(cells, [&](std::int32_t c) { set_simplex_jumps(c); });
     } else if (!chunks_[k].has_finite) {
-        each_cell([&](std::int32_t c) { set_stress(c); });
+        for_runs(cells, [&](std::int32_t c) { set_stress(c); });
     } else if constexpr (takes_finite) {
-        each_cell([&](std::int32_t c) { set_finite_stress(c); });
+        for_runs(cells, [&](std::int32_t c) { set_finite_stress(c); });
     }
-    add_moments(begin, end);
-    for (const CondensedCell& condensed : of_chunk(k, arrays_.simplices.condensed(), &Chunk::condensed))
-        condense(condensed, boundary_load);
+    for (const Run& run : cells) add_moments(run.begin, run.end);
+    for (const CondensedCell& condensed : wanted_.condensed_stresses[k]) condense(condensed, boundary_load);
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::face_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load) {
+    const auto faces = wanted_.face_gradients[k];
     if (chunks_[k].simplices)
-        for_interior_faces(k, [&](std::int32_t f) { store(interior_gradient_of_simplices(f), of_face_, f); });
+        for_runs(faces, [&](std::int32_t f) { store(interior_gradient_of_simplices(f), of_face_, f); });
     else
-        for_interior_faces(k, [&](std::int32_t f) { store(interior_gradient(f), of_face_, f); });
-    for (const BoundaryFace b : of_chunk(k, arrays_.row_faces, &Chunk::row_face))
+        for_runs(faces, [&](std::int32_t f) { store(interior_gradient(f), of_face_, f); });
+    for (const BoundaryFace b : wanted_.row_gradients[k])
         store(boundary_gradient(b, boundary_load), boundary_y_, number_of(b));
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const {
-    for (std::int32_t c = chunks_[k].cell; c < chunks_[k + 1].cell; ++c) result[c] = unload<Dim>(cell_gradient(c));
-    for (std::int32_t position = chunks_[k].boundary_cell; position < chunks_[k + 1].boundary_cell; ++position)
+    for_runs(wanted_.cell_gradients[k], [&](std::int32_t c) { result[c] = unload<Dim>(cell_gradient(c)); });
+    for_runs(wanted_.boundary_cell_gradients[k], [&](std::int32_t position) {
         result[arrays_.boundary_cells[position]] += unload<Dim>(boundary_cell_gradient(position));
+    });
 }
 
 #define ABUT_INSTANTIATE(Dim, Real)                                                                              \

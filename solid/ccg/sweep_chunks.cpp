@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "abut/base/sort_unique.hpp"
@@ -16,27 +17,25 @@ inline constexpr std::int32_t chunk_size = 512;
 /// Cells of a region that are worth the schedule of the whole mesh.
 inline constexpr std::size_t one_chunk = 1024;
 
+/// Of the first element of a sorted list that is not less.
+template <class List, class Value, class Key = std::identity>
+std::int32_t position(const List& sorted, const Value& value, const Key& key = {}) {
+    return static_cast<std::int32_t>(std::ranges::lower_bound(sorted, value, {}, key) - std::ranges::begin(sorted));
+}
+
 }  // namespace
 
 /// Chunks of cells with the faces they are the first side of, and which of them read each other's results.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_chunks() {
     const CcgArrays<Dim>& a = arrays_;
-    const auto position = [](const auto& sorted, auto value) {
-        return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
-    };
     const auto begin_chunk = [&](std::int32_t cell, std::int32_t end) {
         const auto face = static_cast<std::int32_t>(std::partition_point(a.face_cells.begin(), a.face_cells.end(),
                                                                          [&](const auto& side) { return side[0] < cell; }) -
                                                     a.face_cells.begin());
-        const std::int32_t boundary = position(a.boundary_faces, face);
-        const auto condensed = std::ranges::lower_bound(a.simplices.condensed(), cell, {}, &CondensedCell::cell);
         chunks_.push_back({.cell = cell,
                            .face = face,
-                           .boundary = boundary,
-                           .row_face = position(a.row_faces, BoundaryFace{boundary}),
-                           .boundary_cell = position(a.boundary_cells, cell),
-                           .condensed = static_cast<std::int32_t>(condensed - a.simplices.condensed().begin()),
+                           .boundary = position(a.boundary_faces, face),
                            .simplices = cell < end && a.simplices.contains(cell),
                            .has_finite = finite_.any_in(cell, end)});
     };
@@ -82,28 +81,81 @@ void CcgSweeps<Dim, Real>::set_chunks() {
     for (auto& stage : needs)
         for (auto& row : stage) sort_unique(row);
     schedule_ = SweepSchedule<n_stages>(n_chunks, needs);
+
+    const std::vector<bool> cells(a.cells.size(), true), faces(a.faces.size(), true);
+    wanted_ = lists_of({.loaded = cells,
+                        .displacement_gradients = cells,
+                        .stresses = cells,
+                        .cell_gradients = cells,
+                        .reconstructed = faces,
+                        .face_gradients = faces});
+}
+
+template <int Dim, class Real>
+SweepLists CcgSweeps<Dim, Real>::lists_of(const WantedElements& wanted) const {
+    const CcgArrays<Dim>& a = arrays_;
+    SweepLists lists;
+    const auto append_cells = [](OfChunks<Run>& runs, const Chunk& from, const Chunk& to, const std::vector<bool>& cells) {
+        append_runs(runs, from.cell, to.cell, [&](std::int32_t c) { return cells[c]; });
+    };
+    const auto append_interior_faces = [&](OfChunks<Run>& runs, const Chunk& from, const Chunk& to,
+                                           const std::vector<bool>& faces) {
+        append_runs(runs, from.face, to.face, [&](std::int32_t f) { return faces[f] && a.boundary_index[f] == no_face; });
+    };
+    const auto append_rows = [&](OfChunks<BoundaryFace>& rows, const Chunk& from, const Chunk& to,
+                                 const std::vector<bool>& faces) {
+        const std::int32_t end = position(a.row_faces, BoundaryFace{to.boundary});
+        for (std::int32_t i = position(a.row_faces, BoundaryFace{from.boundary}); i < end; ++i)
+            if (faces[a.face_of(a.row_faces[i])]) rows.push_back(a.row_faces[i]);
+        rows.end_chunk();
+    };
+    const auto append_condensed = [&](OfChunks<CondensedCell>& condensed, const Chunk& from, const Chunk& to,
+                                      const std::vector<bool>& cells) {
+        const auto all = a.simplices.condensed();
+        const std::int32_t end = position(all, to.cell, &CondensedCell::cell);
+        for (std::int32_t i = position(all, from.cell, &CondensedCell::cell); i < end; ++i)
+            if (cells[all[i].cell]) condensed.push_back(all[i]);
+        condensed.end_chunk();
+    };
+    for (std::size_t k = 0; k + 1 < chunks_.size(); ++k) {
+        const Chunk &from = chunks_[k], &to = chunks_[k + 1];
+        append_cells(lists.loaded, from, to, wanted.loaded);
+        append_interior_faces(lists.reconstructed, from, to, wanted.reconstructed);
+        append_rows(lists.reconstructed_rows, from, to, wanted.reconstructed);
+        append_cells(lists.displacement_gradients, from, to, wanted.displacement_gradients);
+        append_condensed(lists.condensed_gradients, from, to, wanted.displacement_gradients);
+        append_cells(lists.stresses, from, to, wanted.stresses);
+        append_condensed(lists.condensed_stresses, from, to, wanted.stresses);
+        append_interior_faces(lists.face_gradients, from, to, wanted.face_gradients);
+        append_rows(lists.row_gradients, from, to, wanted.face_gradients);
+        append_cells(lists.cell_gradients, from, to, wanted.cell_gradients);
+        append_runs(lists.boundary_cell_gradients, position(a.boundary_cells, from.cell),
+                    position(a.boundary_cells, to.cell),
+                    [&](std::int32_t i) { return wanted.cell_gradients[a.boundary_cells[i]]; });
+    }
+    return lists;
 }
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::compute_only(const Region<Dim>& region) {
-    const std::size_t n_chunks = chunks_.size() - 1;
-    const auto want = [&](Stage stage, std::int32_t cell) {
-        const auto behind = std::ranges::upper_bound(chunks_, cell, {}, &Chunk::cell);
-        is_wanted_[stage][static_cast<std::size_t>(behind - chunks_.begin()) - 1] = true;
+    const auto marks = [](std::size_t n, const std::vector<std::int32_t>& elements) {
+        std::vector<bool> wanted(n, false);
+        for (const std::int32_t i : elements) wanted[i] = true;
+        return wanted;
     };
-    is_wanted_[loading].clear();
-    for (const Stage stage : {reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients})
-        is_wanted_[stage].assign(n_chunks, false);
-    for (const std::int32_t f : region.reconstructed) want(reconstruction, arrays_.face_cells[f][0]);
-    for (const BoundaryFace b : region.reconstructed_boundary) want(reconstruction, arrays_.cell_of(b));
-    for (const std::int32_t c : region.displacement_gradient_cells) want(displacement_gradients, c);
-    for (const std::int32_t c : region.stress_cells) want(stresses, c);
-    for (const std::int32_t f : region.energy_gradient_faces) want(face_gradients, arrays_.face_cells[f][0]);
-    for (const BoundaryFace b : region.faces) want(face_gradients, arrays_.cell_of(b));
-    for (const std::int32_t c : region.cells) {
-        want(face_gradients, c);
-        want(cell_gradients, c);
-    }
+    const std::size_t n_cells = arrays_.cells.size(), n_faces = arrays_.faces.size();
+    WantedElements wanted{.loaded = marks(n_cells, region.input_cells),
+                          .displacement_gradients = marks(n_cells, region.displacement_gradient_cells),
+                          .stresses = marks(n_cells, region.stress_cells),
+                          .cell_gradients = marks(n_cells, region.cells),
+                          .reconstructed = marks(n_faces, region.reconstructed),
+                          .face_gradients = marks(n_faces, region.energy_gradient_faces)};
+    for (const BoundaryFace b : region.reconstructed_boundary) wanted.reconstructed[arrays_.face_of(b)] = true;
+    for (const BoundaryFace b : region.faces) wanted.face_gradients[arrays_.face_of(b)] = true;
+    for (const std::int32_t c : region.cells)  // contact may ask for boundary faces that no cell needs
+        for (const HalfFace& half_face : arrays_.half_faces_of(c))
+            if (arrays_.boundary_index[half_face.face] != no_face) wanted.face_gradients[half_face.face] = true;
+    wanted_ = lists_of(wanted);
 }
 
 template <int Dim, class Real>
@@ -116,9 +168,6 @@ void CcgSweeps<Dim, Real>::divide_into_chunks(Region<Dim>& region) const {
                           n(region.displacement_gradient_cells), n(region.stress_cells), n(region.energy_gradient_faces)}};
         return;
     }
-    const auto position = [](const auto& list, auto first) {
-        return static_cast<std::int32_t>(std::ranges::lower_bound(list, first) - list.begin());
-    };
     for (const Chunk& chunk : chunks_)
         region.chunks.push_back(
             {.face = position(region.faces, BoundaryFace{chunk.boundary}),

@@ -124,13 +124,9 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
                                       const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     const PlacedCorrections placed(*this, corrections);
     schedule_.run([&](int stage, std::int32_t chunk) {
-        if (const auto& wanted = is_wanted_[static_cast<std::size_t>(stage)];
-            !wanted.empty() && !wanted[static_cast<std::size_t>(chunk)])
-            return;
         switch (stage) {
             case loading:
-                for (std::int32_t c = chunks_[chunk].cell; c < chunks_[chunk + 1].cell; ++c) load_cell(c);
-                return;
+                return for_runs(wanted_.loaded[chunk], load_cell);
             case reconstruction:
                 return reconstruct_chunk(chunk, load);
             case displacement_gradients:
@@ -154,7 +150,9 @@ void CcgSweeps<Dim, Real>::cell_energies(std::span<const Vector<Dim>> u, const B
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
     parallel_tasks(n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
     parallel_tasks(n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k, load); });
-    parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
+    parallel_tasks(n_chunks, [&](std::int32_t k) {
+        for_runs(wanted_.cell_gradients[k], [&](std::int32_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
+    });
 }
 
 template <int Dim, class Real>

@@ -12,6 +12,7 @@
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/cell_moments.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/sweep_lists.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
 
 namespace abut::solid {
@@ -64,7 +65,8 @@ public:
                        const FaceCorrections<Dim>& corrections, std::span<double> result);
     void boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                std::span<Vector<Dim>> displacement);
-    /// From now on `gradient` and its like compute the values of this region alone (`region_of_cells`), by whole chunks.
+    /// From now on the functions above, but for `boundary_displacement`, compute the values of this region alone
+    /// (`region_of_cells`).
     void compute_only(const Region<Dim>& region);
     /// Sets Region::chunks, which `evaluate_cells` needs.
     void divide_into_chunks(Region<Dim>& region) const;
@@ -93,9 +95,9 @@ private:
 
     class PlacedCorrections;
     enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
-    /// Of one body. Where it begins among the cells, faces, boundary faces, row_faces, boundary_cells and condensed cells.
+    /// Of one body. Where it begins among the cells, faces and boundary faces.
     struct Chunk {
-        std::int32_t cell, face, boundary, row_face, boundary_cell, condensed;
+        std::int32_t cell, face, boundary;
         bool simplices;   // its cells are of Simplices
         bool has_finite;  // its cells are of FiniteCells
     };
@@ -156,13 +158,7 @@ private:
 
     // One chunk
     void set_chunks();
-    template <class T>
-    [[nodiscard]] auto of_chunk(std::int32_t k, const T& list, std::int32_t Chunk::*begin) const {
-        return std::span(list).subspan(static_cast<std::size_t>(chunks_[k].*begin),
-                                       static_cast<std::size_t>(chunks_[k + 1].*begin - chunks_[k].*begin));
-    }
-    template <class Body>
-    void for_interior_faces(std::int32_t k, const Body& body) const;
+    [[nodiscard]] SweepLists lists_of(const WantedElements& wanted) const;
     void load_displacement(std::span<const Vector<Dim>> u);
     void reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
     void displacement_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
@@ -198,8 +194,8 @@ private:
     LargeArray<Real> g_change_;
     std::vector<CondensedStep<Dim>> condensed_;  // by position in FiniteCells::free
     bool has_change_ = false;
-    std::vector<Chunk> chunks_;                          // one more at the end
-    std::array<std::vector<bool>, n_stages> is_wanted_;  // chunks; empty: all are
+    std::vector<Chunk> chunks_;  // one more at the end
+    SweepLists wanted_;
     SweepSchedule<n_stages> schedule_;
 };
 

@@ -28,9 +28,12 @@ public:
     [[nodiscard]] std::span<const std::int32_t> positions() const override { return ranks_.positions(); }
     [[nodiscard]] std::int32_t n_points() const override { return ranks_.n_points(); }
     [[nodiscard]] int dimension() const override { return ranks_.dimension(); }
-    void fill(std::span<double> values, int width) const override {
+    [[nodiscard]] dynamics::CopySet copy_set(std::span<const std::int32_t> positions) const override {
+        return ranks_.copy_set(positions);
+    }
+    void fill(std::span<double> values, int width, dynamics::CopySet copies) const override {
         ++calls_.fills;
-        ranks_.fill(values, width);
+        ranks_.fill(values, width, copies);
     }
     void sum(const dynamics::Summands& summands, std::span<const double> terms, std::span<double> total) const override {
         ++calls_.sums;

@@ -3,11 +3,14 @@
 #include <catch2/catch.hpp>
 
 #include <cstring>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
@@ -50,6 +53,39 @@ struct Stir {
     double spin = 0.0;    ///< of all bodies about the third axis [rad/s]
 };
 
+/// What takes the alternating mode out.
+struct Remedies {
+    bool filter = false;
+    int restart = 0;  ///< steps from one to the next; 0: none
+};
+
+/// These remedies in a run of a system.
+template <class S>
+class Remedied {
+public:
+    Remedied(S& system, const Remedies& remedies) : remedies_(remedies), filter_(system) {
+        if (remedies.restart > 0) restart_.emplace(system, dynamics::RestartOptions{.period = remedies.restart});
+    }
+    template <class Run>
+    void set(Run& run) {
+        if constexpr (Run::takes_after_step)
+            if (remedies_.filter)
+                run.set_after_step([this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+        if constexpr (Run::takes_node_restart)
+            if (restart_)
+                run.set_node_restart(
+                    [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
+    }
+    [[nodiscard]] dynamics::RestartReport report() const {
+        return restart_ ? restart_->report() : dynamics::RestartReport{};
+    }
+
+private:
+    Remedies remedies_;
+    dynamics::NeutralFilter<S> filter_;
+    std::optional<dynamics::NeutralRestart<S>> restart_;
+};
+
 /// Velocities of the bodies, and what else differs from cell to cell.
 template <int Dim>
 std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const Vector<Dim>> body_velocity,
@@ -70,7 +106,8 @@ std::vector<double> momentum_of(const solid::Solid<Dim>& solid, std::span<const 
 template <int Dim, template <class> class Scheme = dynamics::Memm>
 contact::ContactReport check_same_bits(const ranks::Communicator& all, const mesh::Mesh<Dim>& whole,
                                        const solid::SolidOptions<Dim>& options, std::span<const Vector<Dim>> body_velocity,
-                                       int steps, std::span<const int> owner, const Stir& stir = {}) {
+                                       int steps, std::span<const int> owner, const Stir& stir = {},
+                                       const Remedies& remedies = {}) {
     solid::Solid<Dim> alone(whole, options);
     SharedSolid<Dim> shared(all, whole, options, owner, solid::copy_layers(options.kinematics));
     solid::Solid<Dim>& solid = shared.solid;
@@ -83,6 +120,9 @@ contact::ContactReport check_same_bits(const ranks::Communicator& all, const mes
     const double dt = 0.9 * stable.dt;
     Scheme<solid::Solid<Dim>> run(alone, std::vector<double>(alone.size(), 0.0), p_0, dt),
         run_here(solid, std::vector<double>(solid.size(), 0.0), p_0_here, dt);
+    Remedied<solid::Solid<Dim>> remedied(alone, remedies), remedied_here(solid, remedies);
+    remedied.set(run);
+    remedied_here.set(run_here);
     for (int step = 0; step <= steps; ++step) {
         CAPTURE(all.rank(), step);
         if (step > 0) {
@@ -92,8 +132,8 @@ contact::ContactReport check_same_bits(const ranks::Communicator& all, const mes
         REQUIRE(everywhere(all, same_bits(shared.own(run.q()), run_here.q())));
         REQUIRE(everywhere(all, same_bits(shared.own(run.p_after()), run_here.p_after())));
         if (step % 10 != 0 && step != steps) continue;
-        const auto entry = dynamics::ledger_values(dynamics::measure(run, alone)),
-                   entry_here = dynamics::ledger_values(dynamics::measure(run_here, solid));
+        const auto entry = dynamics::ledger_values(dynamics::measure(run, alone, remedied.report())),
+                   entry_here = dynamics::ledger_values(dynamics::measure(run_here, solid, remedied_here.report()));
         REQUIRE(everywhere(all, same_bits(entry, entry_here)));
     }
     const contact::ContactReport of_alone = alone.contact_report(), report = solid.contact_report();

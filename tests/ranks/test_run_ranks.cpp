@@ -48,6 +48,19 @@ TEST_CASE("cells that are shared out again and again change no bit of a run", "[
         CHECK(found.rebalancing.done[0].cells_moved == 0);
 }
 
+TEST_CASE("a run with filter and neutral restarts changes no bit where its cells are shared out again", "[ranks][run]") {
+    const ranks::Communicator all = test::world();
+    const auto scene = test::meeting_bodies<2>(0.2);
+    run::RunOptions options = options_of(60);
+    options.filter = true;
+    options.restart = 9;
+    options.rebalance = GENERATE(0, 7);
+    options.rebalance_above = 1.0;
+    const auto found = check_same_run<2>(all, scene, options, test::odd(all, scene.mesh));
+    CHECK(found.contact.active_pairs_max > 0);
+    CHECK(found.ledger.entries().back().restarts.restarts == 6);
+}
+
 TEST_CASE("cells of loaded bodies that are shared out again change no bit, with ranks that have none", "[ranks][run]") {
     const ranks::Communicator all = test::world();
     const auto scene = test::loaded_strip();
@@ -283,8 +296,6 @@ TEST_CASE("what a run on ranks cannot do is refused by name on all of them", "[r
     auto scene = test::meeting_bodies<2>(0.3);
     run::RunOptions options = options_of(5);
     std::string name;
-    SECTION("the filter") { options.filter = true, name = "the filter"; }
-    SECTION("restarts") { options.restart = 3, name = "a neutral restart"; }
     SECTION("local steps") { options.integrator = run::SolidIntegrator::memm_async, name = "memm_async"; }
     SECTION("pilot runs") { options.kinematics = run::BodyKinematics::automatic, name = "a pilot run"; }
     SECTION("rigid bodies") { options.kinematics = run::BodyKinematics::rigid, name = "a rigid body"; }

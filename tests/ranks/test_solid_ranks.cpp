@@ -150,6 +150,49 @@ TEST_CASE("a bar that bends far, and one that turns without contact, have the bi
     check_same_bits<2, dynamics::Leapfrog>(all, mesh, options, velocity, 40, parts(all, mesh), {.waves = 0.1, .spin = 0.2});
 }
 
+TEMPLATE_TEST_CASE_SIG("the filter of bodies in contact with each other, a wall and a support has the bits of one rank",
+                       "[ranks][solid][contact][filter]", ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel, {.young = 1.0, .poisson = 0.2, .density = 1.0}};
+    options.contact = contact::ContactOptions{};
+    options.law = GENERATE(solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential);
+    options.obstacles = {contact::plane_obstacle<Dim>(-0.26 * Vector<Dim>::Unit(1), Vector<Dim>::Unit(1), 5.0)};
+    options.boundary.dirichlet = {{.group = "xmin"}};
+    // A block held on its left, and one that falls on its top and its right-hand neighbour: a wall.
+    std::vector<mesh::Mesh<Dim>> blocks;
+    for (int i = 0; i < 2; ++i) {
+        Vector<Dim> lower = Vector<Dim>::Zero(), upper = Vector<Dim>::Constant(0.5);
+        lower[1] = i == 0 ? -0.25 : 0.255, upper[1] = lower[1] + 0.5;
+        lower[0] = 0.07 * i, upper[0] = lower[0] + 1.0;
+        std::array<int, Dim> n;
+        n.fill(Dim == 2 ? 12 : 5);
+        blocks.push_back(
+            mesh::structured_box<Dim>(lower, upper, n, Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron));
+        if (i == 1) blocks.back().groups.clear();
+    }
+    const auto mesh = mesh::combine<Dim>(blocks);
+    const std::vector<Vector<Dim>> velocity{-0.05 * Vector<Dim>::Unit(1), -0.1 * Vector<Dim>::Unit(1)};
+    const auto report = check_same_bits<Dim>(all, mesh, options, velocity, Dim == 2 ? 150 : 80, parts(all, mesh),
+                                             {.waves = 0.01}, {.filter = true});
+    CHECK(report.active_pairs_max > 0);
+}
+
+TEMPLATE_TEST_CASE_SIG("neutral restarts have the bits of one rank, with the filter and without", "[ranks][solid][restart]",
+                       ((int Dim), Dim), 2, 3) {
+    const ranks::Communicator all = test::world();
+    const auto mesh = two_round_bodies<Dim>();
+    solid::SolidOptions<Dim> options;
+    options.materials = {steel, {.young = 1.0, .poisson = 0.2, .density = 1.0}};
+    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::floating);
+    options.kinematics = {kinematics, kinematics};
+    options.contact = contact::ContactOptions{};
+    const auto report = check_same_bits<Dim>(all, mesh, options, towards_each_other<Dim>(0.1), Dim == 2 ? 100 : 60,
+                                             parts(all, mesh), {.waves = 0.05, .spin = 0.02},
+                                             {.filter = kinematics == solid::Kinematics::floating, .restart = 7});
+    CHECK(report.active_pairs_max > 0);
+}
+
 TEST_CASE("central differences have the bits of one rank", "[ranks][solid][contact]") {
     const ranks::Communicator all = test::world();
     const auto mesh = two_round_bodies<2>();
@@ -222,6 +265,11 @@ TEST_CASE("what is not made for ranks yet is refused by name", "[ranks][solid]")
     options.kinematics = {solid::Kinematics::rigid};
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner),
                       Catch::Contains("not made for a run on several ranks"));
+    options.kinematics = {solid::Kinematics::floating};
+    options.boundary.traction = {
+        {.group = "xmax", .value = Vector<2>(0.0, 0.1)}};  // of one end, which some ranks do not have
+    CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("a traction on a body that turns"));
+    options.boundary.traction.clear();
     options.kinematics.clear();
     options.precision = solid::Precision::single_precision;
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("single precision"));
