@@ -1,5 +1,5 @@
 """check_ranks.py PROGRAM OTHER_PROGRAM SCENE: runs a scene alone and on 2 and 3 ranks, also with two threads each, started by
-mpirun, with cells that are shared out again, and with bodies that turn and bend, and compares all files that are left, byte by byte (report and summary without
+mpirun, with cells that are shared out again, and with bodies that turn and bend, with the filter and with neutral restarts, and compares all files that are left, byte by byte (report and summary without
 times). Then a run on two ranks is ended in its midst and goes on alone, one that began alone goes on on two ranks, and one of
 which a rank was killed ends on all ranks and goes on: the energies are those of the run that nobody stopped. What ranks cannot
 do is refused once, and an error of one rank that the others wait for ends all of them."""
@@ -94,12 +94,13 @@ def check_pieces(program, scene, folder, expected):
     require_same(expected, files_of(pieces), "after frames in pieces")
 
 
-def check_turning(program, scene, folder):
-    """Bodies that turn in a frame, and bodies that bend, under the other law of contact."""
-    for kinematics in ("floating", "finite"):
-        for ranks in ("0", "3"):
-            subprocess.run(command(program, scene, folder / (kinematics + ranks), "--kinematics", kinematics, "--ranks", ranks), check=True)
-        require_same(files_of(folder / (kinematics + "0")), files_of(folder / (kinematics + "3")), kinematics)
+def check_choices(program, scene, folder):
+    """Bodies that turn in a frame, and bodies that bend, under the other law of contact; the filter; neutral restarts."""
+    for choice in (("--kinematics", "floating"), ("--kinematics", "finite"), ("--filter", "neutral"), ("--restart", "5")):
+        alone, shared = folder / choice[1], folder / (choice[1] + "_on_3")
+        subprocess.run(command(program, scene, alone, *choice), check=True)
+        subprocess.run(command(program, scene, shared, *choice, "--ranks", "3"), check=True)
+        require_same(files_of(alone), files_of(shared), choice)
 
 
 def check_one_message(run, words, what):
@@ -113,8 +114,7 @@ def check_refused(program, other, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
     for name, *options in (("a rigid body", "--kinematics", "rigid"), ("pilot run", "--kinematics", "automatic"),
-                           ("filter", "--filter", "neutral"), ("neutral restart", "--restart", "5"),
-                           ("memm_async", "--integrator", "memm_async")):
+                           ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--precision", "single")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
         check_one_message(run, (name, not_made), options)
     for words, name in (([program, "run", scene, "--sweep", "bodies.left.density=1,2", "--out", str(folder / "sweep")], "--sweep"),
@@ -148,7 +148,7 @@ def main():
         require_same(expected, files_of(folder / "mpirun"), "mpirun -n 1")
         check_rebalancing(program, scene, folder, ("rebuilds", "candidates"))
         check_pieces(program, scene, folder, expected)
-        check_turning(program, scene, folder)
+        check_choices(program, scene, folder)
 
         subprocess.run(command(program, scene, folder / "whole", **LONG), check=True)
         energies = (folder / "whole" / "energy.csv").read_bytes()

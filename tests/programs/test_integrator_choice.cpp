@@ -94,7 +94,7 @@ TEST_CASE("a body that falls from rest runs under every scheme", "[programs]") {
     if (integrator != "leapfrog") CHECK(relative_drift(outcome) <= 1e-11);
 }
 
-TEST_CASE("--precision single is said in the summary, misses no contact, and parts the bodies as double does",
+TEST_CASE("single precision is said in the summary, misses no contact, and parts the bodies as double does",
           "[programs]") {
     const std::string integrator = GENERATE("memm", "leapfrog");
     const auto of_double = read_summary(run_scheme(integrator));

@@ -97,6 +97,8 @@ TEST_CASE("pseudo-energy is exact where overlap moves and events are cut, and on
         // A bar on a large wall: overlap never changes, so that a single point integrates exactly and frozen is moving.
         if (has(setting, "--events off") && !has(setting, "--integrator bilbao"))
             CHECK(drift > 1e-8);
+        else if (has(setting, "--precision single"))
+            CHECK((drift > 1e-11 && drift < 1e-6));  // unit roundoff 6e-8
         else
             CHECK(drift < 1e-11);
         CHECK(row["energy_excess_max"].get<double>() < 0.1);
