@@ -213,29 +213,38 @@ struct PairHeights {
     }
 };
 
-struct Decisions {
-    std::uint64_t overlap = 0, undecided = 0;  // bit k: pair k
+// Bit k: pair k. Those in neither share nothing.
+struct Columns {
+    std::uint64_t clear = 0;      // they overlap, and no height is within the limit
+    std::uint64_t close = 0;      // to be looked at closely
+    std::uint64_t undecided = 0;  // thin, tiny or huge
 };
 
-void decide(const TriangleBatch& batch, int first, Decisions& decisions) {
+void sort_out(const TriangleBatch& batch, int first, Columns& columns) {
     const PairHeights heights(batch, first);
-    LaneMask is_separated = heights.is_separated, is_known = heights.is_clear;
-    if (any(~is_known)) {
-        const Close close = look_closely(heights.pair, heights.a_over_b, heights.b_over_a);
-        is_separated = close.is_separated;
-        is_known = close.is_known;
-    }
-    const LaneMask is_decided = is_known & heights.pair.is_proper;
-    decisions.undecided |= std::uint64_t{bits_of(~is_decided)} << first;
-    decisions.overlap |= std::uint64_t{bits_of(is_decided & ~is_separated)} << first;
+    const LanePair& pair = heights.pair;
+    LaneMask is_separated = heights.is_separated;
+    if (any(~heights.is_clear & pair.is_proper))
+        is_separated |= LowestLine(pair.a, pair.b, heights.a_over_b, heights.b_over_a).separates(pair.limit, pair.is_given);
+    const LaneMask is_left = pair.is_proper & ~is_separated;
+    columns.clear |= std::uint64_t{bits_of(is_left & heights.is_clear)} << first;
+    columns.close |= std::uint64_t{bits_of(is_left & ~heights.is_clear)} << first;
+    columns.undecided |= std::uint64_t{bits_of(~pair.is_proper)} << first;
 }
 
-// Of columns that all overlap.
-AreaLanes area_of_columns(const TriangleBatch& batch, int first) {
+struct Shared {
+    AreaLanes area;
+    LaneMask is_separated, is_known;
+};
+
+Shared shared_by(const TriangleBatch& batch, int first) {
     const PairHeights heights(batch, first);
     const auto& [pair, a_over_b, b_over_a, is_separated, is_clear] = heights;
-    if (any(~is_clear)) return look_closely(pair, a_over_b, b_over_a).area(pair);
-    return area_of(pair, b_over_a, Sides(a_over_b, b_over_a), WeightsApart{});
+    if (any(~is_clear)) {
+        const Close close = look_closely(pair, a_over_b, b_over_a);
+        return {close.area(pair), close.is_separated, close.is_known};
+    }
+    return {area_of(pair, b_over_a, Sides(a_over_b, b_over_a), WeightsApart{}), is_separated, is_clear};
 }
 
 void copy_column(const TriangleBatch& from, int column, TriangleBatch& to, int k) {
@@ -300,28 +309,34 @@ DecisionCounts& DecisionCounts::operator+=(const DecisionCounts& other) {
     return *this;
 }
 
-// Most candidates share nothing. Those that do are moved together: only their areas are computed.
+// Most candidates share nothing, and most of these are told by one line. The others are moved together, those to be looked at
+// closely after the clear ones.
 AreaBatch overlap_areas(const TriangleBatch& triangles, int n) {
-    Decisions decisions;
-    for (int first = 0; first < n; first += lane_count) decide(triangles, first, decisions);
+    Columns columns;
+    for (int first = 0; first < n; first += lane_count) sort_out(triangles, first, columns);
 
     AreaBatch result{};
-    result.undecided = decisions.undecided;
-    TriangleBatch overlapping;
+    result.undecided = columns.undecided;
+    TriangleBatch left;
     std::array<int, TriangleBatch::size> column;
-    int n_overlapping = 0;
-    for (std::uint64_t rest = decisions.overlap; rest != 0; rest &= rest - 1) {
-        column[n_overlapping] = std::countr_zero(rest);
-        copy_column(triangles, column[n_overlapping], overlapping, n_overlapping);
-        ++n_overlapping;
-    }
-    for (int k = n_overlapping; k % lane_count != 0; ++k) copy_column(overlapping, 0, overlapping, k);
-    for (int first = 0; first < n_overlapping; first += lane_count) {
-        const AreaLanes sum = area_of_columns(overlapping, first);
-        for (int k = first; k < std::min(first + lane_count, n_overlapping); ++k) {
-            result.area[column[k]] = std::max(0.5 * sum.twice_area[k - first], std::numeric_limits<double>::min());
-            result.area_gradient[0][column[k]] = sum.along.y[k - first];
-            result.area_gradient[1][column[k]] = -sum.along.x[k - first];
+    int n_left = 0;
+    for (const std::uint64_t some : {columns.clear, columns.close})
+        for (std::uint64_t rest = some; rest != 0; rest &= rest - 1) {
+            column[n_left] = std::countr_zero(rest);
+            copy_column(triangles, column[n_left], left, n_left);
+            ++n_left;
+        }
+    for (int k = n_left; k % lane_count != 0; ++k) copy_column(left, 0, left, k);
+    for (int first = 0; first < n_left; first += lane_count) {
+        const Shared shared = shared_by(left, first);
+        const int n_here = std::min(lane_count, n_left - first);
+        for (int k = 0; k < n_here; ++k) {
+            const int to = column[first + k];
+            if (!shared.is_known[k]) result.undecided |= std::uint64_t{1} << to;
+            if (!shared.is_known[k] || shared.is_separated[k]) continue;
+            result.area[to] = std::max(0.5 * shared.area.twice_area[k], std::numeric_limits<double>::min());
+            result.area_gradient[0][to] = shared.area.along.y[k];
+            result.area_gradient[1][to] = -shared.area.along.x[k];
         }
     }
     return result;

@@ -47,6 +47,15 @@ struct EdgeAndPoint {
     PlaneLanes edge, arm;  ///< end - start, point - nearer: rounded
 };
 
+/// How far apart the ends of an arm are, in the sum of components.
+inline Lanes length_of(PlaneLanes arm) { return absolute(arm.x) + absolute(arm.y); }
+
+inline EdgeAndPoint seen_from_nearer_end(PlaneLanes start, PlaneLanes end, PlaneLanes edge, PlaneLanes point) {
+    const PlaneLanes from_start = point - start, from_end = point - end;
+    const LaneMask at_end = length_of(from_end) < length_of(from_start);
+    return {start, end, choose(at_end, end, start), point, edge, choose(at_end, from_end, from_start)};
+}
+
 /// Where the point lies on the line of an edge as sure as the coordinates are what they are.
 inline LaneMask is_on_line(PlaneLanes edge, PlaneLanes arm) {
     const LaneMask at_x = arm.x == 0.0, at_y = arm.y == 0.0;
@@ -84,7 +93,7 @@ struct HeightInTwiceTheDigits {
     }
 };
 
-/// From every corner of one triangle to every corner of another, and how far apart they are in the sum of components.
+/// From every corner of one triangle to every corner of another.
 struct CornerArms {
     PlaneLanes arm[3][3];  // [corner of line][corner of point]
     Lanes length[3][3];
@@ -93,7 +102,7 @@ struct CornerArms {
         for (int k = 0; k < 3; ++k)
             for (int i = 0; i < 3; ++i) {
                 arm[k][i] = point.corner[i] - line.corner[k];
-                length[k][i] = absolute(arm[k][i].x) + absolute(arm[k][i].y);
+                length[k][i] = length_of(arm[k][i]);
             }
     }
     /// Edge j and corner i.
@@ -132,28 +141,71 @@ struct Certainty {
     LaneMask is_known;      ///< all signs are those of the given coordinates
 };
 
-/// Gives the heights within `limit` the signs that the coordinates have, as far as `height_of` tells. `is_given`: the
-/// coordinates are those to decide on.
+/// A height within `limit` gets the sign that the coordinates have, as far as `height_of` tells. `is_given`: the coordinates
+/// are those to decide on.
+template <class HeightOf>
+SignedHeight sharpened(Lanes height, const EdgeAndPoint& at, Lanes limit, LaneMask is_given, HeightOf height_of) {
+    const LaneMask is_clear = absolute(height) > limit, is_zero = is_on_line(at.edge, at.arm);
+    const SignedHeight sharp = height_of(at);
+    return {is_clear ? height : (is_zero ? Lanes{} : sharp.value), is_clear | (is_given & (is_zero | sharp.is_sure))};
+}
+
+/// The same for all heights of one triangle over the lines of another.
 template <class HeightOf>
 Certainty sharpen(const TriangleLanes& line, const TriangleLanes& point, Lanes limit, LaneMask is_given, HeightOf height_of,
                   Heights& heights) {
     const CornerArms arms(line, point);
-    const Lanes zero{};
     Certainty result{LaneMask{}, ~LaneMask{}};
     for (int j = 0; j < 3; ++j) {
         LaneMask is_beyond = ~LaneMask{};
         for (int i = 0; i < 3; ++i) {
-            const EdgeAndPoint at = arms.at(line, j, point, i);
-            const LaneMask is_clear = absolute(heights.of[j][i]) > limit, is_zero = is_on_line(at.edge, at.arm);
-            const SignedHeight height = height_of(at);
-            const LaneMask is_sure = is_clear | (is_given & (is_zero | height.is_sure));
-            heights.of[j][i] = is_clear ? heights.of[j][i] : (is_zero ? zero : height.value);
-            is_beyond &= is_sure & (heights.of[j][i] <= 0.0);
-            result.is_known &= is_sure;
+            const SignedHeight height = sharpened(heights.of[j][i], arms.at(line, j, point, i), limit, is_given, height_of);
+            heights.of[j][i] = height.value;
+            is_beyond &= height.is_sure & (height.value <= 0.0);
+            result.is_known &= height.is_sure;
         }
         result.is_separated |= is_beyond;
     }
     return result;
 }
+
+/// Of the lines of the edges of two triangles the one that the other triangle is above the least: where one of them
+/// separates the two, most often this one does.
+class LowestLine {
+public:
+    LowestLine(const TriangleLanes& a, const TriangleLanes& b, const Heights& a_over_b, const Heights& b_over_a) {
+        for (int j = 0; j < 3; ++j) {
+            take_if_lower(b, j, a, a_over_b);
+            take_if_lower(a, j, b, b_over_a);
+        }
+    }
+    /// As far as doubles tell.
+    [[nodiscard]] LaneMask separates(Lanes limit, LaneMask is_given) const {
+        LaneMask is_beyond = ~LaneMask{};
+        for (int i = 0; i < 3; ++i) {
+            const SignedHeight sharp = sharpened(height_[i], seen_from_nearer_end(start_, end_, edge_, point_[i]), limit,
+                                                 is_given, HeightInDoubles{});
+            is_beyond &= sharp.is_sure & (sharp.value <= 0.0);
+        }
+        return is_beyond;
+    }
+
+private:
+    void take_if_lower(const TriangleLanes& line, int j, const TriangleLanes& point, const Heights& heights) {
+        const Lanes top = larger(larger(heights.of[j][0], heights.of[j][1]), heights.of[j][2]);
+        const LaneMask is_lower = top < top_;
+        top_ = is_lower ? top : top_;
+        start_ = choose(is_lower, line.corner[j], start_);
+        end_ = choose(is_lower, line.corner[next(j)], end_);
+        edge_ = choose(is_lower, line.edge[j], edge_);
+        for (int i = 0; i < 3; ++i) {
+            point_[i] = choose(is_lower, point.corner[i], point_[i]);
+            height_[i] = is_lower ? heights.of[j][i] : height_[i];
+        }
+    }
+    Lanes top_ = Lanes{} + std::numeric_limits<double>::infinity();
+    PlaneLanes start_{}, end_{}, edge_{}, point_[3]{};
+    Lanes height_[3]{};
+};
 
 }  // namespace abut::geometry
