@@ -25,7 +25,7 @@ public:
     /// From the first answer on, as often as it is called.
     void replay() {
         is_replay_ = true;
-        next_values_ = next_bytes_ = 0;
+        next_values_ = next_bytes_ = next_copy_set_ = 0;
     }
 
     [[nodiscard]] int rank() const override { return ranks_.rank(); }
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] int dimension() const override { return ranks_.dimension(); }
 
     [[nodiscard]] dynamics::CopySet copy_set(std::span<const std::int32_t> positions) const override {
-        return ranks_.copy_set(positions);
+        return is_replay_ ? copy_sets_[next_copy_set_++] : copy_sets_.emplace_back(ranks_.copy_set(positions));
     }
     void fill(std::span<double> values, int width, dynamics::CopySet copies) const override {
         const auto n = static_cast<std::size_t>(width);
@@ -98,7 +98,8 @@ private:
     bool is_replay_ = false;
     mutable std::vector<std::vector<double>> values_;
     mutable std::vector<std::vector<std::byte>> bytes_;
-    mutable std::size_t next_values_ = 0, next_bytes_ = 0;
+    mutable std::vector<dynamics::CopySet> copy_sets_;
+    mutable std::size_t next_values_ = 0, next_bytes_ = 0, next_copy_set_ = 0;
 };
 
 }  // namespace abut::benchmark

@@ -1,20 +1,13 @@
 #include "abut/solid/solid.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 
 #include "abut/base/error.hpp"
-#include "abut/base/messages.hpp"
-#include "abut/base/parallel.hpp"
-#include "abut/base/processor_stopwatch.hpp"
-#include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
-#include "abut/solid/largest_motion.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/outside_loads.hpp"
@@ -26,8 +19,6 @@
 
 namespace abut::solid {
 namespace {
-
-inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
 
 /// What is not made for several ranks.
 template <int Dim>
@@ -308,200 +299,6 @@ void Solid<Dim>::constrain_along(std::span<const double> q, double dt, std::span
 template <int Dim>
 void Solid<Dim>::constrain_at(std::span<const double> q, double dt, std::span<double> p) {
     bodies_->rigid().constrain_at(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
-}
-
-// One step for all cells ---------------------------------------------------------------------------------------------
-
-template <int Dim>
-void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
-                            std::span<double> force) {
-    require_start(time, dt);
-    const auto [u_0, u_1] = ends_here(q_0, q_1);
-    follow_loads(u_0, time, dt);
-    bodies_->rigid().follow(u_0, u_1);
-    const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
-    if (contact_) {
-        contact_->follow(u_0, u_1, motion, time, dt);
-        contact_->integrate();
-    }
-
-    const Stopwatch watch(times_.bulk);
-    const auto gradient = result_here(force);
-    const StepEnds<Dim> ends{of_cells(u_0), of_cells(u_1)};
-    const auto take_gradient = [&](const BoundaryLoad<Dim>& load) {
-        const ProcessorStopwatch of_cells(times_.own_cells);
-        if (frames_->any_turns())
-            ccg_.gradient_of_packed(midpoint_, load, corrections(), gradient, ends);
-        else
-            ccg_.mean_gradient(ends, load, corrections(), gradient);
-    };
-    if (loads_->vary())
-        take_gradient(loads_->mean());
-    else
-        take_gradient(loads_->end());
-    require_no_collapse();
-    add_work(1.0);
-    if (contact_) contact_->add_impulses(dt);
-    to_force(u_0, u_1, gradient);
-    add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
-    outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
-    take_result(force);
-    evaluations_ += n_cells_of_all();
-    end_step(time + dt);
-}
-
-template <int Dim>
-void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> q_1, double time, double dt,
-                           std::span<double> force) {
-    require_start(time, dt);
-    const auto [u_0, u_1] = ends_here(q_0, q_1);
-    const auto gradient = result_here(force);
-    follow_loads(u_0, time, dt);
-    bodies_->rigid().follow(u_0, u_1);
-    const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
-    if (contact_) contact_->follow(u_0, u_1, motion, time, dt);
-    if (!is_autonomous()) {  // the work is shared between the forces at both ends
-        frames_->stand_at_start();
-        if (contact_) contact_->take_start();
-        ccg_.step_gradient(in_frames(u_0, all_cells_), loads_->start(), corrections(), gradient);
-        add_work(0.5);
-    }
-    frames_->stand_at_end();
-    if (contact_) contact_->take_end();
-    const Stopwatch watch(times_.bulk);
-    {
-        const ProcessorStopwatch of_cells(times_.own_cells);
-        ccg_.step_gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
-    }
-    require_no_collapse();
-    add_work(0.5);
-    if (contact_) contact_->add_impulses(dt);
-    to_force(u_1, u_1, gradient);
-    add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
-    outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
-    take_result(force);
-    evaluations_ += n_cells_of_all();
-    end_step(time + dt);
-}
-
-template <int Dim>
-bool Solid<Dim>::is_autonomous() const {
-    return !loads_->vary() && !point_loads_->do_work() && !(contact_ && contact_->obstacles().move());
-}
-
-template <int Dim>
-void Solid<Dim>::require_start(double time, double dt) const {
-    if (loads_->is_half_done())
-        throw Misuse(
-            "solid: the last step ended with an error, and its loads and work are half done: make a Solid for every run.");
-    if (!(std::abs(time - time_) <= same_time * dt) && (contact_ || loads_->vary() || point_loads_->do_work()))
-        throw Misuse("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
-                         exact_number(time_) +
-                         " s. Loads, work and contacts go on from step to step: make a Solid for every run.",
-                     {.value = time, .allowed = time_});
-}
-
-template <int Dim>
-void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt) {
-    if (!loads_->vary()) return;
-    double change = 0.0, held_change = 0.0;  // of V, and of what it has less for loads from outside
-    const auto follow_jump = [&] {
-        if (contact_) contact_->follow_jump(q_0, time);
-        held_change = outside_->held_change(q_0);
-    };
-    const bool tractions_jump = loads_->begin_step(
-        time, dt, [&] { return potential_here(q_0); }, follow_jump, change);
-    if (!tractions_jump) return;
-    work_ += change;
-    if (outside_->any()) outside_->add_change(change + held_change);
-    if (contact_) contact_->jumped(q_0, time);
-}
-
-/// Fills midpoint_ where a body turns. No cell moves farther in its frame than what is returned [m]; without contact nobody
-/// asks where none turns, and it is 0.
-template <int Dim>
-double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
-    const Stopwatch watch(times_.bulk);
-    if (!frames_->any_turns()) {
-        if (!contact_) return 0.0;
-        const double motion = largest_motion<Dim>(q_0, q_1);
-        return part_ ? part_->ranks().largest(motion) : motion;
-    }
-    frames_->follow(q_0, q_1);
-    midpoint_.resize(lane_width<Dim> * q_0.size());
-    return frames_->take_midpoints(q_0, q_1, midpoint_);
-}
-
-/// `share` of the work from outside in the step that the present gradients of the boundary faces would do.
-template <int Dim>
-void Solid<Dim>::add_work(double share) {
-    loads_->add_work(share, work_);
-    if (contact_) contact_->take_obstacle_forces(share, work_);
-}
-
-/// The next step begins where this one ends.
-template <int Dim>
-void Solid<Dim>::end_step(double time) {
-    time_ = time;
-    loads_->end_step();
-    frames_->end_step();
-    if (contact_) contact_->end_step();
-}
-
-// Local steps --------------------------------------------------------------------------------------------------------
-
-template <int Dim>
-void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
-    refuse_ranks("local steps");
-    if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !reconstruction_))
-        throw BadInput(mesh_.name +
-                       ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "
-                       "body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. Take "
-                       "one step for all (memm), or other kinematics and law.");
-    if (options_.precision == Precision::single_precision)
-        throw BadInput(mesh_.name +
-                       ": local steps are made in double precision alone. Take Precision::double_precision "
-                       "(--precision double), or one step for all cells (memm).");
-    levels_ = std::make_unique<LocalLevels<Dim>>(mesh_, ccg_, *loads_, n_levels, level);
-}
-
-template <int Dim>
-void Solid<Dim>::add_impulse(std::int32_t level, const dynamics::FreeFlight& flight, double time, double dt,
-                             std::span<double> impulse) {
-    if (level == 0 && reconstruction_) reconstruction_->obstacles().begin_parts(dt);
-    {
-        const Stopwatch watch(times_.bulk);
-        evaluations_ += levels_->add_bulk_impulse(level, flight, dt, as_vectors<Dim>(impulse));
-    }
-    if (!levels_->is_finest(level)) return;
-    require_start(time, dt);
-    if (reconstruction_) add_contact_impulse(flight, time, dt, as_vectors<Dim>(impulse));
-    end_step(time + dt);
-}
-
-template <int Dim>
-void Solid<Dim>::add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt,
-                                     std::span<Vector<Dim>> impulse) {
-    follow_flight(flight, time, dt);
-    reconstruction_->integrate();
-    reconstruction_->take_obstacle_forces(1.0, work_);
-    reconstruction_->obstacles().add_part(dt);
-    reconstruction_->add_impulses(dt);
-    if (!reconstruction_->is_active()) return;
-    const Stopwatch watch(times_.contact);
-    levels_->add_contact_impulse(reconstruction_->input_cells(), corrections(), dt, impulse);
-}
-
-/// As ContactDriver::follow, but looks at no more cells than the surface needs.
-template <int Dim>
-void Solid<Dim>::follow_flight(const dynamics::FreeFlight& flight, double time, double dt) {
-    LocalLevels<Dim>& levels = *levels_;
-    if (!reconstruction_->is_valid_at(levels.end_of(flight, dt, levels.surface_cells()), time + dt))
-        reconstruction_->search(levels.start_of(flight, levels.all_cells()), levels.end_of(flight, dt, levels.all_cells()),
-                                time, dt);
-    else if (!reconstruction_->has_stepped())
-        reconstruction_->set_start(levels.start_of(flight, reconstruction_->input_cells()), time);
-    reconstruction_->set_end(levels.end_of(flight, dt, reconstruction_->input_cells()), time + dt);
 }
 
 template class Solid<2>;

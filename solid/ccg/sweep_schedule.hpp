@@ -39,29 +39,26 @@ public:
     }
 
     /// Calls task(stage, chunk) for every task. Each thread takes a run of chunks through all stages as far as they do not
-    /// need another thread's; the rest follows stage by stage.
-    template <class Task>
-    void run(const Task& task) const {
+    /// need another thread's; the rest follows stage by stage. Allocates where the number of threads differs from before.
+    template <class Work>
+    void run(const Work& work) {
         const std::int32_t n_parts = std::clamp<std::int32_t>(thread_limit(), 1, std::max(1, n_chunks_ / chunks_a_part));
-        const auto begin_of = [&](std::int32_t part) {
-            return static_cast<std::int32_t>(std::int64_t{n_chunks_} * part / n_parts);
+        if (std::ssize(parts_) != n_parts) share_out(n_parts);
+        const auto run_part = [&](std::int32_t part) {
+            for (const Task& task : parts_[static_cast<std::size_t>(part)]) work(task.stage, task.chunk);
         };
-        if (n_parts == 1) return run_part(0, n_chunks_, task);
-        parallel_tasks(
-            n_parts, [&](std::int32_t part) { run_part(begin_of(part), begin_of(part + 1), task); },
-            oneapi::tbb::static_partitioner{});
-        for (int s = 1; s < Stages; ++s) {
-            std::vector<std::int32_t> rest;
-            for (std::int32_t part = 0; part < n_parts; ++part)
-                for (std::int32_t k = begin_of(part); k < begin_of(part + 1); ++k)
-                    if (!is_inside(spans_[s][k], begin_of(part), begin_of(part + 1))) rest.push_back(k);
-            parallel_tasks(rest.size(), [&](std::size_t i) { task(s, rest[i]); });
-        }
+        if (n_parts == 1) return run_part(0);
+        parallel_tasks(n_parts, run_part, oneapi::tbb::static_partitioner{});
+        for (int s = 1; s < Stages; ++s) parallel_tasks(rest_[s].size(), [&](std::size_t i) { work(s, rest_[s][i]); });
     }
 
 private:
     static constexpr std::int32_t chunks_a_part = 8;  // fewer are not worth a thread of their own
 
+    struct Task {
+        int stage;
+        std::int32_t chunk;
+    };
     struct Span {  // of stage 0 that a task depends on through all stages
         std::int32_t first;
         std::int32_t last;
@@ -69,27 +66,30 @@ private:
 
     static bool is_inside(Span span, std::int32_t begin, std::int32_t end) { return span.first >= begin && span.last < end; }
 
-    /// Runs the tasks of chunks [begin, end) that depend on these chunks only, each when the last of them is through stage
-    /// 0.
-    template <class Task>
-    void run_part(std::int32_t begin, std::int32_t end, const Task& task) const {
-        struct Waiting {
-            std::int32_t last;
-            int stage;
-            std::int32_t chunk;
-        };
-        std::vector<Waiting> waiting;
-        for (int s = 0; s < Stages; ++s)
-            for (std::int32_t k = begin; k < end; ++k)
-                if (is_inside(spans_[s][k], begin, end)) waiting.push_back({spans_[s][k].last, s, k});
-        std::sort(waiting.begin(), waiting.end(), [](const Waiting& a, const Waiting& b) {
-            return std::tie(a.last, a.stage, a.chunk) < std::tie(b.last, b.stage, b.chunk);
-        });
-        for (const auto& [last, stage, chunk] : waiting) task(stage, chunk);
+    /// A part has the tasks of its chunks that depend on these chunks only, each when the last of them is through stage 0.
+    void share_out(std::int32_t n_parts) {
+        parts_.assign(static_cast<std::size_t>(n_parts), {});
+        for (auto& chunks : rest_) chunks.clear();
+        for (std::int32_t part = 0; part < n_parts; ++part) {
+            const auto begin = static_cast<std::int32_t>(std::int64_t{n_chunks_} * part / n_parts);
+            const auto end = static_cast<std::int32_t>(std::int64_t{n_chunks_} * (part + 1) / n_parts);
+            std::vector<Task>& tasks = parts_[static_cast<std::size_t>(part)];
+            for (int s = 0; s < Stages; ++s)
+                for (std::int32_t k = begin; k < end; ++k)
+                    if (is_inside(spans_[s][k], begin, end))
+                        tasks.push_back({s, k});
+                    else
+                        rest_[s].push_back(k);
+            std::ranges::sort(tasks, {}, [&](const Task& task) {
+                return std::tuple(spans_[task.stage][task.chunk].last, task.stage, task.chunk);
+            });
+        }
     }
 
     std::int32_t n_chunks_ = 0;
     std::array<std::vector<Span>, Stages> spans_;
+    std::vector<std::vector<Task>> parts_;
+    std::array<std::vector<std::int32_t>, Stages> rest_;
 };
 
 }  // namespace abut::solid

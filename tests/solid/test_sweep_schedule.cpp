@@ -32,30 +32,30 @@ Needs random_needs(std::mt19937& random, std::int32_t n_chunks) {
 
 TEST_CASE("a sweep schedule runs every task once, each after what it needs, on any number of threads", "[solid][schedule]") {
     std::mt19937 random(3);
-    const int threads = GENERATE(1, 2, 4);
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
-                                              static_cast<std::size_t>(threads));
-    oneapi::tbb::task_arena arena(threads);
     for (const std::int32_t n_chunks : {1, 2, 7, 16, 33, 100}) {
         const Needs needs = random_needs(random, n_chunks);
-        const solid::SweepSchedule<stages> schedule(n_chunks, needs);
-        for (int repetition = 0; repetition < 20; ++repetition) {
-            std::vector<std::atomic<int>> runs(static_cast<std::size_t>(stages * n_chunks));
-            std::atomic<int> too_early = 0;
-            const auto at = [&](int stage, std::int32_t chunk) -> std::atomic<int>& {
-                return runs[static_cast<std::size_t>(stage * n_chunks + chunk)];
-            };
-            arena.execute([&] {
-                schedule.run([&](int stage, std::int32_t chunk) {
-                    if (stage > 0)
-                        for (const std::int32_t needed :
-                             needs[static_cast<std::size_t>(stage - 1)][static_cast<std::size_t>(chunk)])
-                            if (at(stage - 1, needed) != 1) ++too_early;
-                    ++at(stage, chunk);
+        solid::SweepSchedule<stages> schedule(n_chunks, needs);
+        for (int repetition = 0; repetition < 20; ++repetition)
+            for (const int threads : {1, 2, 4}) {  // one schedule sees them change
+                const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
+                                                          static_cast<std::size_t>(threads));
+                oneapi::tbb::task_arena arena(threads);
+                std::vector<std::atomic<int>> runs(static_cast<std::size_t>(stages * n_chunks));
+                std::atomic<int> too_early = 0;
+                const auto at = [&](int stage, std::int32_t chunk) -> std::atomic<int>& {
+                    return runs[static_cast<std::size_t>(stage * n_chunks + chunk)];
+                };
+                arena.execute([&] {
+                    schedule.run([&](int stage, std::int32_t chunk) {
+                        if (stage > 0)
+                            for (const std::int32_t needed :
+                                 needs[static_cast<std::size_t>(stage - 1)][static_cast<std::size_t>(chunk)])
+                                if (at(stage - 1, needed) != 1) ++too_early;
+                        ++at(stage, chunk);
+                    });
                 });
-            });
-            CHECK(too_early == 0);
-            CHECK(std::all_of(runs.begin(), runs.end(), [](const auto& n) { return n == 1; }));
-        }
+                CHECK(too_early == 0);
+                CHECK(std::all_of(runs.begin(), runs.end(), [](const auto& n) { return n == 1; }));
+            }
     }
 }
