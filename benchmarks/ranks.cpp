@@ -115,7 +115,7 @@ struct Shared {
         : all(communicator),
           whole(make_mesh(choices)),
           part(mesh::part_of<3>(whole, ranks::partition<3>(all, whole.cell_centroid), all.rank())),
-          points(all, ranks::shared_cells(all, 3, part.n_cells, part.cell_number, part.cell_owner)) {}
+          points(all, ranks::shared_points(all, 3, part.n_cells, part.cell_number, part.cell_owner)) {}
 };
 
 /// One value of each rank, on all.

@@ -149,16 +149,21 @@ detail::PointsOfBodies::PointsOfBodies(std::span<const std::int32_t> body_of_poi
 }
 
 void detail::PointsOfBodies::find_among_all(const Ranks& ranks) {
-    std::vector<double> counts;
-    for (std::size_t body = 0; body < n_bodies(); ++body)
-        counts.push_back(static_cast<double>(offset_[body + 1] - offset_[body]));
-    const std::vector<double> of_ranks = ranks.gather(counts);
+    std::vector<double> here;  // of each body its points and the least of their numbers
+    for (std::size_t body = 0; body < n_bodies(); ++body) {
+        const auto points = (*this)[body].points;
+        here.push_back(static_cast<double>(points.size()));
+        here.push_back(points.empty() ? 0.0 : ranks.numbers()[static_cast<std::size_t>(points.front())]);
+    }
+    const std::vector<double> of_ranks = ranks.gather(here);
     among_all_.assign(n_bodies(), Summands{.first = 0, .last = 0});
-    for (std::size_t i = 0; i < of_ranks.size(); ++i)
-        among_all_[i % n_bodies()].last += static_cast<std::int32_t>(of_ranks[i]);
-    for (std::size_t body = 1; body < n_bodies(); ++body) {
-        among_all_[body].first = among_all_[body - 1].last;
-        among_all_[body].last += among_all_[body].first;
+    for (std::size_t i = 0; i < of_ranks.size(); i += 2) {
+        if (of_ranks[i] == 0.0) continue;
+        Summands& of_body = among_all_[i / 2 % n_bodies()];
+        const auto count = static_cast<std::int32_t>(of_ranks[i]), least = static_cast<std::int32_t>(of_ranks[i + 1]);
+        const std::int32_t before = of_body.last - of_body.first;
+        of_body.first = before == 0 ? least : std::min(of_body.first, least);
+        of_body.last = of_body.first + before + count;
     }
     agreed(&ranks, [&] {
         for (std::size_t body = 0; body < n_bodies(); ++body)
@@ -166,8 +171,8 @@ void detail::PointsOfBodies::find_among_all(const Ranks& ranks) {
                 const std::int32_t number = ranks.numbers()[static_cast<std::size_t>(point)];
                 if (number < among_all_[body].first || number >= among_all_[body].last)
                     throw BadInput("restart: point " + std::to_string(number) + " of body " + std::to_string(body) +
-                                       " does not follow the points of its body and those of the bodies before. On several "
-                                       "ranks, number the points body by body.",
+                                       " does not follow the others of its body. On several ranks, number the points body "
+                                       "by body.",
                                    {.value = static_cast<double>(number)});
             }
     });

@@ -97,9 +97,12 @@ public:
           options_(options),
           steps_(options.steps_before),
           bodies_(system.body_of_points(), system.masses().size(), ranks_of(system)),
+          is_rigid_(bodies_.n_bodies(), false),
           force_(system.size()),
           report_(options.report_before) {
         detail::check_restart(options);
+        if constexpr (ConstrainedSystem<S>)
+            if (system.has_constraints()) find_rigid();
     }
 
     /// To be called after each step, and after a filter (Integrator::set_node_restart).
@@ -117,20 +120,29 @@ public:
                                          .ranks = ranks_of(system_)};
         ++report_.restarts;
         for (std::size_t body = 0; body < bodies_.n_bodies(); ++body) {
-            const detail::BodyPoints of_body = bodies_[body];
-            if constexpr (ConstrainedSystem<S>)  // nothing in it vibrates, and it would not stay rigid
-                if (!of_body.points.empty() && system_.is_constrained(of_body.points.front())) continue;
-            detail::restart_body<Dim>(of_body, node, report_);
+            if (is_rigid_[body]) continue;  // nothing in it vibrates, and it would not stay rigid
+            detail::restart_body<Dim>(bodies_[body], node, report_);
         }
     }
 
     [[nodiscard]] const RestartReport& report() const { return report_; }
 
 private:
+    /// A rank may have no points of a body.
+    void find_rigid() {
+        const Ranks* ranks = ranks_of(system_);
+        for (std::size_t body = 0; body < bodies_.n_bodies(); ++body) {
+            const auto points = bodies_[body].points;
+            const bool here = !points.empty() && system_.is_constrained(points.front());
+            is_rigid_[body] = ranks ? ranks->largest(here ? 1.0 : 0.0) > 0.0 : here;
+        }
+    }
+
     S& system_;
     RestartOptions options_;
     std::int64_t steps_;
     detail::PointsOfBodies bodies_;
+    std::vector<bool> is_rigid_;
     std::vector<double> force_;
     RestartReport report_;
 };

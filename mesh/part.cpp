@@ -12,7 +12,7 @@ namespace abut::mesh {
 namespace {
 
 template <int Dim>
-void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers) {
+void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers, std::span<const std::int32_t> whole_bodies) {
     if (std::ssize(owner) != mesh.n_cells())
         throw BadInput(mesh.name + ": owners of " + std::to_string(owner.size()) + " cells are given for " +
                            std::to_string(mesh.n_cells()) + " cells. Give one per cell.",
@@ -21,8 +21,14 @@ void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers) {
         throw BadInput(
             mesh.name + ": a part with " + std::to_string(layers) + " layers of copies is asked for, 1 at least is needed.",
             {.value = static_cast<double>(layers), .allowed = 1.0});
+    for (const std::int32_t body : whole_bodies)
+        if (body < 0 || body >= mesh.n_bodies())
+            throw BadInput(mesh.name + ": the whole of body " + std::to_string(body) +
+                               " is asked for; bodies are counted from 0 to " + std::to_string(mesh.n_bodies() - 1) + ".",
+                           {.value = static_cast<double>(body), .allowed = static_cast<double>(mesh.n_bodies() - 1)});
     for (std::int32_t c = 1; c < mesh.n_cells(); ++c)
-        if (mesh.cell_body[c] == mesh.cell_body[c - 1] && mesh.cell_faces[c].size() != mesh.cell_faces[c - 1].size())
+        if (mesh.cell_body[c] == mesh.cell_body[c - 1] && mesh.cell_faces[c].size() != mesh.cell_faces[c - 1].size() &&
+            std::ranges::find(whole_bodies, mesh.cell_body[c]) == whole_bodies.end())
             throw BadInput(mesh.name + ": body '" + mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])] +
                                "' has cells of " + std::to_string(mesh.cell_faces[c - 1].size()) + " and of " +
                                std::to_string(mesh.cell_faces[c].size()) +
@@ -32,12 +38,18 @@ void check(const Mesh<Dim>& mesh, std::span<const int> owner, int layers) {
 
 /// Own cells and copies, increasing.
 template <int Dim>
-std::vector<std::int32_t> cells_of_part(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers) {
+std::vector<std::int32_t> cells_of_part(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers,
+                                        std::span<const std::int32_t> whole_bodies) {
     std::vector<std::int32_t> cells, outermost, next;
-    std::vector<bool> taken(owner.size(), false);
-    for (std::int32_t c = 0; c < mesh.n_cells(); ++c)
-        if (owner[static_cast<std::size_t>(c)] == rank) outermost.push_back(c), taken[static_cast<std::size_t>(c)] = true;
-    cells = outermost;
+    std::vector<bool> taken(owner.size(), false), is_whole(static_cast<std::size_t>(mesh.n_bodies()), false);
+    for (const std::int32_t body : whole_bodies) is_whole[static_cast<std::size_t>(body)] = true;
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const bool of_whole = is_whole[static_cast<std::size_t>(mesh.cell_body[c])];
+        if (!of_whole && owner[static_cast<std::size_t>(c)] != rank) continue;
+        taken[static_cast<std::size_t>(c)] = true;
+        cells.push_back(c);
+        if (!of_whole) outermost.push_back(c);
+    }
     for (int layer = 0; layer < layers; ++layer) {
         next.clear();
         for (const std::int32_t c : outermost)
@@ -91,11 +103,12 @@ void set_faces(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& faces, co
 }  // namespace
 
 template <int Dim>
-MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers) {
-    check(mesh, owner, layers);
+MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers,
+                      std::span<const std::int32_t> whole_bodies) {
+    check(mesh, owner, layers, whole_bodies);
     MeshPart<Dim> result;
     result.n_cells = mesh.n_cells();
-    result.cell_number = cells_of_part(mesh, owner, rank, layers);
+    result.cell_number = cells_of_part(mesh, owner, rank, layers, whole_bodies);
     const std::vector<std::int32_t>& cells = result.cell_number;
     for (const std::int32_t c : cells) result.cell_owner.push_back(owner[static_cast<std::size_t>(c)]);
 
@@ -117,7 +130,7 @@ MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int ran
     return result;
 }
 
-template MeshPart<2> part_of(const Mesh<2>&, std::span<const int>, int, int);
-template MeshPart<3> part_of(const Mesh<3>&, std::span<const int>, int, int);
+template MeshPart<2> part_of(const Mesh<2>&, std::span<const int>, int, int, std::span<const std::int32_t>);
+template MeshPart<3> part_of(const Mesh<3>&, std::span<const int>, int, int, std::span<const std::int32_t>);
 
 }  // namespace abut::mesh

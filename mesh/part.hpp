@@ -7,7 +7,7 @@
 
 namespace abut::mesh {
 
-/// What one of several ranks has of a mesh: its own cells, and copies of those around them, which other ranks own. Cells and
+/// What one of several ranks has of a mesh: its own cells, and copies of others, which other ranks own. Cells and
 /// faces come in the order that they have in the whole mesh, bodies and groups are all there. Where the part ends inside a
 /// body, its outermost copies have boundary faces that the whole mesh does not have.
 template <int Dim>
@@ -23,10 +23,10 @@ struct MeshPart {
 inline constexpr int default_layers = 8;
 
 /// The part of a rank: the cells that it owns, and `layers` of neighbours across faces around them. `owner` says whose each
-/// cell is (n_cells). Throws BadInput where its length is another one, for fewer than 1 layer, and for a body with cells of
-/// more than one number of faces.
+/// cell is (n_cells). Of `whole_bodies` each part has all cells. Throws BadInput where the length of `owner` is another one, for
+/// fewer than 1 layer, for a body that does not exist, and for another one with cells of more than one number of faces.
 template <int Dim>
-[[nodiscard]] MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank,
-                                    int layers = default_layers);
+[[nodiscard]] MeshPart<Dim> part_of(const Mesh<Dim>& mesh, std::span<const int> owner, int rank, int layers = default_layers,
+                                    std::span<const std::int32_t> whole_bodies = {});
 
 }  // namespace abut::mesh

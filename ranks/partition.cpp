@@ -125,18 +125,18 @@ std::vector<int> partition(const Communicator& communicator, std::span<const Vec
     return gather_to_all<std::int32_t>(communicator, mine).values;
 }
 
-SharedPoints shared_cells(const Communicator& communicator, int dimension, std::int32_t n_points,
-                          std::span<const std::int32_t> cell_number, std::span<const int> cell_owner) {
-    SharedPoints points{.dimension = dimension, .n_points = n_points, .n_entries = cell_number.size()};
-    for (std::size_t c = 0; c < cell_number.size(); ++c) {
-        const auto position = static_cast<std::int32_t>(c);
-        if (cell_owner[c] == communicator.rank()) {
-            points.numbers.push_back(cell_number[c]);
+SharedPoints shared_points(const Communicator& communicator, int dimension, std::int32_t n_points,
+                           std::span<const std::int32_t> number, std::span<const int> owner) {
+    SharedPoints points{.dimension = dimension, .n_points = n_points, .n_entries = number.size()};
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        const auto position = static_cast<std::int32_t>(i);
+        if (owner[i] == communicator.rank()) {
+            points.numbers.push_back(number[i]);
             points.position.push_back(position);
         } else {
             points.copies.push_back(position);
-            points.owner.push_back(cell_owner[c]);
-            points.copied_point.push_back(cell_number[c]);
+            points.owner.push_back(owner[i]);
+            points.copied_point.push_back(number[i]);
         }
     }
     return points;

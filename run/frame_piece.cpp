@@ -16,14 +16,12 @@ class PieceMaker {
 public:
     PieceMaker(FramePiece<Dim>& piece, solid::Solid<Dim>& solid)
         : piece_(piece), solid_(solid), mesh_(*piece.mesh), is_own_(mesh_.cell_measure.size(), 0) {
+        solid::OwnCells own = solid.own_cells();
+        piece.cells = std::move(own.number);
+        positions_ = std::move(own.position);
         if (const dynamics::Ranks* ranks = solid.ranks()) {
-            piece.cells.assign(ranks->numbers().begin(), ranks->numbers().end());
-            positions_.assign(ranks->positions().begin(), ranks->positions().end());
             piece.number = ranks->rank();
-            piece.n_pieces = static_cast<int>(ranks->gather(std::vector{1.0}).size());
-        } else {
-            for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) piece.cells.push_back(c);
-            positions_ = piece.cells;
+            piece.n_pieces = ranks->n_ranks();
         }
         for (const std::int32_t cell : piece.cells) is_own_[static_cast<std::size_t>(cell)] = 1;
     }
@@ -44,12 +42,9 @@ public:
         const std::vector<int> around = count_around();
         for (std::size_t v = 0; v < around.size(); ++v)
             if (around[v] > 0) piece_.vertices.push_back(static_cast<std::int32_t>(v));
-        std::vector<Vector<Dim>> of_all;
-        // A body that turns is not where the mean displacement of its cells takes it; it is on one rank.
-        if (solid_.moment_arms() == dynamics::MomentArms::mid_step)
-            of_all = solid_.vertex_displacement(run.q);
-        else
-            of_all = vertex_means(around);
+        // A body that turns is not where the mean displacement of its cells takes it.
+        const bool turns = solid_.moment_arms() == dynamics::MomentArms::mid_step;
+        const std::vector<Vector<Dim>> of_all = vertex_means(around, turns ? gradients(run.q) : std::vector<Matrix<Dim>>{});
         for (const std::int32_t v : piece_.vertices)
             piece_.vertex_displacement.push_back(of_all[static_cast<std::size_t>(v)]);
     }
@@ -81,31 +76,50 @@ private:
         return around;
     }
 
-    /// Means over all cells around a vertex, one after the other by number. Those of other ranks come from these.
-    [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around) const {
+    /// Of own cells (n).
+    [[nodiscard]] std::vector<Matrix<Dim>> gradients(std::span<const double> q) const {
+        std::vector<Matrix<Dim>> of_own;
+        for (const std::int32_t position : positions_) of_own.push_back(solid_.displacement_gradient(position, q));
+        return of_own;
+    }
+
+    /// Means over all cells around a vertex, one after the other by number, of where each carries it: by its displacement and,
+    /// where they are given, by the displacement gradients of own cells. Those of other ranks come from these.
+    [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around,
+                                                        std::span<const Matrix<Dim>> own_gradients) const {
         std::vector<Vector<Dim>> of_cells(mesh_.cell_measure.size(), Vector<Dim>::Zero());
-        for (std::size_t i = 0; i < piece_.cells.size(); ++i)
+        std::vector<Matrix<Dim>> gradients(own_gradients.empty() ? 0 : of_cells.size(), Matrix<Dim>::Zero());
+        for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
             of_cells[static_cast<std::size_t>(piece_.cells[i])] = piece_.displacement[i];
+            if (!gradients.empty()) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients[i];
+        }
         if (const dynamics::Ranks* ranks = solid_.ranks()) {
-            const std::vector<double> shared = ranks->gather(values_at_seams());
-            for (std::size_t i = 0; i < shared.size(); i += 1 + Dim)
-                for (int k = 0; k < Dim; ++k) of_cells[static_cast<std::size_t>(shared[i])][k] = shared[i + 1 + k];
+            const std::vector<double> shared = ranks->gather(values_at_seams(own_gradients));
+            const std::size_t width = 1 + Dim + (gradients.empty() ? 0 : Dim * Dim);
+            for (std::size_t i = 0; i < shared.size(); i += width) {
+                const auto cell = static_cast<std::size_t>(shared[i]);
+                of_cells[cell] = Vector<Dim>(&shared[i + 1]);
+                if (!gradients.empty()) gradients[cell] = Eigen::Map<const Matrix<Dim>>(&shared[i + 1 + Dim]);
+            }
         }
         std::vector<Vector<Dim>> mean(mesh_.vertices.size(), Vector<Dim>::Zero());
         std::vector<int> count(mesh_.vertices.size(), 0);
-        for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
-            for (const std::int32_t v : mesh_.cell_vertices[cell]) {
+        for (std::size_t cell = 0; cell < of_cells.size(); ++cell)
+            for (const std::int32_t v : mesh_.cell_vertices[static_cast<std::int32_t>(cell)]) {
                 const auto vertex = static_cast<std::size_t>(v);
                 if (around[vertex] == 0) continue;
-                mean[vertex] += of_cells[static_cast<std::size_t>(cell)];
+                if (gradients.empty())
+                    mean[vertex] += of_cells[cell];
+                else
+                    mean[vertex] += of_cells[cell] + gradients[cell] * (mesh_.vertices[vertex] - mesh_.cell_centroid[cell]);
                 ++count[vertex];
             }
         for (const std::int32_t v : piece_.vertices) mean[static_cast<std::size_t>(v)] /= count[static_cast<std::size_t>(v)];
         return mean;
     }
 
-    /// Number and displacement of own cells that share a vertex with a cell of another rank.
-    [[nodiscard]] std::vector<double> values_at_seams() const {
+    /// Number, displacement and, where they are given, gradient of own cells that share a vertex with a cell of another rank.
+    [[nodiscard]] std::vector<double> values_at_seams(std::span<const Matrix<Dim>> own_gradients) const {
         std::vector<char> at_seam(mesh_.vertices.size(), 0);
         for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
             if (!is_own_[static_cast<std::size_t>(cell)])
@@ -118,6 +132,8 @@ private:
             if (!shared) continue;
             values.push_back(piece_.cells[i]);
             values.insert(values.end(), piece_.displacement[i].begin(), piece_.displacement[i].end());
+            if (own_gradients.empty()) continue;
+            values.insert(values.end(), own_gradients[i].data(), own_gradients[i].data() + Dim * Dim);
         }
         return values;
     }

@@ -41,7 +41,39 @@ Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
 }  // namespace
 
 template <int Dim>
-Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) : mesh_(mesh), options_(options) {
+std::vector<bool> turning_tractions(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                    const dynamics::Ranks* ranks) {
+    const auto may_turn = [&](std::int32_t face) {
+        const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
+        return body < options.kinematics.size() && options.kinematics[body] != Kinematics::small;
+    };
+    struct Sides {
+        double turning = 0.0, others = 0.0;  // 1: there are such faces
+    };
+    std::vector<Sides> of_conditions = dynamics::agreed(ranks, [&] {
+        std::vector<Sides> here;
+        for (const TractionCondition<Dim>& condition : options.boundary.traction) {
+            Sides& sides = here.emplace_back();
+            for (const std::int32_t face : mesh.group(condition.group).faces)
+                (may_turn(face) ? sides.turning : sides.others) = 1.0;
+        }
+        return here;
+    });
+    std::vector<bool> turning;
+    for (std::size_t i = 0; i < of_conditions.size(); ++i) {
+        Sides& sides = of_conditions[i];
+        if (ranks) sides = {ranks->largest(sides.turning), ranks->largest(sides.others)};
+        if (sides.turning > 0.0 && sides.others > 0.0)
+            throw BadInput(mesh.name + ": the traction on '" + options.boundary.traction[i].group +
+                           "' acts on bodies of Kinematics::small and on others. Give each kind a group of its own.");
+        turning.push_back(sides.turning > 0.0);
+    }
+    return turning;
+}
+
+template <int Dim>
+Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning_tractions)
+    : mesh_(mesh), options_(options), turning_tractions_(std::move(turning_tractions)) {
     check();
     std::vector<std::int32_t> rigid;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
@@ -51,8 +83,10 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.materials = chosen(options.materials, deformable_bodies_);
     part_options_.kinematics = chosen(options.kinematics, deformable_bodies_);
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
-    std::erase_if(part_options_.boundary.traction,
-                  [&](const auto& condition) { return is_on_turning_body(condition.group); });
+    part_options_.boundary.traction.clear();
+    for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)
+        if (!turning_tractions_[i]) part_options_.boundary.traction.push_back(options.boundary.traction[i]);
+    if (part_) keep_groups();
     rigid_.emplace(mesh, rigid, options.materials, n_cells());
 
     const mesh::Mesh<Dim>& part = deformable();
@@ -68,6 +102,18 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
             body_.push_back(rigid_->mesh_body(i));
         }
     for (const double mass : masses_) inverse_masses_.insert(inverse_masses_.end(), Dim, 1.0 / mass);
+}
+
+/// Those of conditions, which in the part of a rank may have no face.
+template <int Dim>
+void Bodies<Dim>::keep_groups() {
+    const auto keep = [&](const auto& conditions) {
+        for (const auto& condition : conditions)
+            if (std::ranges::find(part_->groups, condition.group, &mesh::BoundaryGroup::name) == part_->groups.end())
+                part_->groups.push_back({condition.group, {}});
+    };
+    keep(part_options_.boundary.dirichlet);
+    keep(part_options_.boundary.traction);
 }
 
 template <int Dim>
@@ -150,18 +196,6 @@ void Bodies<Dim>::check_outside(const TractionCondition<Dim>& condition) const {
     if (!condition.value.allFinite()) refuse("its value at the start is not finite. Correct TractionCondition::value.");
     const auto is_same = [&](const auto& other) { return other.from_outside && other.group == condition.group; };
     if (std::ranges::count_if(options_.boundary.traction, is_same) > 1) refuse("is given twice. Leave one out.");
-}
-
-/// Throws BadInput for a group on bodies of both kinds.
-template <int Dim>
-bool Bodies<Dim>::is_on_turning_body(const std::string& name) const {
-    const auto on_turning = [&](std::int32_t face) { return turns(mesh_.cell_body[mesh_.face_cells[face][0]]); };
-    const std::vector<std::int32_t>& faces = mesh_.group(name).faces;
-    if (std::ranges::none_of(faces, on_turning)) return false;
-    if (!std::ranges::all_of(faces, on_turning))
-        throw BadInput(mesh_.name + ": the traction on '" + name +
-                       "' acts on bodies of Kinematics::small and on others. Give each kind a group of its own.");
-    return true;
 }
 
 template <int Dim>
@@ -349,8 +383,13 @@ template <int Dim>
 Matrix<Dim> Bodies<Dim>::mean_turn(std::int32_t body, const BodyFrames<Dim>& frames) const {
     for (std::size_t i = 0; i < rigid_->size(); ++i)
         if (rigid_->mesh_body(i) == body) return rigid_->mean_turn(i);
+    return frames.step(static_cast<std::size_t>(deformable_body(body))).mean_turn();
+}
+
+template <int Dim>
+std::int32_t Bodies<Dim>::deformable_body(std::int32_t body) const {
     const auto found = std::ranges::find(deformable_bodies_, body);
-    return frames.step(static_cast<std::size_t>(found - deformable_bodies_.begin())).mean_turn();
+    return found == deformable_bodies_.end() ? -1 : static_cast<std::int32_t>(found - deformable_bodies_.begin());
 }
 
 template <int Dim>
@@ -362,10 +401,9 @@ std::pair<std::int32_t, std::int32_t> Bodies<Dim>::points_of(std::int32_t body) 
 
 template <int Dim>
 std::pair<std::int32_t, std::int32_t> Bodies<Dim>::deformable_cell(std::int32_t cell) const {
-    const auto found = std::ranges::find(deformable_bodies_, mesh_.cell_body[cell]);
-    if (found == deformable_bodies_.end()) return {-1, -1};
-    const auto body = static_cast<std::int32_t>(found - deformable_bodies_.begin());
-    return {cell - cells_of_body(mesh_, *found).first + cells_of_body(deformable(), body).first, body};
+    const std::int32_t body = deformable_body(mesh_.cell_body[cell]);
+    if (body < 0) return {-1, -1};
+    return {cell - cells_of_body(mesh_, mesh_.cell_body[cell]).first + cells_of_body(deformable(), body).first, body};
 }
 
 template <int Dim>
@@ -374,6 +412,8 @@ std::int32_t Bodies<Dim>::mesh_cell(std::int32_t cell) const {
     return cell - cells_of_body(deformable(), body).first + cells_of_body(mesh_, deformable_bodies_[body]).first;
 }
 
+template std::vector<bool> turning_tractions(const mesh::Mesh<2>&, const SolidOptions<2>&, const dynamics::Ranks*);
+template std::vector<bool> turning_tractions(const mesh::Mesh<3>&, const SolidOptions<3>&, const dynamics::Ranks*);
 template class Bodies<2>;
 template class Bodies<3>;
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/dynamics/ranks.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
 #include "abut/solid/kinematics/rigid_bodies.hpp"
@@ -13,13 +14,20 @@
 
 namespace abut::solid {
 
+/// Of each traction of the options, whether it acts on bodies that may turn. A call of all ranks, of which one may have no face
+/// of its group. Throws BadInput for a group on bodies of both kinds, and for one that the mesh does not have.
+template <int Dim>
+[[nodiscard]] std::vector<bool> turning_tractions(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                                  const dynamics::Ranks* ranks);
+
 /// The bodies of a solid, by how they move. Its points are the cells of those that deform, then the points of those that are
 /// rigid; both in the order of the mesh.
 template <int Dim>
 class Bodies {
 public:
-    /// The mesh must outlive it. Throws BadInput for options that do not fit the mesh or each other.
-    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options);
+    /// The mesh must outlive it; `turning_tractions` as below. Throws BadInput for options that do not fit the mesh or each
+    /// other.
+    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning_tractions);
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do.
@@ -29,6 +37,8 @@ public:
     [[nodiscard]] bool is_rigid(std::int32_t body) const { return kinematics(body) == Kinematics::rigid; }
     [[nodiscard]] bool is_finite(std::int32_t body) const { return kinematics(body) == Kinematics::finite; }
     [[nodiscard]] bool any_finite() const;
+    /// Whether a traction of `options` acts on bodies that may turn.
+    [[nodiscard]] bool is_turning_traction(std::size_t condition) const { return turning_tractions_[condition]; }
     /// Its points are [first, second).
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
@@ -62,6 +72,8 @@ public:
     [[nodiscard]] std::vector<double> rigid_stiffness() const;
     /// The cell of the mesh in `deformable`, and its body there; -1 of rigid bodies.
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> deformable_cell(std::int32_t cell) const;
+    /// A body of the mesh in `deformable`; -1 of a rigid one.
+    [[nodiscard]] std::int32_t deformable_body(std::int32_t body) const;
     /// The other way round: the cell of the mesh that is this one in `deformable`.
     [[nodiscard]] std::int32_t mesh_cell(std::int32_t deformable_cell) const;
     /// The body of the mesh where bodies that deform come first, then those that are rigid; what comes behind stays.
@@ -87,16 +99,17 @@ public:
 
 private:
     void check() const;
+    void keep_groups();
     void refuse_on_turning_bodies(const DirichletCondition<Dim>& condition) const;
     void refuse_following(const TractionCondition<Dim>& condition) const;
     void check_outside(const TractionCondition<Dim>& condition) const;
-    [[nodiscard]] bool is_on_turning_body(const std::string& group) const;
     [[nodiscard]] Kinematics kinematics(std::int32_t body) const;
     [[nodiscard]] double cell_mass(std::int32_t cell) const;
     [[nodiscard]] std::vector<Vector<Dim>> of_deformable_cells(std::span<const Vector<Dim>> of_points) const;
 
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
+    std::vector<bool> turning_tractions_;
     std::optional<mesh::Mesh<Dim>> part_;  // none: all bodies deform
     SolidOptions<Dim> part_options_;
     std::vector<std::int32_t> deformable_bodies_;

@@ -66,12 +66,19 @@ double CornerSurface<Dim>::amplification_of(BoundaryFace b) const {
     return largest;
 }
 
+/// The boundary faces of bodies that deform, in the numbering of the mesh of all bodies.
+template <int Dim>
+std::vector<BoundaryFace> CornerSurface<Dim>::deformable_in_mesh() const {
+    std::vector<BoundaryFace> in_mesh;
+    for (const BoundaryFace b : boundary_faces(bodies_.mesh()))
+        if (!bodies_.is_rigid(bodies_.mesh().cell_body[cell_of(bodies_.mesh(), b)])) in_mesh.push_back(b);
+    return in_mesh;
+}
+
 template <int Dim>
 void CornerSurface<Dim>::append_deformable() {
     const auto prescribed = ccg_.prescribed();
-    std::vector<BoundaryFace> in_mesh;  // of the boundary faces of bodies that deform
-    for (const BoundaryFace b : boundary_faces(bodies_.mesh()))
-        if (!bodies_.is_rigid(bodies_.mesh().cell_body[cell_of(bodies_.mesh(), b)])) in_mesh.push_back(b);
+    const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
     for (const BoundaryFace b : ccg_.boundary_faces()) {
         if (!prescribed[b].isZero(0.0)) {
             ++faces_left_out_;
@@ -84,18 +91,19 @@ void CornerSurface<Dim>::append_deformable() {
     }
 }
 
-/// All bodies deform then.
 template <int Dim>
 void CornerSurface<Dim>::append_deformable_of_ranks() {
+    const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
     faces_left_out_ = ranks_->n_left_out();
     std::vector<double> own;
     for (std::size_t i = 0; i < ranks_->faces().size(); ++i) {
         const auto& face = ranks_->faces()[i];
         add_face(face.corners, face.cell_depth, face.body, face.stiffness);
-        boundary_.push_back(ranks_->here()[i]);
+        const BoundaryFace here = ranks_->here()[i];
+        boundary_.push_back(here);
+        mesh_boundary_.push_back(here == no_face ? no_face : in_mesh[static_cast<std::size_t>(here)]);
         if (ranks_->is_own(i)) own.push_back(amplification_of(boundary_.back()));
     }
-    mesh_boundary_ = boundary_;
     amplification_ = ranks_->gather_numbers(own);
 }
 
@@ -103,9 +111,10 @@ template <int Dim>
 void CornerSurface<Dim>::append_rigid() {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     const RigidBodies<Dim>& rigid = bodies_.rigid();
+    const std::int32_t others = part_ ? part_->n_all_cells() - bodies_.n_cells() : 0;  // from here to all points
     for (std::size_t i = 0; i < rigid.size(); ++i) {
         rigid_points_.emplace_back(RigidBodies<Dim>::points_per_body);
-        std::iota(rigid_points_.back().begin(), rigid_points_.back().end(), rigid.first_point(i));
+        std::iota(rigid_points_.back().begin(), rigid_points_.back().end(), rigid.first_point(i) + others);
         for (const BoundaryFace b : boundary_faces(mesh)) {
             const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
             if (mesh.cell_body[cell] != rigid.mesh_body(i)) continue;

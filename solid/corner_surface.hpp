@@ -90,6 +90,7 @@ public:
     [[nodiscard]] const std::vector<RigidPlace<Dim>>& rigid_places() const { return places_; }
 
 private:
+    [[nodiscard]] std::vector<BoundaryFace> deformable_in_mesh() const;
     void append_deformable();
     void append_deformable_of_ranks();
     void add_face(std::span<const Vector<Dim>> corners, double depth, std::int32_t body, double stiffness);

@@ -1,19 +1,18 @@
 #include "abut/solid/point_loads.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
+#include <utility>
 
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/point_system.hpp"
 
 namespace abut::solid {
 namespace {
-
-constexpr double least_width = 1e-3;  // of a cloud of points: its least second moment over the largest
 
 /// The discrete gradient of k/2 (|r| - L)^2: along the mean of r, so that it has no moment about the mean positions.
 template <int Dim>
@@ -34,121 +33,68 @@ Vector<Dim> damping_tension(const Spring<Dim>& law, const Vector<Dim>& r, const 
 }  // namespace
 
 template <int Dim>
-PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies) : bodies_(bodies), options_(bodies.options()) {
-    hold_springs();
-    hold_tractions();
+PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>* part)
+    : bodies_(bodies), options_(bodies.options()), part_(part) {
+    HeldPlaces<Dim> places(bodies, part);
+    hold_springs(places);
+    hold_tractions(places);
+    take_held_points();
     check_moments();
     for (const BodyMoment<Dim>& law : options_.moments) moments_.push_back({law});
 }
 
-/// Mass, centre and second moments of some points.
 template <int Dim>
-struct PointLoads<Dim>::Cloud {
-    Cloud(const Bodies<Dim>& bodies, std::span<const std::int32_t> points) {
-        const Vector<Dim> origin = bodies.rest()[points.front()];
-        for (const std::int32_t i : points) {
-            mass += bodies.masses()[i];
-            centre += bodies.masses()[i] * (bodies.rest()[i] - origin);
-        }
-        centre = origin + centre / mass;
-        for (const std::int32_t i : points) {
-            const Vector<Dim> arm = bodies.rest()[i] - centre;
-            second_moment += bodies.masses()[i] * arm * arm.transpose();
-        }
-    }
-    [[nodiscard]] bool is_wide() const {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen(
-            Eigen::Matrix<double, Dim, Dim>(second_moment), Eigen::EigenvaluesOnly);
-        return eigen.eigenvalues()[0] > least_width * eigen.eigenvalues()[Dim - 1];
-    }
-
-    double mass = 0.0;
-    Vector<Dim> centre = Vector<Dim>::Zero();
-    Matrix<Dim> second_moment = Matrix<Dim>::Zero();
-};
-
-/// Weights that add up to 1, and with which the place moves exactly with affine motions of the points.
-template <int Dim>
-HeldPlace<Dim> PointLoads<Dim>::held_by(std::vector<std::int32_t> points, const Vector<Dim>& position) const {
-    const Cloud cloud(bodies_, points);
-    HeldPlace<Dim> place{.points = std::move(points), .weights = {}, .rest = position};
-    const Vector<Dim> slope = cloud.second_moment.inverse() * (position - cloud.centre);
-    for (const std::int32_t i : place.points)
-        place.weights.push_back(bodies_.masses()[i] * (1.0 / cloud.mass + slope.dot(bodies_.rest()[i] - cloud.centre)));
-    return place;
-}
-
-/// The cells that are near enough, and as many of the next ones as it takes to span all directions.
-template <int Dim>
-std::vector<std::int32_t> PointLoads<Dim>::cells_around(const Anchor<Dim>& anchor) const {
-    const auto [begin, end] = bodies_.points_of(anchor.body);
-    std::vector<std::int32_t> cells(static_cast<std::size_t>(end - begin));
-    std::iota(cells.begin(), cells.end(), begin);
-    const auto distance = [&](std::int32_t i) { return (bodies_.rest()[i] - anchor.position).norm(); };
-    std::ranges::stable_sort(cells, {}, distance);
-    const auto near = std::ranges::partition_point(cells, [&](std::int32_t i) { return distance(i) <= anchor.radius; });
-    const std::span<const std::int32_t> all(cells);
-    for (std::size_t n = std::max<std::size_t>(static_cast<std::size_t>(near - cells.begin()), Dim + 1); n <= all.size();
-         ++n)
-        if (Cloud(bodies_, all.first(n)).is_wide()) {
-            cells.resize(n);
-            std::ranges::sort(cells);
-            return cells;
-        }
-    throw BadInput(bodies_.mesh().name + ": the centres of the cells of body '" + bodies_.mesh().body_names[anchor.body] +
-                   "' lie nearly in a plane or on a line, so that nothing can be held beside it. Refine its mesh, or choose "
-                   "Kinematics::rigid.");
-}
-
-template <int Dim>
-HeldPlace<Dim> PointLoads<Dim>::place_of(const Anchor<Dim>& anchor) const {
-    if (anchor.body == ground) return {.points = {}, .weights = {}, .rest = anchor.position};
-    if (anchor.body < 0 || anchor.body >= bodies_.mesh().n_bodies() || !anchor.position.allFinite() ||
-        !(anchor.radius >= 0.0))
-        throw BadInput(bodies_.mesh().name + ": a spring is anchored to body " + std::to_string(anchor.body) +
-                       " with a radius of " + number(anchor.radius) + " m; bodies are counted from 0 to " +
-                       std::to_string(bodies_.mesh().n_bodies() - 1) +
-                       " (solid::ground: none), a radius is >= 0, and a position is finite.");
-    if (!bodies_.is_rigid(anchor.body)) return held_by(cells_around(anchor), anchor.position);
-    const auto [begin, end] = bodies_.points_of(anchor.body);
-    std::vector<std::int32_t> points(static_cast<std::size_t>(end - begin));
-    std::iota(points.begin(), points.end(), begin);
-    return held_by(std::move(points), anchor.position);
-}
-
-template <int Dim>
-void PointLoads<Dim>::hold_springs() {
+void PointLoads<Dim>::hold_springs(HeldPlaces<Dim>& places) {
     for (const Spring<Dim>& law : options_.springs) {
         for (const double value : {law.stiffness, law.length, law.damping})
             if (!(value >= 0.0) || !std::isfinite(value))
                 throw BadInput(bodies_.mesh().name + ": a spring has the value " + number(value) +
                                    "; stiffness, length and damping must be finite and >= 0. Correct SolidOptions::springs.",
                                {.value = value, .allowed = 0.0});
-        springs_.push_back({place_of(law.first), place_of(law.second), law});
+        HeldPlace<Dim> first = places.of(law.first), second = places.of(law.second);
+        springs_.push_back({std::move(first), std::move(second), law});
     }
 }
 
 template <int Dim>
-void PointLoads<Dim>::hold_tractions() {
-    const mesh::Mesh<Dim>& mesh = bodies_.mesh();
-    for (std::size_t i = 0; i < options_.boundary.traction.size(); ++i) {
-        const TractionCondition<Dim>& condition = options_.boundary.traction[i];
-        const std::vector<std::int32_t>& faces = mesh.group(condition.group).faces;
-        outside_.emplace_back(condition.from_outside ? faces.size() : 0, condition.value);
-        for (std::size_t k = 0; k < faces.size(); ++k) {
-            const std::int32_t body = mesh.cell_body[mesh.face_cells[faces[k]][0]];
-            if (!bodies_.turns(body)) continue;
-            Anchor<Dim> anchor{.body = body, .position = mesh.face_centroid[faces[k]]};
-            tractions_.push_back({place_of(anchor), mesh.face_measure[faces[k]], body, i, k});
-        }
+void PointLoads<Dim>::hold_tractions(HeldPlaces<Dim>& places) {
+    const auto& conditions = options_.boundary.traction;
+    for (std::size_t i = 0; i < conditions.size(); ++i) {
+        const std::size_t n_faces = bodies_.mesh().group(conditions[i].group).faces.size();
+        outside_.emplace_back(conditions[i].from_outside ? n_faces : 0, conditions[i].value);
+        if (!bodies_.is_turning_traction(i)) continue;
+        for (const auto& face : places.faces_of(conditions[i].group))
+            tractions_.push_back(
+                {places.of({.body = face.body, .position = face.centroid}), face.area, face.body, i, face.in_group});
     }
+}
+
+/// From here on places are by held point.
+template <int Dim>
+void PointLoads<Dim>::take_held_points() {
+    std::vector<HeldPlace<Dim>*> places;
+    for (HeldSpring& spring : springs_) places.insert(places.end(), {&spring.first, &spring.second});
+    for (HeldTraction& traction : tractions_) places.push_back(&traction.place);
+    std::vector<std::int32_t> numbers;
+    for (const HeldPlace<Dim>* place : places) numbers.insert(numbers.end(), place->points.begin(), place->points.end());
+    sort_unique(numbers);
+    for (HeldPlace<Dim>* place : places)
+        for (std::int32_t& point : place->points)
+            point = static_cast<std::int32_t>(std::ranges::lower_bound(numbers, point) - numbers.begin());
+    held_ = HeldPoints<Dim>(std::move(numbers), part_);
 }
 
 template <int Dim>
 std::vector<HeldPlace<Dim>> PointLoads<Dim>::traction_places(std::size_t condition) const {
+    std::vector<std::pair<std::size_t, HeldPlace<Dim>>> by_face;
+    for (const HeldTraction& traction : tractions_) {
+        if (traction.condition != condition) continue;
+        HeldPlace<Dim>& place = by_face.emplace_back(traction.face, traction.place).second;
+        for (std::int32_t& point : place.points) point = held_.numbers()[static_cast<std::size_t>(point)];
+    }
+    std::ranges::sort(by_face, {}, [](const auto& entry) { return entry.first; });
     std::vector<HeldPlace<Dim>> places;
-    for (const HeldTraction& traction : tractions_)
-        if (traction.condition == condition) places.push_back(traction.place);
+    for (auto& entry : by_face) places.push_back(std::move(entry.second));
     return places;
 }
 
@@ -171,9 +117,12 @@ bool PointLoads<Dim>::do_work() const {
 
 template <int Dim>
 double PointLoads<Dim>::energy(std::span<const Vector<Dim>> q) const {
+    if (springs_.empty()) return 0.0;
+    std::vector<Vector<Dim>> held;
+    held_.take(q, held);
     double energy = 0.0;
     for (const HeldSpring& spring : springs_) {
-        const double stretch = (spring.second.at(q) - spring.first.at(q)).norm() - spring.law.length;
+        const double stretch = (spring.second.at(held) - spring.first.at(held)).norm() - spring.law.length;
         energy += 0.5 * spring.law.stiffness * stretch * stretch;
     }
     return energy;
@@ -182,8 +131,12 @@ double PointLoads<Dim>::energy(std::span<const Vector<Dim>> q) const {
 template <int Dim>
 void PointLoads<Dim>::add(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
                           contact::TakenForce take, const TurnOf& turn_of, std::span<Vector<Dim>> force, double& work) {
-    add_springs(q_0, q_1, dt, take, force, work);
-    work += add_tractions(q_0, q_1, time, turn_of, force);
+    held_.take(q_0, held_0_);
+    held_.take(q_1, held_1_);
+    force_.assign(held_0_.size(), Vector<Dim>::Zero());
+    add_springs(held_0_, held_1_, dt, take, force_, work);
+    work += add_tractions(held_0_, held_1_, time, turn_of, force_);
+    held_.add(force_, force);
     for (HeldMoment& moment : moments_) {
         const Middle middle = middle_of(moment.law.body, q_0, q_1);
         const AxialVector<Dim> spin = spin_of<Dim>(middle.second_moment, middle.angular) / dt;
@@ -196,13 +149,17 @@ void PointLoads<Dim>::add(std::span<const Vector<Dim>> q_0, std::span<const Vect
 template <int Dim>
 void PointLoads<Dim>::add_at(std::span<const Vector<Dim>> q, double time, const TurnOf& turn_of,
                              std::span<Vector<Dim>> force) const {
+    std::vector<Vector<Dim>> held;
+    held_.take(q, held);
+    std::vector<Vector<Dim>> of_held(held.size(), Vector<Dim>::Zero());
     for (const HeldSpring& spring : springs_) {
-        const Vector<Dim> r = spring.second.at(q) - spring.first.at(q);
+        const Vector<Dim> r = spring.second.at(held) - spring.first.at(held);
         push(spring,
              mean_tension(spring.law, r, r) + damping_tension(spring.law, r, spring.rate.value_or(Vector<Dim>::Zero())),
-             force);
+             of_held);
     }
-    add_tractions(q, q, time, turn_of, force);
+    add_tractions(held, held, time, turn_of, of_held);
+    held_.add(of_held, force);
     for (const HeldMoment& moment : moments_)
         add_moment(moment.law, moment.spin.value_or(AxialVector<Dim>::Zero()), middle_of(moment.law.body, q, q), q, q,
                    force);
@@ -256,23 +213,44 @@ double PointLoads<Dim>::add_tractions(std::span<const Vector<Dim>> q_0, std::spa
     return work;
 }
 
+/// Calls of_point(point) for the points of a body that are on this rank.
+template <int Dim>
+template <class Body>
+void PointLoads<Dim>::for_each_own(std::int32_t body, const Body& of_point) const {
+    if (const std::int32_t deformable = bodies_.deformable_body(body); part_ && deformable >= 0) {
+        for (const std::int32_t i : part_->own_cells_of(static_cast<std::size_t>(deformable))) of_point(i);
+        return;
+    }
+    const auto [begin, end] = bodies_.points_of(body);
+    for (std::int32_t i = begin; i < end; ++i) of_point(i);
+}
+
+/// Of term(point) over the points of a body, in blocks of fixed size, whatever ranks they are on.
+template <int Dim>
+template <class Value, class Term>
+Value PointLoads<Dim>::sum_of(std::int32_t body, const Value& zero, const Term& term) const {
+    if (const std::int32_t deformable = bodies_.deformable_body(body); part_ && deformable >= 0)
+        return part_->sum_of_body(static_cast<std::size_t>(deformable), zero, term);
+    const auto [begin, end] = bodies_.points_of(body);
+    return ordered_sum(end - begin, zero,
+                       [&, first = begin](std::ptrdiff_t i) { return term(first + static_cast<std::int32_t>(i)); });
+}
+
 template <int Dim>
 typename PointLoads<Dim>::Middle PointLoads<Dim>::middle_of(std::int32_t body, std::span<const Vector<Dim>> q_0,
                                                             std::span<const Vector<Dim>> q_1) const {
-    const auto [begin, end] = bodies_.points_of(body);
     const auto at = [&](std::int32_t i) -> Vector<Dim> { return bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]); };
-    Middle middle{Vector<Dim>::Zero(), Matrix<Dim>::Zero(), AxialVector<Dim>::Zero()};
-    double mass = 0.0;
-    for (std::int32_t i = begin; i < end; ++i) {
-        mass += bodies_.masses()[i];
-        middle.centre += bodies_.masses()[i] * at(i);
-    }
-    middle.centre /= mass;
-    for (std::int32_t i = begin; i < end; ++i) {
+    const double mass = sum_of(body, 0.0, [&](std::int32_t i) { return bodies_.masses()[i]; });
+    const Vector<Dim> moment_of_mass = sum_of(body, Vector<Dim>(Vector<Dim>::Zero()),
+                                              [&](std::int32_t i) -> Vector<Dim> { return bodies_.masses()[i] * at(i); });
+    Middle middle{moment_of_mass / mass, Matrix<Dim>::Zero(), AxialVector<Dim>::Zero()};
+    middle.second_moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t i) -> Matrix<Dim> {
         const Vector<Dim> arm = at(i) - middle.centre;
-        middle.second_moment += bodies_.masses()[i] * arm * arm.transpose();
-        middle.angular += bodies_.masses()[i] * moment<Dim>(arm, Vector<Dim>(q_1[i] - q_0[i]));
-    }
+        return bodies_.masses()[i] * arm * arm.transpose();
+    });
+    middle.angular = sum_of(body, AxialVector<Dim>(AxialVector<Dim>::Zero()), [&](std::int32_t i) -> AxialVector<Dim> {
+        return bodies_.masses()[i] * moment<Dim>(Vector<Dim>(at(i) - middle.centre), Vector<Dim>(q_1[i] - q_0[i]));
+    });
     return middle;
 }
 
@@ -283,28 +261,30 @@ double PointLoads<Dim>::add_moment(const BodyMoment<Dim>& law, const AxialVector
                                    std::span<Vector<Dim>> force) const {
     const Matrix<Dim> turning =
         hat<Dim>(spin_of<Dim>(middle.second_moment, AxialVector<Dim>(law.moment - law.damping * spin)));
-    const auto [begin, end] = bodies_.points_of(law.body);
-    double work = 0.0;
-    for (std::int32_t i = begin; i < end; ++i) {
+    const auto of_point = [&](std::int32_t i) -> Vector<Dim> {
         const Vector<Dim> arm = bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]) - middle.centre;
-        const Vector<Dim> of_point = bodies_.masses()[i] * (turning * arm);
-        force[i] += of_point;
-        work += of_point.dot(q_1[i] - q_0[i]);
-    }
-    return work;
+        return bodies_.masses()[i] * (turning * arm);
+    };
+    for_each_own(law.body, [&](std::int32_t i) { force[i] += of_point(i); });
+    return sum_of(law.body, 0.0, [&](std::int32_t i) { return of_point(i).dot(q_1[i] - q_0[i]); });
 }
 
 template <int Dim>
 void PointLoads<Dim>::add_stiffness(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> product) const {
+    if (springs_.empty()) return;
+    std::vector<Vector<Dim>> held;
+    held_.take(q, held);
+    std::vector<Vector<Dim>> of_held(held.size(), Vector<Dim>::Zero());
     for (const HeldSpring& spring : springs_) {
         Vector<Dim> stretch = Vector<Dim>::Zero();
         for (std::size_t i = 0; i < spring.second.points.size(); ++i)
-            stretch += spring.second.weights[i] * q[spring.second.points[i]];
+            stretch += spring.second.weights[i] * held[spring.second.points[i]];
         for (std::size_t i = 0; i < spring.first.points.size(); ++i)
-            stretch -= spring.first.weights[i] * q[spring.first.points[i]];
-        spring.first.push(-spring.law.stiffness * stretch, product);
-        spring.second.push(spring.law.stiffness * stretch, product);
+            stretch -= spring.first.weights[i] * held[spring.first.points[i]];
+        spring.first.push(-spring.law.stiffness * stretch, of_held);
+        spring.second.push(spring.law.stiffness * stretch, of_held);
     }
+    held_.add(of_held, product);
 }
 
 template class PointLoads<2>;

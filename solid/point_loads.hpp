@@ -10,25 +10,10 @@
 #include "abut/base/state_bytes.hpp"
 #include "abut/contact/step.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/held_places.hpp"
+#include "abut/solid/held_points.hpp"
 
 namespace abut::solid {
-
-/// A place that moves with some points: x = sum w (X + q).
-template <int Dim>
-struct HeldPlace {
-    std::vector<std::int32_t> points;  ///< none: it stands still
-    std::vector<double> weights;
-    Vector<Dim> rest = Vector<Dim>::Zero();  ///< [m]
-
-    [[nodiscard]] Vector<Dim> at(std::span<const Vector<Dim>> q) const {
-        Vector<Dim> x = rest;
-        for (std::size_t i = 0; i < points.size(); ++i) x += weights[i] * q[points[i]];
-        return x;
-    }
-    void push(const Vector<Dim>& force, std::span<Vector<Dim>> of_points) const {
-        for (std::size_t i = 0; i < points.size(); ++i) of_points[points[i]] += weights[i] * force;
-    }
-};
 
 /// Springs, dashpots, moments and tractions on bodies that turn: what acts on places that move with points. Springs are part
 /// of V; of all others the work is booked. In a step every force is the one whose work is exactly the change of V, or that
@@ -38,8 +23,10 @@ class PointLoads {
 public:
     using TurnOf = std::function<Matrix<Dim>(std::int32_t body)>;
 
-    /// The bodies must outlive it. Throws BadInput for a body that does not exist, or a value out of range.
-    explicit PointLoads(const Bodies<Dim>& bodies);
+    /// All must outlive it. `part`: null on one rank; on several each has all loads, looks at all points that they act on, and
+    /// every function that takes values by point is a call of all. Throws BadInput for a body that does not exist, or a value
+    /// out of range.
+    PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>* part);
 
     [[nodiscard]] bool any() const { return !springs_.empty() || !moments_.empty() || !tractions_.empty(); }
     /// Whether V does not tell all forces.
@@ -60,7 +47,8 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
-    /// Where the tractions of a condition act, by face of its group; empty where the bodies do not turn.
+    /// Where the tractions of a condition act, by face of its group and point of the system; empty where the bodies do not
+    /// turn.
     [[nodiscard]] std::vector<HeldPlace<Dim>> traction_places(std::size_t condition) const;
     /// Tractions of a condition that is from outside, by face of its group (n) [Pa]; not looked at.
     void set_traction(std::size_t condition, std::span<const Vector<Dim>> traction) {
@@ -86,12 +74,9 @@ private:
     };
 
     [[nodiscard]] Vector<Dim> value_of(const HeldTraction& traction, double time) const;
-    [[nodiscard]] HeldPlace<Dim> place_of(const Anchor<Dim>& anchor) const;
-    struct Cloud;
-    [[nodiscard]] std::vector<std::int32_t> cells_around(const Anchor<Dim>& anchor) const;
-    [[nodiscard]] HeldPlace<Dim> held_by(std::vector<std::int32_t> points, const Vector<Dim>& position) const;
-    void hold_springs();
-    void hold_tractions();
+    void hold_springs(HeldPlaces<Dim>& places);
+    void hold_tractions(HeldPlaces<Dim>& places);
+    void take_held_points();
     void check_moments() const;
     void push(const HeldSpring& spring, const Vector<Dim>& tension, std::span<Vector<Dim>> force) const;
     void add_springs(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double dt, contact::TakenForce take,
@@ -109,13 +94,20 @@ private:
     double add_moment(const BodyMoment<Dim>& law, const AxialVector<Dim>& spin, const Middle& middle,
                       std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                       std::span<Vector<Dim>> force) const;
+    template <class Body>
+    void for_each_own(std::int32_t body, const Body& of_point) const;
+    template <class Value, class Term>
+    [[nodiscard]] Value sum_of(std::int32_t body, const Value& zero, const Term& term) const;
 
     const Bodies<Dim>& bodies_;
     const SolidOptions<Dim>& options_;
+    const RankPart<Dim>* part_;
+    HeldPoints<Dim> held_;
     std::vector<HeldSpring> springs_;
     std::vector<HeldMoment> moments_;
     std::vector<HeldTraction> tractions_;
-    std::vector<std::vector<Vector<Dim>>> outside_;  // by condition and face; empty: not from outside
+    std::vector<std::vector<Vector<Dim>>> outside_;     // by condition and face; empty: not from outside
+    std::vector<Vector<Dim>> held_0_, held_1_, force_;  // work arrays of `add`, of held points
 };
 
 }  // namespace abut::solid

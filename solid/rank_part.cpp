@@ -16,48 +16,68 @@ constexpr std::int64_t most_faces = 8;  // of a cell
 
 template <int Dim>
 RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies) : ranks_(ranks) {
-    const mesh::Mesh<Dim>& mesh = bodies.mesh();
-    const auto n_part = static_cast<std::size_t>(mesh.n_cells());
-    check(mesh);
-    cell_numbers_.resize(n_part);
-    std::vector<bool> is_own(n_part, false);
-    for (std::size_t i = 0; i < own_cells().size(); ++i) {
-        const auto cell = static_cast<std::size_t>(own_cells()[i]);
-        is_own[cell] = true;
-        cell_numbers_[cell] = ranks.numbers()[i];
-        rest_.push_back(bodies.rest()[cell]);
-        masses_.push_back(bodies.masses()[cell]);
-        inverse_masses_.insert(inverse_masses_.end(), Dim, bodies.inverse_masses()[cell * Dim]);
-        body_.push_back(bodies.body_of_points()[cell]);
+    const mesh::Mesh<Dim>& mesh = bodies.deformable();
+    check(bodies);
+    const auto positions = ranks.positions();
+    n_own_cells_ = static_cast<std::size_t>(std::ranges::lower_bound(positions, mesh.n_cells()) - positions.begin());
+    for (const std::int32_t position : positions) {
+        const auto point = static_cast<std::size_t>(position);
+        rest_.push_back(bodies.rest()[point]);
+        masses_.push_back(bodies.masses()[point]);
+        inverse_masses_.insert(inverse_masses_.end(), Dim, bodies.inverse_masses()[point * Dim]);
+        body_.push_back(bodies.body_of_points()[point]);
     }
-    ranks.fill(cell_numbers_, 1, dynamics::CopySet::all);
-    dynamics::agreed(&ranks, [&] {
-        if (std::ranges::adjacent_find(cell_numbers_, std::greater_equal{}) != cell_numbers_.end())
-            throw BadInput(mesh.name +
-                           ": the ranks do not fit the cells of this part: their numbers do not rise. Take both from one "
-                           "mesh::MeshPart.");
-    });
+    const std::size_t n_part = bodies.rest().size();
+    for (auto* array : {&state_, &start_, &end_}) array->assign(n_part, Vector<Dim>::Constant(std::nan("")));
+    result_.assign(n_part, Vector<Dim>::Zero());
+    set_cell_numbers(mesh);
+    std::vector<bool> is_own(static_cast<std::size_t>(mesh.n_cells()), false);
+    for (const std::int32_t cell : own_cells()) is_own[static_cast<std::size_t>(cell)] = true;
     for (const BoundaryFace face : boundary_faces(mesh)) {
         if (!is_own[static_cast<std::size_t>(cell_of(mesh, face))]) continue;
         own_faces_.push_back(face);
         face_keys_.push_back(key_of(mesh, face));
     }
     order_faces();
-    for (auto* array : {&state_, &start_, &end_}) array->assign(n_part, Vector<Dim>::Constant(std::nan("")));
-    result_.assign(n_part, Vector<Dim>::Zero());
-    set_body_begin(mesh.n_bodies());
+    set_body_begin(mesh);
     find_first_cells();
+    find_own_rigid(bodies.rigid());
 }
 
 template <int Dim>
-void RankPart<Dim>::check(const mesh::Mesh<Dim>& mesh) const {
+void RankPart<Dim>::check(const Bodies<Dim>& bodies) const {
     dynamics::agreed(&ranks_, [&] {
-        const auto own = own_cells();
+        const auto own = ranks_.positions();
         const bool rises = std::ranges::adjacent_find(own, std::greater_equal{}) == own.end();
-        if (ranks_.dimension() != Dim || !rises || (!own.empty() && (own.front() < 0 || own.back() >= mesh.n_cells())))
-            throw BadInput(mesh.name + ": the ranks are of points with " + std::to_string(ranks_.dimension()) +
-                           " values, or at positions that this part does not have. Take both from one mesh::MeshPart.");
+        if (ranks_.dimension() != Dim || !rises ||
+            (!own.empty() && (own.front() < 0 || own.back() >= std::ssize(bodies.rest()))))
+            throw BadInput(bodies.mesh().name + ": the ranks are of points with " + std::to_string(ranks_.dimension()) +
+                           " values, or at positions that this part does not have. Take both from one mesh::MeshPart "
+                           "(solid::part_of, solid::points_of).");
     });
+}
+
+template <int Dim>
+void RankPart<Dim>::set_cell_numbers(const mesh::Mesh<Dim>& mesh) {
+    cell_numbers_.resize(result_.size());
+    for (std::size_t i = 0; i < ranks_.positions().size(); ++i)
+        cell_numbers_[static_cast<std::size_t>(ranks_.positions()[i])] = ranks_.numbers()[i];
+    ranks_.fill(cell_numbers_, 1, dynamics::CopySet::all);
+    dynamics::agreed(&ranks_, [&] {
+        if (std::ranges::adjacent_find(cell_numbers_, std::greater_equal{}) != cell_numbers_.end())
+            throw BadInput(mesh.name +
+                           ": the ranks do not fit the points of this part: their numbers do not rise. Take both from one "
+                           "mesh::MeshPart (solid::part_of, solid::points_of).");
+    });
+    cell_numbers_.resize(static_cast<std::size_t>(mesh.n_cells()));
+}
+
+template <int Dim>
+void RankPart<Dim>::fill_only(std::span<const std::int32_t> cells) {
+    std::vector<std::int32_t> filled(cells.begin(), cells.end());
+    for (auto point = cell_numbers_.size(); point < result_.size(); ++point)
+        filled.push_back(static_cast<std::int32_t>(point));
+    copies_ = ranks_.copy_set(filled);
 }
 
 /// Faces are numbered by their cell, then by their position in it.
@@ -65,7 +85,11 @@ template <int Dim>
 std::int64_t RankPart<Dim>::key_of(const mesh::Mesh<Dim>& mesh, BoundaryFace face) const {
     const std::int32_t cell = cell_of(mesh, face);
     const auto faces = mesh.cell_faces[cell];
-    const auto position = std::ranges::find(faces, mesh_face(mesh, face)) - faces.begin();
+    return key_of(cell, std::ranges::find(faces, mesh_face(mesh, face)) - faces.begin());
+}
+
+template <int Dim>
+std::int64_t RankPart<Dim>::key_of(std::int32_t cell, std::ptrdiff_t position) const {
     return most_faces * static_cast<std::int64_t>(cell_numbers_[static_cast<std::size_t>(cell)]) + position;
 }
 
@@ -108,9 +132,9 @@ std::vector<Vector<Dim>> RankPart<Dim>::faces_here(const mesh::Mesh<Dim>& mesh, 
 }
 
 template <int Dim>
-void RankPart<Dim>::set_body_begin(std::int32_t n_bodies) {
-    std::vector<double> counts(static_cast<std::size_t>(n_bodies), 0.0);
-    for (const std::int32_t body : body_) ++counts[static_cast<std::size_t>(body)];
+void RankPart<Dim>::set_body_begin(const mesh::Mesh<Dim>& mesh) {
+    std::vector<double> counts(static_cast<std::size_t>(mesh.n_bodies()), 0.0);
+    for (const std::int32_t cell : own_cells()) ++counts[static_cast<std::size_t>(mesh.cell_body[cell])];
     const std::vector<double> of_ranks = ranks_.gather(counts);
     body_begin_.assign(counts.size() + 1, 0);
     for (std::size_t i = 0; i < of_ranks.size(); ++i)
@@ -120,7 +144,7 @@ void RankPart<Dim>::set_body_begin(std::int32_t n_bodies) {
 
 template <int Dim>
 void RankPart<Dim>::find_first_cells() {
-    const auto numbers = ranks_.numbers();
+    const auto numbers = ranks_.numbers().first(n_own_cells_);
     for (const std::int32_t begin : body_begin_)
         own_begin_.push_back(static_cast<std::int32_t>(std::ranges::lower_bound(numbers, begin) - numbers.begin()));
     std::vector<double> mine;  // bodies
@@ -146,8 +170,50 @@ std::vector<Vector<Dim>> RankPart<Dim>::of_first_cells(std::span<const Vector<Di
 }
 
 template <int Dim>
+void RankPart<Dim>::find_own_rigid(const RigidBodies<Dim>& rigid) {
+    const auto own_points = ranks_.positions().subspan(n_own_cells_);
+    std::vector<double> masses;
+    for (std::size_t body = 0; body < rigid.size(); ++body) {
+        masses.push_back(rigid.mass(body));
+        if (std::ranges::binary_search(own_points, rigid.first_point(body)))
+            own_rigid_.push_back(static_cast<std::int32_t>(body));
+    }
+    const std::vector<double> of_ranks = ranks_.gather(masses);
+    for (std::size_t i = 0; i < of_ranks.size(); ++i)
+        if (of_ranks[i] != of_ranks[i % masses.size()])
+            throw BadInput("the ranks have other masses of a rigid body. Give each the whole of it (solid::part_of).");
+    for (const double body : ranks_.gather(std::vector<double>(own_rigid_.begin(), own_rigid_.end())))
+        gathered_rigid_.push_back(static_cast<std::size_t>(body));
+}
+
+template <int Dim>
+std::vector<double> RankPart<Dim>::gather_rigid(std::span<const double> of_own) const {
+    const std::vector<double> all = ranks_.gather(of_own);
+    if (all.empty()) return all;
+    const std::size_t width = all.size() / gathered_rigid_.size();
+    std::vector<double> by_body(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) by_body[gathered_rigid_[i / width] * width + i % width] = all[i];
+    return by_body;
+}
+
+template <int Dim>
+void RankPart<Dim>::spread_rigid(std::span<const Vector<Dim>> of_own, std::vector<Vector<Dim>>& of_part) const {
+    of_part.resize(result_.size());
+    const auto positions = ranks_.positions();
+    for (std::size_t i = n_own_cells_; i < positions.size(); ++i)
+        of_part[static_cast<std::size_t>(positions[i])] = of_own[i];
+}
+
+template <int Dim>
+void RankPart<Dim>::take_rigid(std::span<const Vector<Dim>> of_part, std::span<Vector<Dim>> of_own) const {
+    const auto positions = ranks_.positions();
+    for (std::size_t i = n_own_cells_; i < positions.size(); ++i)
+        of_own[i] = of_part[static_cast<std::size_t>(positions[i])];
+}
+
+template <int Dim>
 std::span<const Vector<Dim>> RankPart<Dim>::fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const {
-    const auto own = own_cells();
+    const auto own = ranks_.positions();
     for (std::size_t i = 0; i < own.size(); ++i) of_part[static_cast<std::size_t>(own[i])] = q[i];
     ranks_.fill(as_values<Dim>(of_part), Dim, copies_);
     return of_part;
@@ -158,7 +224,7 @@ std::pair<std::span<const Vector<Dim>>, std::span<const Vector<Dim>>> RankPart<D
                                                                                           std::span<const Vector<Dim>> q_1) {
     std::swap(start_, end_);
     bool moved = false;
-    const auto own = own_cells();
+    const auto own = ranks_.positions();
     for (std::size_t i = 0; i < own.size(); ++i) moved = moved || start_[static_cast<std::size_t>(own[i])] != q_0[i];
     if (any(moved)) fill(q_0, start_);
     fill(q_1, end_);
@@ -173,15 +239,24 @@ std::vector<Vector<Dim>> RankPart<Dim>::filled(std::span<const Vector<Dim>> q) c
 }
 
 template <int Dim>
+std::vector<double> RankPart<Dim>::of_owners(std::span<const double> of_cells) const {
+    std::vector<double> values(of_cells.begin(), of_cells.end());
+    values.resize(result_.size());
+    ranks_.fill(values, 1, dynamics::CopySet::all);
+    values.resize(of_cells.size());
+    return values;
+}
+
+template <int Dim>
 std::vector<Vector<Dim>> RankPart<Dim>::own(std::span<const Vector<Dim>> of_part) const {
     std::vector<Vector<Dim>> values;
-    for (const std::int32_t cell : own_cells()) values.push_back(of_part[static_cast<std::size_t>(cell)]);
+    for (const std::int32_t point : ranks_.positions()) values.push_back(of_part[static_cast<std::size_t>(point)]);
     return values;
 }
 
 template <int Dim>
 void RankPart<Dim>::take_result(std::span<Vector<Dim>> of_own) const {
-    const auto own = own_cells();
+    const auto own = ranks_.positions();
     for (std::size_t i = 0; i < own.size(); ++i) of_own[i] = result_[static_cast<std::size_t>(own[i])];
 }
 

@@ -51,8 +51,7 @@ public:
         const Region<Dim> region = ccg_.region_of_cells(part_.own_cells());
         std::vector<double> here(number_.size());
         for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) here[static_cast<std::size_t>(c)] = fingerprint(c);
-        std::vector<double> of_owner = here;
-        part_.ranks().fill(of_owner, 1, dynamics::CopySet::all);
+        const std::vector<double> of_owner = part_.of_owners(here);
         dynamics::agreed(&part_.ranks(), [&] {
             std::vector<std::int32_t> cells = region.displacement_gradient_cells;
             for (const std::int32_t f : region.reconstructed) cells.push_back(mesh_.face_cells[f][0]);

@@ -23,21 +23,22 @@ namespace {
 /// What is not made for several ranks.
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks* ranks, const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
-    if (std::ranges::find(options.kinematics, Kinematics::rigid) != options.kinematics.end())
-        dynamics::refuse_ranks(ranks, "a rigid body");
-    if (!options.springs.empty() || !options.moments.empty()) dynamics::refuse_ranks(ranks, "a spring or a moment");
+    for (std::size_t body = 0; body < options.kinematics.size(); ++body)
+        if (options.kinematics[body] == Kinematics::rigid &&
+            std::ranges::find(mesh.cell_body, static_cast<std::int32_t>(body)) == mesh.cell_body.end())
+            throw BadInput(mesh.name + ": rigid body " + std::to_string(body) +
+                           " has no cells in the part of a rank. Give each the whole of it (solid::part_of).");
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
-    const bool turns = std::ranges::any_of(options.kinematics, [](Kinematics of) { return of != Kinematics::small; });
-    for (const TractionCondition<Dim>& condition : options.boundary.traction)
-        for (const mesh::BoundaryGroup& group : mesh.groups)
-            for (const std::int32_t face : group.faces) {
-                if (!turns || group.name != condition.group) continue;
-                const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
-                if (options.kinematics[std::min(body, options.kinematics.size() - 1)] != Kinematics::small)
-                    dynamics::refuse_ranks(ranks, "a traction on a body that turns");
-            }
     if (options.precision == Precision::single_precision) dynamics::refuse_ranks(ranks, "a bulk in single precision");
+}
+
+template <int Dim>
+std::unique_ptr<Bodies<Dim>> bodies_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                       const dynamics::Ranks* ranks) {
+    if (ranks) dynamics::agreed(ranks, [&] { check_for_ranks(ranks, mesh, options); });
+    std::vector<bool> turning = turning_tractions(mesh, options, ranks);
+    return dynamics::agreed(ranks, [&] { return std::make_unique<Bodies<Dim>>(mesh, options, std::move(turning)); });
 }
 
 /// Where the cells of each body begin, one more at the end.
@@ -55,11 +56,7 @@ template <int Dim>
 Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks)
     : mesh_(mesh),
       options_(std::move(options)),
-      bodies_(dynamics::agreed(ranks,
-                               [&] {
-                                   if (ranks) check_for_ranks(ranks, mesh, options_);
-                                   return std::make_unique<Bodies<Dim>>(mesh, options_);
-                               })),
+      bodies_(bodies_of(mesh, options_, ranks)),
       part_(ranks ? std::make_unique<RankPart<Dim>>(*ranks, *bodies_) : nullptr),
       ccg_(dynamics::agreed(ranks,
                             [&] {
@@ -68,13 +65,14 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                                 deformable.kinematics, CellForm::automatic, deformable.precision);
                             })),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(part_.get()))),
-      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_)),
+      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_, part_.get())),
       all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
     if (part_) {
-        check_rows_of_ranks(*part_, mesh, ccg_);
+        check_rows_of_ranks(*part_, bodies_->deformable(), ccg_);
+        bodies_->rigid().constrain_only(part_->own_rigid());
         part_->fill_only(ccg_.compute_only(part_->own_cells()));
         ccg_.watch_only(part_->own_faces());
         const auto begin = part_->body_begin();
@@ -138,7 +136,7 @@ void Solid<Dim>::take_result(std::span<double> of_points) const {
 /// That deform, of all ranks.
 template <int Dim>
 std::int32_t Solid<Dim>::n_cells_of_all() const {
-    return part_ ? part_->ranks().n_points() : bodies_->n_cells();
+    return part_ ? part_->n_all_cells() : bodies_->n_cells();
 }
 
 /// The part of what is by point that belongs to cells.
@@ -234,7 +232,8 @@ double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u) {
     if (!part_) return ccg_.potential(in_frame, load, corrections());
     const std::vector<double> of_cells = ccg_.cell_energies(in_frame, load, corrections());
     const double stored = part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
-    if (options_.boundary.dirichlet.empty() && options_.boundary.traction.empty()) return stored;
+    const BoundaryConditions<Dim>& conditions = bodies_->deformable_options().boundary;
+    if (conditions.dirichlet.empty() && conditions.traction.empty()) return stored;
     return stored - part_->fold_faces(0.0, [&](BoundaryFace face) { return ccg_.traction_work(face, load); });
 }
 
@@ -251,10 +250,10 @@ void Solid<Dim>::stiffness_product(std::span<const double> q, std::span<double> 
 template <int Dim>
 void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
                               std::span<Vector<Dim>> force) {
-    const auto n_cells = std::ranges::lower_bound(points, bodies_->n_cells()) - points.begin();
-    std::vector<std::int32_t> cells(points.begin(), points.begin() + n_cells);
+    std::vector<std::int32_t> here(points.begin(), points.end());
     if (part_)
-        for (std::int32_t& cell : cells) cell = part_->own_cells()[static_cast<std::size_t>(cell)];
+        for (std::int32_t& point : here) point = part_->ranks().positions()[static_cast<std::size_t>(point)];
+    const std::vector<std::int32_t> cells(here.begin(), std::ranges::lower_bound(here, bodies_->n_cells()));
     const auto u = state_here(q);
     frames_->stand_at_end();
     if (contact_) contact_->evaluate_last_end(u);
@@ -264,14 +263,14 @@ void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<co
     }
     for (std::size_t i = 0; i < cells.size(); ++i)
         force[i] = loads_->force_on(cells[i], frames_->point_to_space(cells[i], force[i]));
-    if (cells.size() == points.size() && !point_loads_->any()) return;
+    if (cells.size() == here.size() && !point_loads_->any()) return;
     std::vector<Vector<Dim>> of_points(u.size(), Vector<Dim>::Zero());
     rigid_to_force(of_points);
     point_loads_->add_at(
         u, time_, [this](std::int32_t body) { return mean_turn(body); }, of_points);
     bodies_->rigid().add_constraint_forces(u, of_points);
-    for (std::size_t i = 0; i < cells.size(); ++i) force[i] += of_points[points[i]];
-    for (std::size_t i = cells.size(); i < points.size(); ++i) force[i] = of_points[points[i]];
+    for (std::size_t i = 0; i < cells.size(); ++i) force[i] += of_points[here[i]];
+    for (std::size_t i = cells.size(); i < here.size(); ++i) force[i] = of_points[here[i]];
 }
 
 template <int Dim>
@@ -288,17 +287,28 @@ bool Solid<Dim>::has_constraints() const {
 
 template <int Dim>
 bool Solid<Dim>::is_constrained(std::int32_t point) const {
-    return point >= bodies_->n_cells();
+    return point >= (part_ ? std::ssize(part_->own_cells()) : bodies_->n_cells());
+}
+
+/// Calls constrain(q, p) with values by point here; on several ranks each constrains its own bodies.
+template <int Dim>
+template <class Constrain>
+void Solid<Dim>::constrain_own(std::span<const double> q, std::span<double> p, const Constrain& constrain) {
+    if (!part_) return constrain(as_vectors<Dim>(q), as_vectors<Dim>(p));
+    part_->spread_rigid(as_vectors<Dim>(q), rigid_q_);
+    part_->spread_rigid(as_vectors<Dim>(p), rigid_p_);
+    dynamics::agreed(ranks(), [&] { constrain(std::span<const Vector<Dim>>(rigid_q_), std::span<Vector<Dim>>(rigid_p_)); });
+    part_->take_rigid(rigid_p_, as_vectors<Dim>(p));
 }
 
 template <int Dim>
 void Solid<Dim>::constrain_along(std::span<const double> q, double dt, std::span<double> p) {
-    bodies_->rigid().constrain_along(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
+    constrain_own(q, p, [&](auto of_q, auto of_p) { bodies_->rigid().constrain_along(of_q, dt, of_p); });
 }
 
 template <int Dim>
 void Solid<Dim>::constrain_at(std::span<const double> q, double dt, std::span<double> p) {
-    bodies_->rigid().constrain_at(as_vectors<Dim>(q), dt, as_vectors<Dim>(p));
+    constrain_own(q, p, [&](auto of_q, auto of_p) { bodies_->rigid().constrain_at(of_q, dt, of_p); });
 }
 
 template class Solid<2>;

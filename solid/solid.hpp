@@ -21,6 +21,11 @@
 
 namespace abut::solid {
 
+/// Cells of a rank by their numbers in the whole mesh and in its part of it, both increasing.
+struct OwnCells {
+    std::vector<std::int32_t> number, position;
+};
+
 template <int Dim>
 class Bodies;
 template <int Dim>
@@ -59,10 +64,10 @@ public:
 
     /// The mesh must outlive the solid. Throws BadInput saying where, how much, how much is allowed and what to do.
     ///
-    /// On several ranks `mesh` is that of a part (mesh::MeshPart), and `ranks`, which must outlive the solid, say whose its
-    /// cells are (ranks::PointRanks): points are the cells of this rank then, and all functions but those that read no state
-    /// are calls of all ranks together. Contact by the modified reconstruction, constant and varying loads and obstacles have
-    /// the bits of one rank; what is not made for several ranks throws BadInput (docs/ranks.md).
+    /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, say whose its points are
+    /// (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and all functions that take or read a
+    /// state are calls of all ranks together. All bits are those of one rank; what is not made for several throws BadInput
+    /// (docs/ranks.md).
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks = nullptr);
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
@@ -170,6 +175,8 @@ public:
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
     [[nodiscard]] const dynamics::Ranks* ranks() const;  ///< null: there is one
+    /// The cells that this rank has the points of, all on one; without the other ranks.
+    [[nodiscard]] OwnCells own_cells() const;
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     /// Of the bodies that deform: where some are rigid, with cells and faces numbered without theirs.
@@ -209,10 +216,11 @@ public:
     /// Displacement of the cells of the mesh (n_cells) [m] in q.
     [[nodiscard]] std::vector<Vector<Dim>> cell_displacement(std::span<const double> q) const;
     /// F - I of a cell of the mesh in space, of the state that was evaluated last, in q: a point of the cell that is at X at
-    /// rest is displaced by the displacement of the cell and this times X - x_c.
+    /// rest is displaced by the displacement of the cell and this times X - x_c. On several ranks of an own cell, without the
+    /// others.
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t cell, std::span<const double> q) const;
     /// Displacement of the vertices of the mesh (n_vertices) [m] in q, which was evaluated last: the mean over the cells around
-    /// each of where these carry it, turned and stretched as they are.
+    /// each of where these carry it, turned and stretched as they are. Throws BadInput on several ranks.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_displacement(std::span<const double> q) const;
     /// Their velocity (n_cells) [m/s] at momenta p.
     [[nodiscard]] std::vector<Vector<Dim>> cell_velocity(std::span<const double> p) const;
@@ -222,7 +230,7 @@ public:
     [[nodiscard]] std::vector<double> momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;
 
 private:
-    // By point of this system or, on several ranks, by cell of the part: all that is private takes the latter.
+    // By point of this system or, on several ranks, by point of the part: all that is private takes the latter.
     struct Ends {
         std::span<const Vector<Dim>> start, end;
     };
@@ -239,9 +247,12 @@ private:
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
     void stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result);
     void rigid_to_force(std::span<Vector<Dim>> force) const;
+    template <class Constrain>
+    void constrain_own(std::span<const double> q, std::span<double> p, const Constrain& constrain);
     void add_point_loads(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
                          contact::TakenForce take, std::span<Vector<Dim>> force);
     [[nodiscard]] Matrix<Dim> mean_turn(std::int32_t body) const;
+    [[nodiscard]] std::span<const Vector<Dim>> own_points_of(std::size_t rigid, std::span<const Vector<Dim>> q) const;
     void require_start(double time, double dt) const;
     void follow_loads(std::span<const Vector<Dim>> q_0, double time, double dt);
     [[nodiscard]] double follow_frames(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
@@ -259,7 +270,7 @@ private:
     SolidOptions<Dim> options_;
     std::unique_ptr<Bodies<Dim>> bodies_;
     std::unique_ptr<RankPart<Dim>> part_;  // null on one rank
-    Ccg<Dim> ccg_;  // of the bodies that deform
+    Ccg<Dim> ccg_;                         // of the bodies that deform
     std::unique_ptr<BodyRotation<Dim>> rotation_;
     std::unique_ptr<BodyFrames<Dim>> frames_;
     std::unique_ptr<PointLoads<Dim>> point_loads_;
@@ -275,10 +286,11 @@ private:
     std::unique_ptr<LocalLevels<Dim>> levels_;             // null without local steps
     LargeArray<double> midpoint_;                          // in the frames, packed; empty where no body turns
     std::vector<Vector<Dim>> in_frames_;
-    std::vector<std::int32_t> all_cells_;   // that deform
-    std::vector<Vector<Dim>> rigid_force_;  // on the points of rigid bodies, constant; by point
-    std::vector<double> rigid_stiffness_;   // of the same, for the stable step; by point
-    Region<Dim> patch_region_;              // of the cells that `end_force_on` was asked for last
+    std::vector<std::int32_t> all_cells_;         // that deform
+    std::vector<Vector<Dim>> rigid_force_;        // on the points of rigid bodies, constant; by point
+    std::vector<double> rigid_stiffness_;         // of the same, for the stable step; by point
+    std::vector<Vector<Dim>> rigid_q_, rigid_p_;  // by point of the part
+    Region<Dim> patch_region_;                    // of the cells that `end_force_on` was asked for last
 };
 
 }  // namespace abut::solid

@@ -75,10 +75,13 @@ void Solid<Dim>::require_no_collapse() {
     if (!bodies_->any_finite()) return;
     Extremes now{ccg_.finite_extremes(part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_))};
     if (now.values.cell >= 0) {
-        const auto cell = static_cast<std::size_t>(bodies_->mesh_cell(now.values.cell));
+        const std::int32_t cell = bodies_->mesh_cell(now.values.cell);
         now.label = mesh_.cell_label[cell];
         now.body = static_cast<std::size_t>(mesh_.cell_body[cell]);
-        now.values.cell = static_cast<std::int32_t>(part_ ? part_->cell_numbers()[cell] : static_cast<double>(cell));
+        if (part_)  // cells of rigid bodies before it are all here
+            now.values.cell = static_cast<std::int32_t>(part_->cell_numbers()[now.values.cell]) + cell - now.values.cell;
+        else
+            now.values.cell = cell;
     }
     if (part_) now = of_ranks(part_->ranks(), now);
     const auto& [determinant, strain, cell] = now.values;

@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
@@ -160,14 +161,16 @@ std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const {
 
 template <int Dim>
 std::span<const std::int32_t> Solid<Dim>::body_of_points() const {
-    return part_ ? part_->body_of_cells() : bodies_->body_of_points();
+    return part_ ? part_->body_of_points() : bodies_->body_of_points();
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
     const auto u = as_vectors<Dim>(q);
+    std::vector<Vector<Dim>> of_part;
+    if (part_ && bodies_->any_rigid()) of_part = part_->filled(u);
     return bodies_->of_bodies(rotation_->angles(u), [&](std::size_t rigid) {
-        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, u).map));
+        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, part_ ? of_part : u).map));
     });
 }
 
@@ -188,7 +191,8 @@ std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
-    return part_ ? part_->filled(as_vectors<Dim>(q)) : bodies_->of_cells(as_vectors<Dim>(q));
+    if (part_) return bodies_->of_cells(part_->filled(as_vectors<Dim>(q)));
+    return bodies_->of_cells(as_vectors<Dim>(q));
 }
 
 template <int Dim>
@@ -200,12 +204,55 @@ Matrix<Dim> Solid<Dim>::displacement_gradient(std::int32_t cell, std::span<const
     }
     for (std::size_t i = 0; i < bodies_->rigid().size(); ++i)
         if (bodies_->rigid().mesh_body(i) == mesh_.cell_body[cell])
-            return bodies_->rigid().place(i, as_vectors<Dim>(q)).map - Matrix<Dim>::Identity();
+            return bodies_->rigid().place_by(i, own_points_of(i, as_vectors<Dim>(q))).map - Matrix<Dim>::Identity();
     return Matrix<Dim>::Zero();
+}
+
+/// The part of q that belongs to a rigid body, on several ranks to an own one.
+template <int Dim>
+std::span<const Vector<Dim>> Solid<Dim>::own_points_of(std::size_t rigid, std::span<const Vector<Dim>> q) const {
+    constexpr std::size_t n = RigidBodies<Dim>::points_per_body;
+    if (!part_) return q.subspan(static_cast<std::size_t>(bodies_->rigid().first_point(rigid)), n);
+    const auto own = part_->own_rigid();
+    const auto found = std::ranges::find(own, static_cast<std::int32_t>(rigid));
+    if (found == own.end())
+        throw Misuse("solid: the place of a rigid body is asked for on a rank that does not have its points.");
+    return q.subspan(part_->own_cells().size() + n * static_cast<std::size_t>(found - own.begin()), n);
+}
+
+template <int Dim>
+OwnCells Solid<Dim>::own_cells() const {
+    OwnCells own;
+    if (!part_) {
+        for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) own.number.push_back(c);
+        own.position = own.number;
+        return own;
+    }
+    std::vector<bool> is_own(mesh_.cell_body.size(), false), is_own_body(mesh_.body_names.size(), false);
+    for (const std::int32_t c : part_->own_cells()) is_own[bodies_->mesh_cell(c)] = true;
+    for (const std::int32_t i : part_->own_rigid()) is_own_body[bodies_->rigid().mesh_body(i)] = true;
+    std::int32_t deformable = 0, begin = 0;  // bodies that deform so far; where a body begins in the whole mesh
+    for (std::int32_t body = 0; body < mesh_.n_bodies(); ++body) {
+        const auto [first, last] = cells_of_body(mesh_, body);
+        const bool rigid = bodies_->is_rigid(body);
+        for (std::int32_t c = first; c < last; ++c) {
+            if (rigid ? !is_own_body[body] : !is_own[c]) continue;
+            const std::int32_t in_body =
+                rigid ? c - first
+                      : static_cast<std::int32_t>(part_->cell_numbers()[bodies_->deformable_cell(c).first]) -
+                            part_->body_begin()[deformable];
+            own.number.push_back(begin + in_body);
+            own.position.push_back(c);
+        }
+        begin += rigid ? last - first : part_->body_begin()[deformable + 1] - part_->body_begin()[deformable];
+        if (!rigid) ++deformable;
+    }
+    return own;
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const {
+    refuse_ranks("displacements of vertices");
     std::vector<Matrix<Dim>> turn(mesh_.body_names.size(), Matrix<Dim>::Identity());  // of rigid bodies
     for (std::size_t i = 0; i < bodies_->rigid().size(); ++i)
         turn[static_cast<std::size_t>(bodies_->rigid().mesh_body(i))] = bodies_->rigid().place(i, as_vectors<Dim>(q)).map;
@@ -266,38 +313,40 @@ double Solid<Dim>::step_margin() const {
     return contact_ ? contact_margin : 1.0;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                      \
-    template void Solid<Dim>::evaluate_contact(std::span<const double> q);                                         \
-    template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                    \
-    template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);     \
-    template std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q);                     \
-    template std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const;                         \
-    template double Solid<Dim>::compression() const;                                                               \
-    template Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const;                                   \
-    template std::span<const BodyImpulse<Dim>> Solid<Dim>::contact_impulses() const;                               \
-    template Matrix<Dim> Solid<Dim>::displacement_gradient(std::int32_t cell, std::span<const double> q) const;    \
-    template const contact::Contact<Dim>* Solid<Dim>::contact() const;                                             \
-    template const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const;                                  \
-    template double Solid<Dim>::skin() const;                                                                      \
-    template contact::ContactReport Solid<Dim>::contact_report() const;                                            \
-    template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                           \
-    template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                    \
-    template std::int64_t Solid<Dim>::contact_faces_left_out() const;                                              \
-    template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                           \
-    template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                               \
-    template std::span<const double> Solid<Dim>::inverse_mass() const;                                             \
-    template std::span<const double> Solid<Dim>::masses() const;                                                   \
-    template std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const;                                      \
-    template std::span<const std::int32_t> Solid<Dim>::body_of_points() const;                                     \
-    template std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const;                           \
-    template std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q);                           \
-    template std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const;              \
-    template std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const;            \
-    template std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const;                  \
-    template std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const;  \
-    template std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const; \
-    template Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const;                                              \
-    template double Solid<Dim>::step_margin() const;                                                               \
+#define ABUT_INSTANTIATE(Dim)                                                                                         \
+    template void Solid<Dim>::evaluate_contact(std::span<const double> q);                                            \
+    template ContactField Solid<Dim>::contact_field(std::span<const double> q);                                       \
+    template std::vector<TouchingPair<Dim>> Solid<Dim>::touching_pairs(std::span<const double> q, double gap);        \
+    template std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q);                        \
+    template std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const;                            \
+    template double Solid<Dim>::compression() const;                                                                  \
+    template Vector<Dim> Solid<Dim>::obstacle_force(std::size_t obstacle) const;                                      \
+    template std::span<const BodyImpulse<Dim>> Solid<Dim>::contact_impulses() const;                                  \
+    template Matrix<Dim> Solid<Dim>::displacement_gradient(std::int32_t cell, std::span<const double> q) const;       \
+    template std::span<const Vector<Dim>> Solid<Dim>::own_points_of(std::size_t, std::span<const Vector<Dim>>) const; \
+    template OwnCells Solid<Dim>::own_cells() const;                                                                  \
+    template const contact::Contact<Dim>* Solid<Dim>::contact() const;                                                \
+    template const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const;                                     \
+    template double Solid<Dim>::skin() const;                                                                         \
+    template contact::ContactReport Solid<Dim>::contact_report() const;                                               \
+    template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                              \
+    template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                       \
+    template std::int64_t Solid<Dim>::contact_faces_left_out() const;                                                 \
+    template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                              \
+    template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                                  \
+    template std::span<const double> Solid<Dim>::inverse_mass() const;                                                \
+    template std::span<const double> Solid<Dim>::masses() const;                                                      \
+    template std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const;                                         \
+    template std::span<const std::int32_t> Solid<Dim>::body_of_points() const;                                        \
+    template std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const;                              \
+    template std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q);                              \
+    template std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const;                 \
+    template std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const;               \
+    template std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const;                     \
+    template std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const;     \
+    template std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;    \
+    template Matrix<Dim> Solid<Dim>::stress(std::int32_t cell) const;                                                 \
+    template double Solid<Dim>::step_margin() const;                                                                  \
     template dynamics::MomentArms Solid<Dim>::moment_arms() const;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

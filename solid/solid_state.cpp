@@ -37,8 +37,8 @@ std::uint64_t fingerprint(std::span<const Vector<Dim>> rest, std::span<const dou
     }
     if (!ranks) return sum;
     constexpr int half = 32;  // of the bits: so many fit into a double
-    const std::vector<double> halves = ranks->gather(std::vector{
-        static_cast<double>(sum >> half), static_cast<double>(sum & ((std::uint64_t{1} << half) - 1))});
+    const std::vector<double> halves = ranks->gather(
+        std::vector{static_cast<double>(sum >> half), static_cast<double>(sum & ((std::uint64_t{1} << half) - 1))});
     sum = 0;
     for (std::size_t i = 0; i < halves.size(); i += 2)
         sum += (static_cast<std::uint64_t>(halves[i]) << half) + static_cast<std::uint64_t>(halves[i + 1]);
@@ -59,7 +59,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
     loads_->save(state);
     point_loads_->save(state);
     outside_->save(state);
-    bodies_->rigid().save(state);
+    bodies_->rigid().save(state, part_.get());
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
     if (!contact_) return std::move(state).finish();
     state.put_all(std::span<const std::byte>(contact_->state()));
@@ -179,10 +179,15 @@ void OutsideLoads<Dim>::restore(StateReader& state) {
 }
 
 template <int Dim>
-void RigidBodies<Dim>::save(StateWriter& state) const {
-    for (const Body& body : bodies_)
+void RigidBodies<Dim>::save(StateWriter& state, const RankPart<Dim>* part) const {
+    std::vector<double> values;
+    for (const std::int32_t i : constrained_) {
+        const Body& body = bodies_[i];
         for (const Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after})
-            put(state, *matrix);
+            values.insert(values.end(), matrix->data(), matrix->data() + matrix->size());
+    }
+    if (part) values = part->gather_rigid(values);
+    for (const double value : values) state.put(value);
 }
 
 template <int Dim>
@@ -227,7 +232,7 @@ void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::sp
     template void PointLoads<Dim>::restore(StateReader&);                                                               \
     template void OutsideLoads<Dim>::save(StateWriter&) const;                                                          \
     template void OutsideLoads<Dim>::restore(StateReader&);                                                             \
-    template void RigidBodies<Dim>::save(StateWriter&) const;                                                           \
+    template void RigidBodies<Dim>::save(StateWriter&, const RankPart<Dim>*) const;                                     \
     template void RigidBodies<Dim>::restore(StateReader&);                                                              \
     template std::vector<std::byte> ReconstructionDriver<Dim>::state() const;                                           \
     template void ReconstructionDriver<Dim>::restore(std::span<const std::byte>, std::span<const Vector<Dim>>, double); \

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/solid/share_out.hpp"
 
 namespace abut::apps {
 namespace {
@@ -81,15 +82,20 @@ void refuse_ranks(const char* what) {
 }
 
 template <int Dim>
-SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights, int layers) {
+SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::Kinematics> kinematics,
+                            std::span<const double> weights) {
     const ranks::Communicator& all = the_session->all();
-    const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid, weights);
-    on_all([&] { part = mesh::part_of<Dim>(mesh, owner, all.rank(), layers); });
-    points.emplace(all, ranks::shared_cells(all, Dim, part.n_cells, part.cell_number, part.cell_owner));
+    std::vector<double> of_cells;
+    on_all([&] { of_cells = solid::cell_weights(mesh, kinematics, weights); });
+    const std::vector<int> owner = ranks::partition<Dim>(all, mesh.cell_centroid, of_cells);
+    on_all([&] { part = solid::part_of<Dim>(mesh, owner, all.rank(), kinematics); });
+    const solid::PartPoints of_part = solid::points_of<Dim>(part, kinematics);
+    points.emplace(all, ranks::shared_points(all, Dim, of_part.n_points, of_part.number, of_part.owner));
 }
 
 template <int Dim>
-SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh, int layers) : mesh_(mesh), layers_(layers) {
+SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kinematics> kinematics)
+    : mesh_(mesh), kinematics_(std::move(kinematics)) {
     if (!the_session || the_session->all().size() == 1) return;
     const ranks::Communicator& all = the_session->all();
     const double print = fingerprint(mesh), largest = all.largest(print), least = -all.largest(-print);
@@ -105,7 +111,7 @@ SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh, int layers) : mesh_(mes
 template <int Dim>
 run::Share<Dim> SceneShare<Dim>::share_out(std::span<const double> weights) {
     part_before_ = std::move(part_);
-    part_ = std::make_unique<Part>(mesh_, weights, layers_);
+    part_ = std::make_unique<Part>(mesh_, kinematics_, weights);
     return {part_->part.mesh, *part_->points};
 }
 

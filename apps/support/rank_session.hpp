@@ -10,6 +10,7 @@
 #include "abut/ranks/partition.hpp"
 #include "abut/ranks/session.hpp"
 #include "abut/run/share.hpp"
+#include "abut/solid/options.hpp"
 
 namespace abut::apps {
 
@@ -46,10 +47,9 @@ void on_all(const Body& body) {
 template <int Dim>
 class SceneShare {
 public:
-    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. `layers` of copies are as
-    /// solid::copy_layers says. Throws BadInput on all where
-    /// their meshes differ, and as mesh::part_of and ranks::PointRanks.
-    SceneShare(const mesh::Mesh<Dim>& mesh, int layers);
+    /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on all where
+    /// their meshes differ, and as solid::part_of and ranks::PointRanks.
+    SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kinematics> kinematics);
     SceneShare(const SceneShare&) = delete;
     SceneShare& operator=(const SceneShare&) = delete;
 
@@ -57,14 +57,14 @@ public:
 
 private:
     struct Part {
-        Part(const mesh::Mesh<Dim>& mesh, std::span<const double> weights, int layers);
+        Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::Kinematics> kinematics, std::span<const double> weights);
         mesh::MeshPart<Dim> part;
         std::optional<ranks::PointRanks> points;
     };
     [[nodiscard]] run::Share<Dim> share_out(std::span<const double> weights);
 
     const mesh::Mesh<Dim>& mesh_;
-    int layers_;
+    std::vector<solid::Kinematics> kinematics_;
     std::unique_ptr<Part> part_, part_before_;
     std::optional<run::Share<Dim>> share_;
 };

@@ -20,7 +20,7 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/summary.hpp"
-#include "abut/solid/copy_layers.hpp"
+#include "abut/solid/options.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/log.hpp"
 #include "apps/support/progress.hpp"
@@ -68,11 +68,11 @@ std::string how_to_go_on(const run::RunOptions& options) {
     return ", and --resume goes on from there (abut restart " + options.out.string() + " with a scene in TOML)";
 }
 
-/// What is refused on several ranks is left to the run.
+/// Of the bodies, none where all are `small`. What is refused on several ranks is left to the run.
 template <int Dim>
-int copy_layers(const run::Scene<Dim>& scene, const run::RunOptions& options) {
+std::vector<solid::Kinematics> kinematics_of(const run::Scene<Dim>& scene, const run::RunOptions& options) {
     const auto of_all = run::kinematics_of_all(options.kinematics);
-    return of_all ? solid::copy_layers(std::vector{*of_all}) : solid::copy_layers(scene.solid.kinematics);
+    return of_all ? std::vector(scene.mesh.body_names.size(), *of_all) : scene.solid.kinematics;
 }
 
 template <int Dim>
@@ -119,7 +119,7 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     on_all([&] { scene = timed_scene(make_scene, seconds); });
     const StopSignals signals;  // from here on there is something to save
     JsonLines<Dim> lines(program.name);
-    const SceneShare<Dim> share(scene->mesh, copy_layers(*scene, options));
+    const SceneShare<Dim> share(scene->mesh, kinematics_of(*scene, options));
     run::RunResult<Dim> result =
         simulate_into(*files, *scene, options, from ? &*from : nullptr, share.get(), program.messages, lines);
     if (!result.complete)
@@ -146,7 +146,7 @@ void run_beside(const Program& program, const run::RunOptions& options, const st
     require_same_step(from);
     on_all([&] { scene = make_scene(); });
     const StopSignals signals;  // rank 0 decides
-    const SceneShare<Dim> share(scene->mesh, copy_layers(*scene, options));
+    const SceneShare<Dim> share(scene->mesh, kinematics_of(*scene, options));
     run::PieceFiles<Dim> files(options.out, program.series, scene->outputs.fields);
     static_cast<void>(run::simulate<Dim>(*scene, options, files, from ? &*from : nullptr, share.get()));
 }

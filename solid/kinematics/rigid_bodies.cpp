@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "abut/base/error.hpp"
@@ -90,6 +91,8 @@ RigidBodies<Dim>::RigidBodies(const mesh::Mesh<Dim>& mesh, std::span<const std::
         bodies_.push_back(body);
         first_point += points_per_body;
     }
+    constrained_.resize(bodies_.size());
+    std::iota(constrained_.begin(), constrained_.end(), 0);
 }
 
 /// `begin` and sum m q X'^T, q being differences to that of the first point.
@@ -97,8 +100,7 @@ template <int Dim>
 Matrix<Dim> RigidBodies<Dim>::moment_of(const Body& body, const Matrix<Dim>& begin, std::span<const Vector<Dim>> q) const {
     const double mass = body.mass / points_per_body;
     Matrix<Dim> moment = begin;
-    for (int i = 0; i < points_per_body; ++i)
-        moment += mass * (q[body.first_point + i] - q[body.first_point]) * rest_arm(body, i).transpose();
+    for (int i = 0; i < points_per_body; ++i) moment += mass * (q[i] - q[0]) * rest_arm(body, i).transpose();
     return moment;
 }
 
@@ -108,18 +110,19 @@ Matrix<Dim> RigidBodies<Dim>::map_of(const Body& body, std::span<const Vector<Di
 }
 
 template <int Dim>
-RigidPlace<Dim> RigidBodies<Dim>::place(std::size_t index, std::span<const Vector<Dim>> q) const {
+RigidPlace<Dim> RigidBodies<Dim>::place_by(std::size_t index, std::span<const Vector<Dim>> q) const {
     const Body& body = bodies_[index];
     Vector<Dim> shift = Vector<Dim>::Zero();
-    for (int i = 0; i < points_per_body; ++i) shift += q[body.first_point + i] - q[body.first_point];
-    return {body.centre + q[body.first_point] + shift / points_per_body, map_of(body, q)};
+    for (int i = 0; i < points_per_body; ++i) shift += q[i] - q[0];
+    return {body.centre + q[0] + shift / points_per_body, map_of(body, q)};
 }
 
 template <int Dim>
-RigidPlace<Dim> RigidBodies<Dim>::velocity(std::size_t index, std::span<const Vector<Dim>> v) const {
+RigidPlace<Dim> RigidBodies<Dim>::velocity(std::size_t index, std::span<const Vector<Dim>> of_all) const {
     const Body& body = bodies_[index];
+    const auto v = of_points(body, of_all);
     Vector<Dim> sum = Vector<Dim>::Zero();
-    for (int i = 0; i < points_per_body; ++i) sum += v[body.first_point + i];
+    for (int i = 0; i < points_per_body; ++i) sum += v[i];
     return {sum / points_per_body, moment_of(body, Matrix<Dim>::Zero(), v) * body.inverse};
 }
 
@@ -152,17 +155,17 @@ template <int Dim>
 void RigidBodies<Dim>::follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1) {
     for (Body& body : bodies_) {
         body.rate_before = body.rate_after;
-        body.turn_0 = nearest_rotation<Dim>(map_of(body, q_0));
-        body.turn_1 = nearest_rotation<Dim>(map_of(body, q_1));
+        body.turn_0 = nearest_rotation<Dim>(map_of(body, of_points(body, q_0)));
+        body.turn_1 = nearest_rotation<Dim>(map_of(body, of_points(body, q_1)));
     }
 }
 
 template <int Dim>
 void RigidBodies<Dim>::constrain_along(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) {
     parallel_each(
-        std::ssize(bodies_),
+        std::ssize(constrained_),
         [&](std::ptrdiff_t i) {
-            Body& body = bodies_[static_cast<std::size_t>(i)];
+            Body& body = bodies_[constrained_[i]];
             constrain(body, 0.5 * (body.turn_0 + body.turn_1), body.turn_1 * body.turn_0.transpose() * body.turn_1, q, dt,
                       p);
         },
@@ -171,8 +174,9 @@ void RigidBodies<Dim>::constrain_along(std::span<const Vector<Dim>> q, double dt
 
 template <int Dim>
 void RigidBodies<Dim>::constrain_at(std::span<const Vector<Dim>> q, double dt, std::span<Vector<Dim>> p) {
-    for (Body& body : bodies_) {
-        const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, q));
+    for (const std::int32_t i : constrained_) {
+        Body& body = bodies_[i];
+        const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, of_points(body, q)));
         const Matrix<Dim> other_end = constrain(body, turn, turn, q, dt, p);
         if (dt > 0.0) continue;
         body.turn_0 = other_end;
@@ -190,7 +194,7 @@ Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, co
     const double mass = body.mass / points_per_body;
     Matrix<Dim> momenta = Matrix<Dim>::Zero();
     for (int i = 0; i < points_per_body; ++i) momenta += p[body.first_point + i] * rest_arm(body, i).transpose();
-    const Matrix<Dim> from = map_of(body, q) * body.second_moment;
+    const Matrix<Dim> from = map_of(body, of_points(body, q)) * body.second_moment;
     const Matrix<Dim> back = lines.inverse(), target = back * (from + dt * momenta);
     Matrix<Dim> turn = guess;
     double last = std::numeric_limits<double>::infinity();
@@ -217,14 +221,15 @@ Matrix<Dim> RigidBodies<Dim>::constrain(Body& body, const Matrix<Dim>& lines, co
 
 template <int Dim>
 void RigidBodies<Dim>::add_constraint_forces(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> force) const {
-    for (const Body& body : bodies_) {
+    for (const std::int32_t constrained : constrained_) {
+        const Body& body = bodies_[constrained];
         Vector<Dim> sum = Vector<Dim>::Zero();
         Matrix<Dim> moments = Matrix<Dim>::Zero();  // sum F X'^T
         for (int i = 0; i < points_per_body; ++i) {
             sum += force[body.first_point + i];
             moments += force[body.first_point + i] * rest_arm(body, i).transpose();
         }
-        const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, q));
+        const Matrix<Dim> turn = nearest_rotation<Dim>(map_of(body, of_points(body, q)));
         const Matrix<Dim> in_space = turn * body.second_moment * turn.transpose();
         const AxialVector<Dim> spin =
             0.5 * axial<Dim>(Matrix<Dim>(0.5 * (body.rate_before + body.rate_after) * turn.transpose()));

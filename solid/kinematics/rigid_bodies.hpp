@@ -11,6 +11,9 @@
 
 namespace abut::solid {
 
+template <int Dim>
+class RankPart;
+
 /// Where a rigid body is: a point that is at X' from its centre at rest is at centre + map X'. The map is a rotation, up to
 /// rounding.
 template <int Dim>
@@ -45,7 +48,11 @@ public:
     [[nodiscard]] std::span<const Vector<Dim>> rest_points(std::size_t body) const { return bodies_[body].rest; }
 
     /// For displacements q of all points of the system (n_points) [m].
-    [[nodiscard]] RigidPlace<Dim> place(std::size_t body, std::span<const Vector<Dim>> q) const;
+    [[nodiscard]] RigidPlace<Dim> place(std::size_t body, std::span<const Vector<Dim>> q) const {
+        return place_by(body, of_points(bodies_[body], q));
+    }
+    /// For those of its points alone (points_per_body) [m].
+    [[nodiscard]] RigidPlace<Dim> place_by(std::size_t body, std::span<const Vector<Dim>> q_of_points) const;
     /// A point at X' from the centre moves with centre + map X' [m/s], for velocities of all points of the system (n_points).
     [[nodiscard]] RigidPlace<Dim> velocity(std::size_t body, std::span<const Vector<Dim>> v) const;
     /// dV/dx of its points [N], from gradients p at X' from the centre: their sum, and that of p X'^T.
@@ -57,6 +64,8 @@ public:
     void set_momentum(std::size_t body, const Vector<Dim>& velocity, const AxialVector<Dim>& spin,
                       std::span<Vector<Dim>> p) const;
 
+    /// On several ranks: these bodies, increasing, are constrained here from now on, and others are left as they are.
+    void constrain_only(std::span<const std::int32_t> bodies) { constrained_.assign(bodies.begin(), bodies.end()); }
     /// A step from q_0 to q_1: what constrains the next half step lies between.
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
     /// Of the rotations at both ends of that step.
@@ -71,7 +80,8 @@ public:
     /// Adds to the forces on the points what holds the distances in q, at the mean of the velocities before and after.
     void add_constraint_forces(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> force) const;
 
-    void save(StateWriter& state) const;  ///< between two steps
+    /// Between two steps; `part`: of whose ranks each brings what it constrains, null on one.
+    void save(StateWriter& state, const RankPart<Dim>* part) const;
     void restore(StateReader& state);
 
 private:
@@ -91,10 +101,15 @@ private:
     /// Gives the turn of the body at the other end.
     Matrix<Dim> constrain(Body& body, const Matrix<Dim>& lines, const Matrix<Dim>& guess, std::span<const Vector<Dim>> q,
                           double dt, std::span<Vector<Dim>> p) const;
+    [[nodiscard]] static std::span<const Vector<Dim>> of_points(const Body& body, std::span<const Vector<Dim>> of_all) {
+        return of_all.subspan(static_cast<std::size_t>(body.first_point), points_per_body);
+    }
+    // Values of the points of the body
     [[nodiscard]] Matrix<Dim> moment_of(const Body& body, const Matrix<Dim>& begin, std::span<const Vector<Dim>> q) const;
     [[nodiscard]] Matrix<Dim> map_of(const Body& body, std::span<const Vector<Dim>> q) const;
 
     std::vector<Body> bodies_;
+    std::vector<std::int32_t> constrained_;  // here
 };
 
 }  // namespace abut::solid

@@ -80,6 +80,27 @@ TEMPLATE_TEST_CASE_SIG("a part has its own cells with all of their faces, as the
     CHECK(n_boundary == std::ssize(whole.boundary_faces));
 }
 
+TEMPLATE_TEST_CASE_SIG("of some bodies each part has the whole, a rank without other cells too", "[mesh][part]",
+                       ((int Dim), Dim), 2, 3) {
+    const Mesh<Dim> whole = two_boxes<Dim>();
+    const std::vector<int> owner = slices(whole, 3);
+    for (int rank = 0; rank < 4; ++rank) {  // the last one owns nothing
+        const MeshPart<Dim> with = part_of<Dim>(whole, owner, rank, 1, std::vector<std::int32_t>{1});
+        const MeshPart<Dim> without = part_of<Dim>(whole, owner, rank, 1);
+        const auto n_cells = [](const Mesh<Dim>& mesh, int body) { return std::ranges::count(mesh.cell_body, body); };
+        const auto n_boundary = [](const Mesh<Dim>& mesh, int body) {
+            return std::ranges::count_if(mesh.boundary_faces,
+                                         [&](int f) { return mesh.cell_body[mesh.face_cells[f][0]] == body; });
+        };
+        CHECK(n_cells(with.mesh, 1) == n_cells(whole, 1));
+        CHECK(n_boundary(with.mesh, 1) == n_boundary(whole, 1));
+        CHECK(n_cells(with.mesh, 0) == n_cells(without.mesh, 0));
+        CHECK(n_boundary(with.mesh, 0) == n_boundary(without.mesh, 0));
+        for (std::size_t c = 0; c < with.cell_number.size(); ++c)
+            CHECK(with.cell_owner[c] == owner[static_cast<std::size_t>(with.cell_number[c])]);
+    }
+}
+
 TEST_CASE("copies lie as many layers deep as were asked for", "[mesh][part]") {
     // Squares in a row: a layer is one square.
     const Mesh<2> whole = structured_box<2>({0.0, 0.0}, {20.0, 1.0}, {20, 1}, CellShape::quadrangle);
@@ -98,6 +119,7 @@ TEST_CASE("parts of unusable input are refused", "[mesh][part]") {
     const std::vector<int> owner(9, 0), few(8, 0);
     CHECK_THROWS_AS(part_of<2>(whole, few, 0), BadInput);
     CHECK_THROWS_AS(part_of<2>(whole, owner, 0, 0), BadInput);
+    CHECK_THROWS_AS(part_of<2>(whole, owner, 0, 1, std::vector<std::int32_t>{7}), BadInput);
     CellSoup<2> soup{.name = "mixed", .vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0.5}}};
     soup.cell_shape = {CellShape::quadrangle, CellShape::triangle};
     soup.cell_vertices.append(std::array<std::int32_t, 4>{0, 1, 2, 3});

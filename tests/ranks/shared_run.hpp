@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "abut/mesh/part.hpp"
 #include "abut/ranks/partition.hpp"
 #include "abut/run/simulation.hpp"
 #include "ranks/counting_ranks.hpp"
@@ -18,15 +17,17 @@
 
 namespace abut::test {
 
-/// The rank of each cell of a mesh, the first time and whenever they are shared out again.
+/// The rank of each cell of a mesh, the first time and whenever they are shared out again; weights are of cells.
 using Owners = std::function<std::vector<int>(int time, std::span<const double> weights)>;
 
 /// A scene's mesh, shared out by these.
 template <int Dim>
 class SharedMesh {
 public:
-    SharedMesh(const ranks::Communicator& all, const mesh::Mesh<Dim>& mesh, Owners owners)
-        : all_(all), mesh_(mesh), owners_(std::move(owners)) {
+    /// `kinematics` of the bodies; none: all are `small`.
+    SharedMesh(const ranks::Communicator& all, const mesh::Mesh<Dim>& mesh, Owners owners,
+               std::vector<solid::Kinematics> kinematics = {})
+        : all_(all), mesh_(mesh), owners_(std::move(owners)), kinematics_(std::move(kinematics)) {
         share_.emplace(share_out({}));
         share_->again = [this](std::span<const double> weights) { return share_out(weights); };
     }
@@ -42,20 +43,23 @@ private:
         ranks::PointRanks points;
         CountingRanks counting;
 
-        Part(const ranks::Communicator& all, const mesh::Mesh<Dim>& mesh, const std::vector<int>& owner, Calls& calls)
-            : part(mesh::part_of<Dim>(mesh, owner, all.rank())),
-              points(all, ranks::shared_cells(all, Dim, part.n_cells, part.cell_number, part.cell_owner)),
+        Part(const ranks::Communicator& all, const mesh::Mesh<Dim>& mesh, const std::vector<int>& owner,
+             std::span<const solid::Kinematics> kinematics, Calls& calls)
+            : part(solid::part_of<Dim>(mesh, owner, all.rank(), kinematics)),
+              points(all, shared_points<Dim>(all, part, kinematics)),
               counting(points, calls) {}
     };
     run::Share<Dim> share_out(std::span<const double> weights) {
         before_ = std::move(part_);
-        part_ = std::make_unique<Part>(all_, mesh_, owners_(times_++, weights), calls_);
+        part_ = std::make_unique<Part>(all_, mesh_, owners_(times_++, solid::cell_weights(mesh_, kinematics_, weights)),
+                                       kinematics_, calls_);
         return {part_->part.mesh, part_->counting};
     }
 
     const ranks::Communicator& all_;
     const mesh::Mesh<Dim>& mesh_;
     Owners owners_;
+    std::vector<solid::Kinematics> kinematics_;
     int times_ = 0;
     Calls calls_;
     std::unique_ptr<Part> part_, before_;

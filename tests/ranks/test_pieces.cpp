@@ -84,7 +84,7 @@ void check_pieces(const run::Scene<Dim>& scene, int steps, const fs::path& folde
     const run::RunOptions options{.steps = steps, .threads = 1, .rebalance = 4, .rebalance_above = 1.0, .interval = 10};
     if (all.rank() == 0) fs::remove_all(folder);
     all.agree(nullptr);
-    const test::SharedMesh<Dim> mesh(all, scene.mesh, test::odd(all, scene.mesh));
+    const test::SharedMesh<Dim> mesh(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
     run::Frames<Dim> of_first(folder / "pieces", "bodies", 4, true);
     run::PieceFiles<Dim> of_others(folder / "pieces", "bodies", scene.outputs.fields);
     run::Observer<Dim>& mine = all.rank() == 0 ? static_cast<run::Observer<Dim>&>(of_first) : of_others;
@@ -121,6 +121,15 @@ TEST_CASE("frames in pieces hold, cell by cell, what the whole holds", "[ranks][
     auto scene = test::meeting_bodies<2>(0.3);
     scene.outputs.fields.gap = false;  // of pairs that are listed: lists are new where parts change
     check_pieces<2>(scene, 15, results("discs"));
+}
+
+TEST_CASE("so do frames of bodies that turn, and of rigid ones", "[ranks][run][pieces]") {
+    auto scene = test::meeting_bodies<2>(0.3);
+    scene.outputs.fields.gap = false;
+    scene.solid.kinematics = {solid::Kinematics::floating, solid::Kinematics::rigid};
+    if (GENERATE(false, true)) std::swap(scene.solid.kinematics[0], scene.solid.kinematics[1]);
+    scene.added_velocity = [](const Vector<2>& x) -> Vector<2> { return 0.3 * Vector<2>(-x[1], x[0]); };
+    check_pieces<2>(scene, 15, results("turning"));
 }
 
 TEST_CASE("the same in space, where vertices have cells of many ranks around them", "[ranks][run][pieces]") {

@@ -83,6 +83,35 @@ TEST_CASE("the same in space", "[ranks][run]") {
     CHECK(found.contact.events > 0);
 }
 
+TEST_CASE("rigid and floating bodies whose parts change have the bits of one rank, and go on from a checkpoint",
+          "[ranks][run][checkpoint][rigid]") {
+    const ranks::Communicator all = test::world();
+    auto scene = test::meeting_bodies<2>(0.25);
+    scene.solid.kinematics = {solid::Kinematics::rigid, solid::Kinematics::floating};
+    if (GENERATE(false, true)) std::swap(scene.solid.kinematics[0], scene.solid.kinematics[1]);
+    scene.solid.springs = {{.first = {.body = 0, .position = {-1.5, 0.2}},
+                            .second = {.position = {-4.0, 0.0}},
+                            .stiffness = 0.05,
+                            .damping = 0.02}};
+    run::RunOptions options = options_of(40);
+    options.restart = 9;
+    options.rebalance = 6;
+    options.rebalance_above = 1.0;
+    Watch<2> alone(5, 10), together(5, 10);
+    const auto expected = run::simulate<2>(scene, options, alone);
+    const SharedMesh<2> mesh(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
+    const auto found = run::simulate<2>(scene, options, together, nullptr, mesh.share());
+    test::require_same(all, expected, alone, found, together);
+    CHECK(found.contact.active_pairs_max > 0);
+
+    Watch<2> rest;
+    const SharedMesh<2> other(all, scene.mesh, test::odd(all, scene.mesh), scene.solid.kinematics);
+    const auto on_ranks = run::simulate<2>(scene, options, rest, &alone.kept[1], other.share());  // began alone
+    Watch<2> later;                                                                               // of `alone`
+    later.seen.assign(alone.seen.end() - static_cast<std::ptrdiff_t>(rest.seen.size()), alone.seen.end());
+    test::require_same(all, expected, later, on_ranks, rest);
+}
+
 TEST_CASE("cells that cost alike stay where they are, and before the first look nobody looks", "[ranks][run]") {
     const ranks::Communicator all = test::world();
     const auto scene = test::meeting_bodies<2>(0.3);
@@ -298,7 +327,6 @@ TEST_CASE("what a run on ranks cannot do is refused by name on all of them", "[r
     std::string name;
     SECTION("local steps") { options.integrator = run::SolidIntegrator::memm_async, name = "memm_async"; }
     SECTION("pilot runs") { options.kinematics = run::BodyKinematics::automatic, name = "a pilot run"; }
-    SECTION("rigid bodies") { options.kinematics = run::BodyKinematics::rigid, name = "a rigid body"; }
     SECTION("after_step") {
         scene.after_step = [](const solid::Solid<2>&, double) {};
         name = "Scene::after_step";

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "abut/mesh/part.hpp"
+#include "abut/solid/options.hpp"
+
+namespace abut::solid {
+
+// How the mesh of a solid is shared out to several ranks. `kinematics`: one per body; none: all are `small`. docs/ranks.md.
+
+/// How many layers of neighbours a solid needs around the cells of a rank. Free faces of bodies of Kinematics::finite depend on
+/// the stress behind them, one layer farther. The solid checks them where it is made: stencils near a slot may need more.
+[[nodiscard]] int copy_layers(std::span<const Kinematics> kinematics);
+
+/// The part of a rank, for its solid: with these layers, and the whole of all rigid bodies. `owner` says whose each cell is
+/// (n_cells); the points of a rigid body belong to that of its first cell. Throws as mesh::part_of, and BadInput for another
+/// number of kinematics than of bodies.
+template <int Dim>
+[[nodiscard]] mesh::MeshPart<Dim> part_of(const mesh::Mesh<Dim>& whole, std::span<const int> owner, int rank,
+                                          std::span<const Kinematics> kinematics);
+
+/// The points of a solid that a part has, its own and copies.
+struct PartPoints {
+    std::int32_t n_points = 0;         ///< of all ranks
+    std::vector<std::int32_t> number;  ///< among these, increasing (n)
+    std::vector<int> owner;            ///< the rank that owns it (n)
+};
+/// Of what `part_of` has made, for ranks::PointRanks.
+template <int Dim>
+[[nodiscard]] PartPoints points_of(const mesh::MeshPart<Dim>& part, std::span<const Kinematics> kinematics);
+
+/// How much each cell of the whole mesh weighs where it is shared out (n_cells, or none: all the same), from weights of the
+/// points (n_points, or none). Cells of rigid bodies weigh nothing: they are not evaluated.
+template <int Dim>
+[[nodiscard]] std::vector<double> cell_weights(const mesh::Mesh<Dim>& whole, std::span<const Kinematics> kinematics,
+                                               std::span<const double> of_points);
+
+}  // namespace abut::solid
