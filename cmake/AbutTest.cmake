@@ -12,6 +12,7 @@ function(abut_test name)
   target_link_libraries(test_${name} PRIVATE ${test_LINK} abut_test_main abut_compile_options)
   # What is under test is optimised as it will be used; its tests compile in two thirds of the time without.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+  abut_join_sources(test_${name})
   # Catch2 2.13 asks the finished program for its test cases right after linking it; it has no DISCOVERY_MODE.
   catch_discover_tests(test_${name} TEST_PREFIX "${name}/" PROPERTIES TIMEOUT 600 ${test_PROPERTIES})
 endfunction()

@@ -34,14 +34,15 @@ public:
     [[nodiscard]] virtual int n_ranks() const = 0;  ///< with this one
     /// Of this rank's points among all, increasing (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> numbers() const = 0;
-    /// Of this rank's points among the cells of its part of the mesh, increasing (n_owned).
+    /// Of this rank's points among the entries of the arrays that it fills, its points and copies of others, increasing
+    /// (n_owned).
     [[nodiscard]] virtual std::span<const std::int32_t> positions() const = 0;
     [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
     [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
 
-    /// Chooses those at these positions among the cells of this rank's part of the mesh, as long as the ranks last.
+    /// Chooses those at these positions, as long as the ranks last.
     [[nodiscard]] virtual CopySet copy_set(std::span<const std::int32_t> positions) const = 0;
-    /// Fills what this rank copies of others, or chose of it: values by cell of its part of the mesh (n_cells, width).
+    /// Fills what this rank copies of others, or chose of it: values by entry (n_entries, width).
     virtual void fill(std::span<double> values, int width, CopySet copies) const = 0;
     /// Sums of the terms of all ranks by component (width), with the bits that one rank gets which adds all of them up in
     /// blocks of 1,024 values (base/parallel.hpp). `terms` are those of this rank's points in the range (n, per_point, width).

@@ -39,7 +39,8 @@ concept FollowedSystem = PathMeanSystem<S> &&
 
 /// A system some points of which stay at the distances that they have. What holds them are impulses along the lines between
 /// them: as these lie in the middle of a step they do no work on it and have no moment about its mean positions. Only schemes
-/// that call this may run it where `has_constraints`.
+/// that call this may run it where `has_constraints`. On several ranks points are those of this one, and to constrain them is a
+/// call of all.
 template <class S>
 concept ConstrainedSystem = System<S> &&
     requires(S& system, std::int32_t point, std::span<const double> q, std::span<double> p, double dt) {

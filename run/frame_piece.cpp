@@ -15,7 +15,11 @@ template <int Dim>
 class PieceMaker {
 public:
     PieceMaker(FramePiece<Dim>& piece, solid::Solid<Dim>& solid)
-        : piece_(piece), solid_(solid), mesh_(*piece.mesh), is_own_(mesh_.cell_measure.size(), 0) {
+        : piece_(piece),
+          solid_(solid),
+          mesh_(*piece.mesh),
+          any_turns_(solid.moment_arms() == dynamics::MomentArms::mid_step),
+          is_own_(mesh_.cell_measure.size(), 0) {
         solid::OwnCells own = solid.own_cells();
         piece.cells = std::move(own.number);
         positions_ = std::move(own.position);
@@ -42,9 +46,8 @@ public:
         const std::vector<int> around = count_around();
         for (std::size_t v = 0; v < around.size(); ++v)
             if (around[v] > 0) piece_.vertices.push_back(static_cast<std::int32_t>(v));
-        // A body that turns is not where the mean displacement of its cells takes it.
-        const bool turns = solid_.moment_arms() == dynamics::MomentArms::mid_step;
-        const std::vector<Vector<Dim>> of_all = vertex_means(around, turns ? gradients(run.q) : std::vector<Matrix<Dim>>{});
+        const std::vector<Vector<Dim>> of_all =
+            vertex_means(around, any_turns_ ? own_gradients(run.q) : std::vector<Matrix<Dim>>{});
         for (const std::int32_t v : piece_.vertices)
             piece_.vertex_displacement.push_back(of_all[static_cast<std::size_t>(v)]);
     }
@@ -77,29 +80,29 @@ private:
     }
 
     /// Of own cells (n).
-    [[nodiscard]] std::vector<Matrix<Dim>> gradients(std::span<const double> q) const {
+    [[nodiscard]] std::vector<Matrix<Dim>> own_gradients(std::span<const double> q) const {
         std::vector<Matrix<Dim>> of_own;
         for (const std::int32_t position : positions_) of_own.push_back(solid_.displacement_gradient(position, q));
         return of_own;
     }
 
     /// Means over all cells around a vertex, one after the other by number, of where each carries it: by its displacement and,
-    /// where they are given, by the displacement gradients of own cells. Those of other ranks come from these.
+    /// where a body turns, by its displacement gradient. Values of own cells are given, those of others come from their ranks.
     [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around,
                                                         std::span<const Matrix<Dim>> own_gradients) const {
         std::vector<Vector<Dim>> of_cells(mesh_.cell_measure.size(), Vector<Dim>::Zero());
-        std::vector<Matrix<Dim>> gradients(own_gradients.empty() ? 0 : of_cells.size(), Matrix<Dim>::Zero());
+        std::vector<Matrix<Dim>> gradients(any_turns_ ? of_cells.size() : 0, Matrix<Dim>::Zero());
         for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
             of_cells[static_cast<std::size_t>(piece_.cells[i])] = piece_.displacement[i];
-            if (!gradients.empty()) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients[i];
+            if (any_turns_) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients[i];
         }
         if (const dynamics::Ranks* ranks = solid_.ranks()) {
             const std::vector<double> shared = ranks->gather(values_at_seams(own_gradients));
-            const std::size_t width = 1 + Dim + (gradients.empty() ? 0 : Dim * Dim);
+            const std::size_t width = 1 + Dim + (any_turns_ ? Dim * Dim : 0);
             for (std::size_t i = 0; i < shared.size(); i += width) {
                 const auto cell = static_cast<std::size_t>(shared[i]);
                 of_cells[cell] = Vector<Dim>(&shared[i + 1]);
-                if (!gradients.empty()) gradients[cell] = Eigen::Map<const Matrix<Dim>>(&shared[i + 1 + Dim]);
+                if (any_turns_) gradients[cell] = Eigen::Map<const Matrix<Dim>>(&shared[i + 1 + Dim]);
             }
         }
         std::vector<Vector<Dim>> mean(mesh_.vertices.size(), Vector<Dim>::Zero());
@@ -108,17 +111,17 @@ private:
             for (const std::int32_t v : mesh_.cell_vertices[static_cast<std::int32_t>(cell)]) {
                 const auto vertex = static_cast<std::size_t>(v);
                 if (around[vertex] == 0) continue;
-                if (gradients.empty())
-                    mean[vertex] += of_cells[cell];
-                else
+                if (any_turns_)
                     mean[vertex] += of_cells[cell] + gradients[cell] * (mesh_.vertices[vertex] - mesh_.cell_centroid[cell]);
+                else
+                    mean[vertex] += of_cells[cell];
                 ++count[vertex];
             }
         for (const std::int32_t v : piece_.vertices) mean[static_cast<std::size_t>(v)] /= count[static_cast<std::size_t>(v)];
         return mean;
     }
 
-    /// Number, displacement and, where they are given, gradient of own cells that share a vertex with a cell of another rank.
+    /// Number, displacement and, where a body turns, displacement gradient of own cells that share a vertex with a cell of another rank.
     [[nodiscard]] std::vector<double> values_at_seams(std::span<const Matrix<Dim>> own_gradients) const {
         std::vector<char> at_seam(mesh_.vertices.size(), 0);
         for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
@@ -132,7 +135,7 @@ private:
             if (!shared) continue;
             values.push_back(piece_.cells[i]);
             values.insert(values.end(), piece_.displacement[i].begin(), piece_.displacement[i].end());
-            if (own_gradients.empty()) continue;
+            if (!any_turns_) continue;
             values.insert(values.end(), own_gradients[i].data(), own_gradients[i].data() + Dim * Dim);
         }
         return values;
@@ -141,6 +144,7 @@ private:
     FramePiece<Dim>& piece_;
     solid::Solid<Dim>& solid_;
     const mesh::Mesh<Dim>& mesh_;
+    bool any_turns_;                       // then the mean displacement of its cells does not take a vertex where it is
     std::vector<char> is_own_;             // of the cells of the scene
     std::vector<std::int32_t> positions_;  // of own cells in the mesh of the solid
 };

@@ -7,7 +7,7 @@ namespace abut::run {
 /// The cells of a run on several ranks have been shared out again.
 struct Rebalance {
     std::int64_t step = 0;         ///< after which
-    std::int64_t cells_moved = 0;  ///< that have another rank since
+    std::int64_t cells_moved = 0;  ///< that have another rank since; points of rigid bodies count as cells
     /// What its own cells cost the costliest rank over the mean of all ranks [-], from the look before until this step and from
     /// here until the next look or the end of the run; NaN: nothing was measured.
     double imbalance_before = 0.0;

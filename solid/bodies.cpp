@@ -41,39 +41,8 @@ Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
 }  // namespace
 
 template <int Dim>
-std::vector<bool> turning_tractions(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                    const dynamics::Ranks* ranks) {
-    const auto may_turn = [&](std::int32_t face) {
-        const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
-        return body < options.kinematics.size() && options.kinematics[body] != Kinematics::small;
-    };
-    struct Sides {
-        double turning = 0.0, others = 0.0;  // 1: there are such faces
-    };
-    std::vector<Sides> of_conditions = dynamics::agreed(ranks, [&] {
-        std::vector<Sides> here;
-        for (const TractionCondition<Dim>& condition : options.boundary.traction) {
-            Sides& sides = here.emplace_back();
-            for (const std::int32_t face : mesh.group(condition.group).faces)
-                (may_turn(face) ? sides.turning : sides.others) = 1.0;
-        }
-        return here;
-    });
-    std::vector<bool> turning;
-    for (std::size_t i = 0; i < of_conditions.size(); ++i) {
-        Sides& sides = of_conditions[i];
-        if (ranks) sides = {ranks->largest(sides.turning), ranks->largest(sides.others)};
-        if (sides.turning > 0.0 && sides.others > 0.0)
-            throw BadInput(mesh.name + ": the traction on '" + options.boundary.traction[i].group +
-                           "' acts on bodies of Kinematics::small and on others. Give each kind a group of its own.");
-        turning.push_back(sides.turning > 0.0);
-    }
-    return turning;
-}
-
-template <int Dim>
-Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning_tractions)
-    : mesh_(mesh), options_(options), turning_tractions_(std::move(turning_tractions)) {
+Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning)
+    : mesh_(mesh), options_(options), turning_tractions_(std::move(turning)) {
     check();
     std::vector<std::int32_t> rigid;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
@@ -104,7 +73,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     for (const double mass : masses_) inverse_masses_.insert(inverse_masses_.end(), Dim, 1.0 / mass);
 }
 
-/// Those of conditions, which in the part of a rank may have no face.
+/// The group of a condition may have no face in the part of a rank, and mesh::extract_bodies leaves such groups out.
 template <int Dim>
 void Bodies<Dim>::keep_groups() {
     const auto keep = [&](const auto& conditions) {
@@ -412,8 +381,6 @@ std::int32_t Bodies<Dim>::mesh_cell(std::int32_t cell) const {
     return cell - cells_of_body(deformable(), body).first + cells_of_body(mesh_, deformable_bodies_[body]).first;
 }
 
-template std::vector<bool> turning_tractions(const mesh::Mesh<2>&, const SolidOptions<2>&, const dynamics::Ranks*);
-template std::vector<bool> turning_tractions(const mesh::Mesh<3>&, const SolidOptions<3>&, const dynamics::Ranks*);
 template class Bodies<2>;
 template class Bodies<3>;
 

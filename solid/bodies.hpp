@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "abut/dynamics/ranks.hpp"
 #include "abut/mesh/mesh.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
 #include "abut/solid/kinematics/rigid_bodies.hpp"
@@ -14,20 +13,14 @@
 
 namespace abut::solid {
 
-/// Of each traction of the options, whether it acts on bodies that may turn. A call of all ranks, of which one may have no face
-/// of its group. Throws BadInput for a group on bodies of both kinds, and for one that the mesh does not have.
-template <int Dim>
-[[nodiscard]] std::vector<bool> turning_tractions(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                                  const dynamics::Ranks* ranks);
-
 /// The bodies of a solid, by how they move. Its points are the cells of those that deform, then the points of those that are
 /// rigid; both in the order of the mesh.
 template <int Dim>
 class Bodies {
 public:
-    /// The mesh must outlive it; `turning_tractions` as below. Throws BadInput for options that do not fit the mesh or each
-    /// other.
-    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning_tractions);
+    /// The mesh must outlive it; `turning` as `turning_tractions` returns it (n_tractions). Throws BadInput for options that do
+    /// not fit the mesh or each other.
+    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning);
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do.

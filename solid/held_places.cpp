@@ -146,7 +146,7 @@ auto HeldPlaces<Dim>::gathered_points_of(std::int32_t body) const -> Points {
     return points;
 }
 
-/// All ranks have those of rigid bodies, and on each those of others that are own ones.
+/// Every rank has the faces of rigid bodies; those of others come from the ranks that own their cells.
 template <int Dim>
 auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Face> {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();

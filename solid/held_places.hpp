@@ -25,8 +25,11 @@ struct HeldPlace {
         for (std::size_t i = 0; i < points.size(); ++i) x += weights[i] * q[points[i]];
         return x;
     }
-    void push(const Vector<Dim>& force, std::span<Vector<Dim>> of_points) const {
-        for (std::size_t i = 0; i < points.size(); ++i) of_points[points[i]] += weights[i] * force;
+    /// How it moves where these points do.
+    [[nodiscard]] Vector<Dim> displacement(std::span<const Vector<Dim>> q) const {
+        Vector<Dim> u = Vector<Dim>::Zero();
+        for (std::size_t i = 0; i < points.size(); ++i) u += weights[i] * q[points[i]];
+        return u;
     }
 };
 
@@ -39,7 +42,7 @@ public:
     struct Face {
         std::int64_t key;  // orders the faces of a body
         std::int32_t body;
-        std::size_t in_group;  // its place here; only on one rank
+        std::size_t in_group;  // its position in the group; on one rank only
         double area;
         Vector<Dim> centroid;
     };

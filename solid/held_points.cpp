@@ -7,38 +7,36 @@ namespace abut::solid {
 
 template <int Dim>
 HeldPoints<Dim>::HeldPoints(std::vector<std::int32_t> numbers, const RankPart<Dim>* part)
-    : numbers_(std::move(numbers)), part_(part) {
+    : numbers_(std::move(numbers)), position_(numbers_), part_(part) {
+    if (!part_ || numbers_.empty()) return;
+    const auto own = part_->ranks().numbers();
     std::vector<double> mine;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        std::int32_t position = numbers_[i];
-        if (part_) {
-            const auto own = part_->ranks().numbers();
-            const auto found = std::ranges::lower_bound(own, numbers_[i]);
-            if (found == own.end() || *found != numbers_[i]) continue;
-            position = part_->ranks().positions()[static_cast<std::size_t>(found - own.begin())];
-        }
-        own_.push_back({i, position});
-        mine.push_back(static_cast<double>(i));
+        const auto found = std::ranges::lower_bound(own, numbers_[i]);
+        const bool is_own = found != own.end() && *found == numbers_[i];
+        position_[i] = is_own ? part_->ranks().positions()[static_cast<std::size_t>(found - own.begin())] : -1;
+        if (is_own) mine.push_back(static_cast<double>(i));
     }
-    if (!part_ || numbers_.empty()) return;
     for (const double held : part_->ranks().gather(mine)) gathered_.push_back(static_cast<std::size_t>(held));
 }
 
 template <int Dim>
-void HeldPoints<Dim>::take(std::span<const Vector<Dim>> of_points, std::vector<Vector<Dim>>& of_held) const {
-    of_held.resize(numbers_.size());
-    for (const Own& own : own_) of_held[own.held] = of_points[static_cast<std::size_t>(own.position)];
-    if (!part_ || numbers_.empty()) return;
-    std::vector<double> mine;
-    for (const Own& own : own_) mine.insert(mine.end(), of_held[own.held].begin(), of_held[own.held].end());
+std::vector<std::vector<Vector<Dim>>> HeldPoints<Dim>::take(
+    std::initializer_list<std::span<const Vector<Dim>>> arrays) const {
+    std::vector<std::vector<Vector<Dim>>> taken(arrays.size(), std::vector<Vector<Dim>>(numbers_.size()));
+    for (std::size_t array = 0; array < arrays.size(); ++array)
+        for (std::size_t i = 0; i < numbers_.size(); ++i)
+            if (position_[i] >= 0) taken[array][i] = arrays.begin()[array][static_cast<std::size_t>(position_[i])];
+    if (!part_ || numbers_.empty()) return taken;
+    std::vector<double> mine;  // point after point
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+        for (const auto& values : taken)
+            if (position_[i] >= 0) mine.insert(mine.end(), values[i].begin(), values[i].end());
     const std::vector<double> all = part_->ranks().gather(mine);
-    const auto values = as_vectors<Dim>(std::span<const double>(all));
-    for (std::size_t i = 0; i < values.size(); ++i) of_held[gathered_[i]] = values[i];
-}
-
-template <int Dim>
-void HeldPoints<Dim>::add(std::span<const Vector<Dim>> of_held, std::span<Vector<Dim>> of_points) const {
-    for (const Own& own : own_) of_points[static_cast<std::size_t>(own.position)] += of_held[own.held];
+    auto value = as_vectors<Dim>(std::span<const double>(all)).begin();
+    for (const std::size_t i : gathered_)
+        for (auto& values : taken) values[i] = *value++;
+    return taken;
 }
 
 template class HeldPoints<2>;

@@ -40,7 +40,8 @@ PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>* part
     hold_tractions(places);
     take_held_points();
     check_moments();
-    for (const BodyMoment<Dim>& law : options_.moments) moments_.push_back({law});
+    for (const BodyMoment<Dim>& law : options_.moments)
+        moments_.push_back({law, sum_of(law.body, 0.0, [&](std::int32_t i) { return bodies_.masses()[i]; })});
 }
 
 template <int Dim>
@@ -118,8 +119,7 @@ bool PointLoads<Dim>::do_work() const {
 template <int Dim>
 double PointLoads<Dim>::energy(std::span<const Vector<Dim>> q) const {
     if (springs_.empty()) return 0.0;
-    std::vector<Vector<Dim>> held;
-    held_.take(q, held);
+    const auto held = std::move(held_.take({q}).front());
     double energy = 0.0;
     for (const HeldSpring& spring : springs_) {
         const double stretch = (spring.second.at(held) - spring.first.at(held)).norm() - spring.law.length;
@@ -131,14 +131,11 @@ double PointLoads<Dim>::energy(std::span<const Vector<Dim>> q) const {
 template <int Dim>
 void PointLoads<Dim>::add(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
                           contact::TakenForce take, const TurnOf& turn_of, std::span<Vector<Dim>> force, double& work) {
-    held_.take(q_0, held_0_);
-    held_.take(q_1, held_1_);
-    force_.assign(held_0_.size(), Vector<Dim>::Zero());
-    add_springs(held_0_, held_1_, dt, take, force_, work);
-    work += add_tractions(held_0_, held_1_, time, turn_of, force_);
-    held_.add(force_, force);
+    const auto held = held_.take({q_0, q_1});
+    add_springs(held[0], held[1], dt, take, force, work);
+    work += add_tractions(held[0], held[1], time, turn_of, force);
     for (HeldMoment& moment : moments_) {
-        const Middle middle = middle_of(moment.law.body, q_0, q_1);
+        const Middle middle = middle_of(moment, q_0, q_1);
         const AxialVector<Dim> spin = spin_of<Dim>(middle.second_moment, middle.angular) / dt;
         const bool takes_last = take == contact::TakenForce::mean && moment.spin;
         work += add_moment(moment.law, takes_last ? *moment.spin : spin, middle, q_0, q_1, force);
@@ -149,26 +146,22 @@ void PointLoads<Dim>::add(std::span<const Vector<Dim>> q_0, std::span<const Vect
 template <int Dim>
 void PointLoads<Dim>::add_at(std::span<const Vector<Dim>> q, double time, const TurnOf& turn_of,
                              std::span<Vector<Dim>> force) const {
-    std::vector<Vector<Dim>> held;
-    held_.take(q, held);
-    std::vector<Vector<Dim>> of_held(held.size(), Vector<Dim>::Zero());
+    const auto held = std::move(held_.take({q}).front());
     for (const HeldSpring& spring : springs_) {
         const Vector<Dim> r = spring.second.at(held) - spring.first.at(held);
         push(spring,
              mean_tension(spring.law, r, r) + damping_tension(spring.law, r, spring.rate.value_or(Vector<Dim>::Zero())),
-             of_held);
+             force);
     }
-    add_tractions(held, held, time, turn_of, of_held);
-    held_.add(of_held, force);
+    add_tractions(held, held, time, turn_of, force);
     for (const HeldMoment& moment : moments_)
-        add_moment(moment.law, moment.spin.value_or(AxialVector<Dim>::Zero()), middle_of(moment.law.body, q, q), q, q,
-                   force);
+        add_moment(moment.law, moment.spin.value_or(AxialVector<Dim>::Zero()), middle_of(moment, q, q), q, q, force);
 }
 
 template <int Dim>
 void PointLoads<Dim>::push(const HeldSpring& spring, const Vector<Dim>& tension, std::span<Vector<Dim>> force) const {
-    spring.first.push(tension, force);
-    spring.second.push(-tension, force);
+    held_.push(spring.first, tension, force);
+    held_.push(spring.second, -tension, force);
 }
 
 template <int Dim>
@@ -207,16 +200,16 @@ double PointLoads<Dim>::add_tractions(std::span<const Vector<Dim>> q_0, std::spa
     for (const HeldTraction& traction : tractions_) {
         Vector<Dim> push = traction.area * value_of(traction, time);
         if (options_.boundary.traction[traction.condition].follows) push = turn_of(traction.body) * push;
-        traction.place.push(push, force);
+        held_.push(traction.place, push, force);
         work += push.dot(traction.place.at(q_1) - traction.place.at(q_0));
     }
     return work;
 }
 
-/// Calls of_point(point) for the points of a body that are on this rank.
+/// Calls of_point(point) for the own cells of a body that deforms, or all points of a rigid one.
 template <int Dim>
-template <class Body>
-void PointLoads<Dim>::for_each_own(std::int32_t body, const Body& of_point) const {
+template <class OfPoint>
+void PointLoads<Dim>::for_each_here(std::int32_t body, const OfPoint& of_point) const {
     if (const std::int32_t deformable = bodies_.deformable_body(body); part_ && deformable >= 0) {
         for (const std::int32_t i : part_->own_cells_of(static_cast<std::size_t>(deformable))) of_point(i);
         return;
@@ -225,25 +218,22 @@ void PointLoads<Dim>::for_each_own(std::int32_t body, const Body& of_point) cons
     for (std::int32_t i = begin; i < end; ++i) of_point(i);
 }
 
-/// Of term(point) over the points of a body, in blocks of fixed size, whatever ranks they are on.
+/// Of term(point) over the points of a body.
 template <int Dim>
 template <class Value, class Term>
 Value PointLoads<Dim>::sum_of(std::int32_t body, const Value& zero, const Term& term) const {
-    if (const std::int32_t deformable = bodies_.deformable_body(body); part_ && deformable >= 0)
-        return part_->sum_of_body(static_cast<std::size_t>(deformable), zero, term);
-    const auto [begin, end] = bodies_.points_of(body);
-    return ordered_sum(end - begin, zero,
-                       [&, first = begin](std::ptrdiff_t i) { return term(first + static_cast<std::int32_t>(i)); });
+    const std::int32_t deformable = bodies_.deformable_body(body);
+    return sum_over_body(deformable < 0 ? nullptr : part_, deformable, bodies_.points_of(body), zero, term);
 }
 
 template <int Dim>
-typename PointLoads<Dim>::Middle PointLoads<Dim>::middle_of(std::int32_t body, std::span<const Vector<Dim>> q_0,
+typename PointLoads<Dim>::Middle PointLoads<Dim>::middle_of(const HeldMoment& held, std::span<const Vector<Dim>> q_0,
                                                             std::span<const Vector<Dim>> q_1) const {
+    const std::int32_t body = held.law.body;
     const auto at = [&](std::int32_t i) -> Vector<Dim> { return bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]); };
-    const double mass = sum_of(body, 0.0, [&](std::int32_t i) { return bodies_.masses()[i]; });
     const Vector<Dim> moment_of_mass = sum_of(body, Vector<Dim>(Vector<Dim>::Zero()),
                                               [&](std::int32_t i) -> Vector<Dim> { return bodies_.masses()[i] * at(i); });
-    Middle middle{moment_of_mass / mass, Matrix<Dim>::Zero(), AxialVector<Dim>::Zero()};
+    Middle middle{moment_of_mass / held.mass, Matrix<Dim>::Zero(), AxialVector<Dim>::Zero()};
     middle.second_moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t i) -> Matrix<Dim> {
         const Vector<Dim> arm = at(i) - middle.centre;
         return bodies_.masses()[i] * arm * arm.transpose();
@@ -265,26 +255,16 @@ double PointLoads<Dim>::add_moment(const BodyMoment<Dim>& law, const AxialVector
         const Vector<Dim> arm = bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]) - middle.centre;
         return bodies_.masses()[i] * (turning * arm);
     };
-    for_each_own(law.body, [&](std::int32_t i) { force[i] += of_point(i); });
+    for_each_here(law.body, [&](std::int32_t i) { force[i] += of_point(i); });
     return sum_of(law.body, 0.0, [&](std::int32_t i) { return of_point(i).dot(q_1[i] - q_0[i]); });
 }
 
 template <int Dim>
 void PointLoads<Dim>::add_stiffness(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> product) const {
     if (springs_.empty()) return;
-    std::vector<Vector<Dim>> held;
-    held_.take(q, held);
-    std::vector<Vector<Dim>> of_held(held.size(), Vector<Dim>::Zero());
-    for (const HeldSpring& spring : springs_) {
-        Vector<Dim> stretch = Vector<Dim>::Zero();
-        for (std::size_t i = 0; i < spring.second.points.size(); ++i)
-            stretch += spring.second.weights[i] * held[spring.second.points[i]];
-        for (std::size_t i = 0; i < spring.first.points.size(); ++i)
-            stretch -= spring.first.weights[i] * held[spring.first.points[i]];
-        spring.first.push(-spring.law.stiffness * stretch, of_held);
-        spring.second.push(spring.law.stiffness * stretch, of_held);
-    }
-    held_.add(of_held, product);
+    const auto held = std::move(held_.take({q}).front());
+    for (const HeldSpring& spring : springs_)
+        push(spring, spring.law.stiffness * (spring.first.displacement(held) - spring.second.displacement(held)), product);
 }
 
 template class PointLoads<2>;

@@ -47,8 +47,8 @@ public:
 
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
-    /// Where the tractions of a condition act, by face of its group and point of the system; empty where the bodies do not
-    /// turn.
+    /// Where the tractions of a condition act, one place per face of its group, with numbers of points of the system; empty
+    /// where the bodies do not turn.
     [[nodiscard]] std::vector<HeldPlace<Dim>> traction_places(std::size_t condition) const;
     /// Tractions of a condition that is from outside, by face of its group (n) [Pa]; not looked at.
     void set_traction(std::size_t condition, std::span<const Vector<Dim>> traction) {
@@ -63,6 +63,7 @@ private:
     };
     struct HeldMoment {
         BodyMoment<Dim> law;
+        double mass;                                // of the body [kg]
         std::optional<AxialVector<Dim>> spin = {};  // in the last step [rad/s]
     };
     struct HeldTraction {
@@ -89,13 +90,13 @@ private:
         Matrix<Dim> second_moment;
         AxialVector<Dim> angular;  ///< sum m x' × (q_1 - q_0)
     };
-    [[nodiscard]] Middle middle_of(std::int32_t body, std::span<const Vector<Dim>> q_0,
+    [[nodiscard]] Middle middle_of(const HeldMoment& held, std::span<const Vector<Dim>> q_0,
                                    std::span<const Vector<Dim>> q_1) const;
     double add_moment(const BodyMoment<Dim>& law, const AxialVector<Dim>& spin, const Middle& middle,
                       std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                       std::span<Vector<Dim>> force) const;
-    template <class Body>
-    void for_each_own(std::int32_t body, const Body& of_point) const;
+    template <class OfPoint>
+    void for_each_here(std::int32_t body, const OfPoint& of_point) const;
     template <class Value, class Term>
     [[nodiscard]] Value sum_of(std::int32_t body, const Value& zero, const Term& term) const;
 
@@ -106,8 +107,7 @@ private:
     std::vector<HeldSpring> springs_;
     std::vector<HeldMoment> moments_;
     std::vector<HeldTraction> tractions_;
-    std::vector<std::vector<Vector<Dim>>> outside_;     // by condition and face; empty: not from outside
-    std::vector<Vector<Dim>> held_0_, held_1_, force_;  // work arrays of `add`, of held points
+    std::vector<std::vector<Vector<Dim>>> outside_;  // by condition and face; empty: not from outside
 };
 
 }  // namespace abut::solid

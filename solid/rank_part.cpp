@@ -42,6 +42,7 @@ RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies)
     set_body_begin(mesh);
     find_first_cells();
     find_own_rigid(bodies.rigid());
+    check_rigid(bodies);
 }
 
 template <int Dim>
@@ -172,18 +173,36 @@ std::vector<Vector<Dim>> RankPart<Dim>::of_first_cells(std::span<const Vector<Di
 template <int Dim>
 void RankPart<Dim>::find_own_rigid(const RigidBodies<Dim>& rigid) {
     const auto own_points = ranks_.positions().subspan(n_own_cells_);
-    std::vector<double> masses;
-    for (std::size_t body = 0; body < rigid.size(); ++body) {
-        masses.push_back(rigid.mass(body));
+    for (std::size_t body = 0; body < rigid.size(); ++body)
         if (std::ranges::binary_search(own_points, rigid.first_point(body)))
             own_rigid_.push_back(static_cast<std::int32_t>(body));
-    }
-    const std::vector<double> of_ranks = ranks_.gather(masses);
-    for (std::size_t i = 0; i < of_ranks.size(); ++i)
-        if (of_ranks[i] != of_ranks[i % masses.size()])
-            throw BadInput("the ranks have other masses of a rigid body. Give each the whole of it (solid::part_of).");
     for (const double body : ranks_.gather(std::vector<double>(own_rigid_.begin(), own_rigid_.end())))
         gathered_rigid_.push_back(static_cast<std::size_t>(body));
+}
+
+/// One rank owns all points of a body, and they are where it has them only if all cells of the body are here.
+template <int Dim>
+void RankPart<Dim>::check_rigid(const Bodies<Dim>& bodies) const {
+    if (!bodies.any_rigid()) return;
+    constexpr std::size_t width = Dim + 1;
+    std::vector<double> here;  // rest position and mass of each point
+    for (std::size_t i = 0; i < bodies.rest().size(); ++i) {
+        here.insert(here.end(), bodies.rest()[i].begin(), bodies.rest()[i].end());
+        here.push_back(bodies.masses()[i]);
+    }
+    std::vector<double> of_owner = here;
+    ranks_.fill(of_owner, width, dynamics::CopySet::all);
+    dynamics::agreed(&ranks_, [&] {
+        if (ranks_.positions().size() != n_own_cells_ + own_rigid_.size() * RigidBodies<Dim>::points_per_body ||
+            gathered_rigid_.size() != bodies.rigid().size())
+            throw BadInput(bodies.mesh().name +
+                           ": the points of a rigid body are on several ranks. Give them to one (solid::points_of).");
+        for (std::size_t i = width * cell_numbers_.size(); i < here.size(); ++i)
+            if (here[i] != of_owner[i])
+                throw BadInput(bodies.mesh().name + ": rigid body " + std::to_string(bodies.body_of_points()[i / width]) +
+                               " is another one than at the rank that owns it. Give each rank the whole of it "
+                               "(solid::part_of).");
+    });
 }
 
 template <int Dim>

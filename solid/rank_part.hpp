@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/parallel.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/boundary_face.hpp"
@@ -14,7 +15,7 @@ namespace abut::solid {
 
 /// What one of several ranks has of a solid. The points of its system are its own cells, then the points of rigid bodies that
 /// are its own. Its part has copies beside these: points of the part are the cells that deform there, its own and copies, then
-/// the points of all rigid bodies. This is the way between arrays by own point and arrays by point of the part.
+/// the points of all rigid bodies. It turns arrays by own point into arrays by point of the part, and back.
 template <int Dim>
 class RankPart {
 public:
@@ -27,7 +28,7 @@ public:
     /// Rigid bodies whose points are own ones, increasing.
     [[nodiscard]] std::span<const std::int32_t> own_rigid() const { return own_rigid_; }
     [[nodiscard]] std::int32_t n_all_cells() const { return body_begin_.back(); }  ///< that deform, of all ranks
-    /// Of these, those of a body.
+    /// Own cells of a body, numbered as in Bodies::deformable.
     [[nodiscard]] std::span<const std::int32_t> own_cells_of(std::size_t body) const {
         const auto begin = static_cast<std::size_t>(own_begin_[body]), end = static_cast<std::size_t>(own_begin_[body + 1]);
         return own_cells().subspan(begin, end - begin);
@@ -121,6 +122,7 @@ private:
     void set_body_begin(const mesh::Mesh<Dim>& mesh);
     void find_first_cells();
     void find_own_rigid(const RigidBodies<Dim>& rigid);
+    void check_rigid(const Bodies<Dim>& bodies) const;
     void order_faces();
     [[nodiscard]] std::size_t position_of(std::int64_t key) const;
 
@@ -143,5 +145,15 @@ private:
     std::vector<std::int32_t> body_;
     std::vector<Vector<Dim>> state_, start_, end_, result_;
 };
+
+/// Of term(point) over the points [first, second) of a body, as `ordered_sum`; on several ranks (`part` is not null then) over
+/// those of all of them, `body` being numbered as in Bodies::deformable.
+template <int Dim, class Value, class Term>
+[[nodiscard]] Value sum_over_body(const RankPart<Dim>* part, std::ptrdiff_t body,
+                                  std::pair<std::int32_t, std::int32_t> points, const Value& zero, const Term& term) {
+    if (part) return part->sum_of_body(static_cast<std::size_t>(body), zero, term);
+    return ordered_sum(points.second - points.first, zero,
+                       [&](std::ptrdiff_t i) { return term(points.first + static_cast<std::int32_t>(i)); });
+}
 
 }  // namespace abut::solid

@@ -34,7 +34,7 @@ private:
 };
 
 [[noreturn]] void refuse(const std::string& what) {
-    throw BadInput(what + " Give ranks more layers of copies (mesh::part_of).");
+    throw BadInput(what + " Give ranks more layers of copies (solid::part_of).");
 }
 
 template <int Dim>

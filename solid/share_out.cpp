@@ -37,9 +37,9 @@ int copy_layers(std::span<const Kinematics> kinematics) {
 
 template <int Dim>
 mesh::MeshPart<Dim> part_of(const mesh::Mesh<Dim>& whole, std::span<const int> owner, int rank,
-                            std::span<const Kinematics> kinematics) {
+                            std::span<const Kinematics> kinematics, int more_layers) {
     check(whole, kinematics);
-    return mesh::part_of(whole, owner, rank, copy_layers(kinematics), rigid_bodies(kinematics));
+    return mesh::part_of(whole, owner, rank, copy_layers(kinematics) + more_layers, rigid_bodies(kinematics));
 }
 
 template <int Dim>
@@ -58,9 +58,12 @@ PartPoints points_of(const mesh::MeshPart<Dim>& part, std::span<const Kinematics
     }
     points.n_points = part.n_cells - n_rigid_cells;
     for (const std::int32_t body : rigid_bodies(kinematics)) {
-        const auto first = static_cast<std::size_t>(cells_of_body(part.mesh, body).first);
+        const auto [first, last] = cells_of_body(part.mesh, body);
+        if (first == last)
+            throw BadInput(part.mesh.name + ": rigid body " + std::to_string(body) +
+                           " has no cells in this part. Make it with solid::part_of.");
         for (std::int32_t i = 0; i < points_per_body; ++i) points.number.push_back(points.n_points + i);
-        points.owner.insert(points.owner.end(), points_per_body, part.cell_owner[first]);
+        points.owner.insert(points.owner.end(), points_per_body, part.cell_owner[static_cast<std::size_t>(first)]);
         points.n_points += points_per_body;
     }
     return points;
@@ -70,6 +73,14 @@ template <int Dim>
 std::vector<double> cell_weights(const mesh::Mesh<Dim>& whole, std::span<const Kinematics> kinematics,
                                  std::span<const double> of_points) {
     check(whole, kinematics);
+    const auto n_deformable = static_cast<std::size_t>(
+        std::ranges::count_if(whole.cell_body, [&](std::int32_t body) { return !is_rigid(kinematics, body); }));
+    const std::size_t n_points = n_deformable + RigidBodies<Dim>::points_per_body * rigid_bodies(kinematics).size();
+    if (!of_points.empty() && of_points.size() != n_points)
+        throw BadInput(whole.name + ": " + std::to_string(of_points.size()) + " weights are given for " +
+                           std::to_string(n_points) + " points. Give one per point, or none.",
+                       {.value = static_cast<double>(of_points.size()), .allowed = static_cast<double>(n_points)});
+    if (n_deformable == 0 || (of_points.empty() && n_points == n_deformable)) return {};
     std::vector<double> weights;
     std::size_t point = 0;
     for (std::int32_t c = 0; c < whole.n_cells(); ++c) {
@@ -77,13 +88,13 @@ std::vector<double> cell_weights(const mesh::Mesh<Dim>& whole, std::span<const K
         weights.push_back(rigid ? 0.0 : of_points.empty() ? 1.0 : of_points[point]);
         if (!rigid) ++point;
     }
-    const bool all_alike = point == 0 || (of_points.empty() && point == weights.size());
-    return all_alike ? std::vector<double>{} : weights;
+    return weights;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                             \
-    template mesh::MeshPart<Dim> part_of(const mesh::Mesh<Dim>&, std::span<const int>, int, std::span<const Kinematics>); \
-    template PartPoints points_of(const mesh::MeshPart<Dim>&, std::span<const Kinematics>);                               \
+#define ABUT_INSTANTIATE(Dim)                                                                                            \
+    template mesh::MeshPart<Dim> part_of(const mesh::Mesh<Dim>&, std::span<const int>, int, std::span<const Kinematics>, \
+                                         int);                                                                           \
+    template PartPoints points_of(const mesh::MeshPart<Dim>&, std::span<const Kinematics>);                              \
     template std::vector<double> cell_weights(const mesh::Mesh<Dim>&, std::span<const Kinematics>, std::span<const double>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -16,6 +16,7 @@
 #include "abut/solid/rank_part.hpp"
 #include "abut/solid/rank_rows.hpp"
 #include "abut/solid/reconstruction_driver.hpp"
+#include "abut/solid/turning_tractions.hpp"
 
 namespace abut::solid {
 namespace {
@@ -23,11 +24,12 @@ namespace {
 /// What is not made for several ranks.
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks* ranks, const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
-    for (std::size_t body = 0; body < options.kinematics.size(); ++body)
-        if (options.kinematics[body] == Kinematics::rigid &&
-            std::ranges::find(mesh.cell_body, static_cast<std::int32_t>(body)) == mesh.cell_body.end())
+    const auto n_bodies = std::min<std::int32_t>(mesh.n_bodies(), static_cast<std::int32_t>(options.kinematics.size()));
+    for (std::int32_t body = 0; body < n_bodies; ++body)
+        if (const auto [first, last] = cells_of_body(mesh, body);
+            first == last && options.kinematics[static_cast<std::size_t>(body)] == Kinematics::rigid)
             throw BadInput(mesh.name + ": rigid body " + std::to_string(body) +
-                           " has no cells in the part of a rank. Give each the whole of it (solid::part_of).");
+                           " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
     if (options.precision == Precision::single_precision) dynamics::refuse_ranks(ranks, "a bulk in single precision");
@@ -294,6 +296,7 @@ bool Solid<Dim>::is_constrained(std::int32_t point) const {
 template <int Dim>
 template <class Constrain>
 void Solid<Dim>::constrain_own(std::span<const double> q, std::span<double> p, const Constrain& constrain) {
+    if (!bodies_->any_rigid()) return;
     if (!part_) return constrain(as_vectors<Dim>(q), as_vectors<Dim>(p));
     part_->spread_rigid(as_vectors<Dim>(q), rigid_q_);
     part_->spread_rigid(as_vectors<Dim>(p), rigid_p_);

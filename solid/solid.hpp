@@ -21,9 +21,10 @@
 
 namespace abut::solid {
 
-/// Cells of a rank by their numbers in the whole mesh and in its part of it, both increasing.
+/// Cells of a rank (n).
 struct OwnCells {
-    std::vector<std::int32_t> number, position;
+    std::vector<std::int32_t> number;    ///< of each in the whole mesh, increasing
+    std::vector<std::int32_t> position;  ///< of each in the part of the rank, increasing
 };
 
 template <int Dim>
@@ -65,9 +66,9 @@ public:
     /// The mesh must outlive the solid. Throws BadInput saying where, how much, how much is allowed and what to do.
     ///
     /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, say whose its points are
-    /// (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and all functions that take or read a
-    /// state are calls of all ranks together. All bits are those of one rank; what is not made for several throws BadInput
-    /// (docs/ranks.md).
+    /// (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and functions that take q or p, `state`
+    /// and `restore` are calls of all ranks together, except `displacement_gradient`. All bits are those of one rank; what is not
+    /// made for several throws BadInput (docs/ranks.md).
     Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks = nullptr);
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
@@ -175,7 +176,7 @@ public:
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
     [[nodiscard]] const dynamics::Ranks* ranks() const;  ///< null: there is one
-    /// The cells that this rank has the points of, all on one; without the other ranks.
+    /// Cells whose points this rank owns, on one rank all. Needs no other rank.
     [[nodiscard]] OwnCells own_cells() const;
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }

@@ -216,7 +216,8 @@ std::span<const Vector<Dim>> Solid<Dim>::own_points_of(std::size_t rigid, std::s
     const auto own = part_->own_rigid();
     const auto found = std::ranges::find(own, static_cast<std::int32_t>(rigid));
     if (found == own.end())
-        throw Misuse("solid: the place of a rigid body is asked for on a rank that does not have its points.");
+        throw Misuse("solid: the displacement gradient of rigid body " + std::to_string(bodies_->rigid().mesh_body(rigid)) +
+                     " is asked for on a rank that does not own its points. Ask the one that does (Solid::own_cells).");
     return q.subspan(part_->own_cells().size() + n * static_cast<std::size_t>(found - own.begin()), n);
 }
 
@@ -253,21 +254,13 @@ OwnCells Solid<Dim>::own_cells() const {
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const {
     refuse_ranks("displacements of vertices");
-    std::vector<Matrix<Dim>> turn(mesh_.body_names.size(), Matrix<Dim>::Identity());  // of rigid bodies
-    for (std::size_t i = 0; i < bodies_->rigid().size(); ++i)
-        turn[static_cast<std::size_t>(bodies_->rigid().mesh_body(i))] = bodies_->rigid().place(i, as_vectors<Dim>(q)).map;
     const std::vector<Vector<Dim>> of_cells = cell_displacement(q);
     std::vector<Vector<Dim>> displacement(mesh_.vertices.size(), Vector<Dim>::Zero());
     std::vector<int> n_cells(mesh_.vertices.size(), 0);
     for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) {
-        const auto [deformable, body] = bodies_->deformable_cell(c);
-        Matrix<Dim> change = turn[static_cast<std::size_t>(mesh_.cell_body[c])] - Matrix<Dim>::Identity();  // F - I
-        if (deformable >= 0) {
-            const Matrix<Dim>& of_frame = frames_->end()[static_cast<std::size_t>(body)].turn;
-            change = of_frame * ccg_.displacement_gradient(deformable) + of_frame - Matrix<Dim>::Identity();
-        }
+        const Matrix<Dim> gradient = displacement_gradient(c, q);
         for (const std::int32_t v : mesh_.cell_vertices[c]) {
-            displacement[v] += of_cells[c] + change * (mesh_.vertices[v] - mesh_.cell_centroid[c]);
+            displacement[v] += of_cells[c] + gradient * (mesh_.vertices[v] - mesh_.cell_centroid[c]);
             ++n_cells[v];
         }
     }

@@ -164,8 +164,7 @@ std::vector<Vector<Dim>> BodyFrames<Dim>::of_first_points(std::span<const Vector
 template <int Dim>
 template <class Value, class Term>
 Value BodyFrames<Dim>::sum_of(std::size_t body, const Value& zero, const Term& term) const {
-    if (part_) return part_->sum_of_body(body, zero, term);
-    return ordered_sum(begin_[body + 1] - begin_[body], zero, [&](std::ptrdiff_t i) { return term(begin_[body] + i); });
+    return sum_over_body(part_, static_cast<std::ptrdiff_t>(body), {begin_[body], begin_[body + 1]}, zero, term);
 }
 
 /// Calls of_point(point) for all points of a body, or those of this rank.

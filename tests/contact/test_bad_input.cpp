@@ -9,7 +9,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 template <int Dim>
-contact::Surface<Dim> two_tiles() {
+contact::Surface<Dim> touching_tiles() {
     contact::Surface<Dim> surface;
     surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.3, 1.0, 0);
     surface.append(tile<Dim>(0.1 * up<Dim>(), -up<Dim>(), 0.5), 0.3, 1.0, 1);
@@ -28,13 +28,13 @@ const double not_a_number = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("a good surface passes the check", "[contact][errors]", ((int Dim), Dim), 2, 3) {
-    CHECK_NOTHROW(contact::check(two_tiles<Dim>().view()));
+    CHECK_NOTHROW(contact::check(touching_tiles<Dim>().view()));
     CHECK_NOTHROW(contact::check(contact::Surface<Dim>{}.view()));
 }
 
 TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong with it", "[contact][errors]",
                        ((int Dim), Dim), 2, 3) {
-    auto surface = two_tiles<Dim>();
+    auto surface = touching_tiles<Dim>();
     std::string says = "face 1";
     SECTION("arrays of different sizes") {
         surface.cell_depth.pop_back();
@@ -97,7 +97,7 @@ TEMPLATE_TEST_CASE_SIG("a bad surface is refused with the face and what is wrong
 }
 
 TEST_CASE("a face that is not flat is refused with its deviation", "[contact][errors]") {
-    auto surface = two_tiles<3>();
+    auto surface = touching_tiles<3>();
     surface.vertices.back()[2] += 1e-6;
     CHECK_THROWS_WITH(contact::check(surface.view()), Contains("face 1") && Contains("not flat"));
 }
@@ -152,7 +152,7 @@ TEMPLATE_TEST_CASE_SIG("faces far from the origin pass the check, in map coordin
 }
 
 TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][errors]", ((int Dim), Dim), 2, 3) {
-    const auto surface = two_tiles<Dim>();
+    const auto surface = touching_tiles<Dim>();
     contact::ContactOptions options;
     std::string says;
     SECTION("four points") {
@@ -202,7 +202,7 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
 
 TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused with both faces and both numbers",
                        "[contact][errors]", ((int Dim), Dim), 2, 3) {
-    const auto surface = two_tiles<Dim>();
+    const auto surface = touching_tiles<Dim>();
     contact::ContactOptions options;
     options.search.skin = 10.0;
     Mover<Dim> mover(surface, options);
@@ -220,7 +220,7 @@ TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused wi
 
 TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next one makes it", "[contact][errors]",
                        ((int Dim), Dim), 2, 3) {
-    const auto surface = two_tiles<Dim>();
+    const auto surface = touching_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
     const auto u = at_rest(surface);
     CHECK_THROWS_WITH(contact.integrate({u, u, u, u}), Contains("no candidate list"));
@@ -243,7 +243,7 @@ TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next 
 
 TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its face", "[contact][errors]", ((int Dim), Dim),
                        2, 3) {
-    const auto surface = two_tiles<Dim>();
+    const auto surface = touching_tiles<Dim>();
     Mover<Dim> mover(surface, {});
     auto u = at_rest(surface);
     u[1][0] = GENERATE(not_a_number, rigid);
@@ -253,7 +253,7 @@ TEMPLATE_TEST_CASE_SIG("a displacement that is not finite is refused with its fa
 
 TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both sizes", "[contact][errors]",
                        ((int Dim), Dim), 2, 3) {
-    const auto surface = two_tiles<Dim>();
+    const auto surface = touching_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {});
     auto u = at_rest(surface);
     const auto none = [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); };
@@ -278,7 +278,7 @@ TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both 
 
 TEMPLATE_TEST_CASE_SIG("a coupling that is no second derivative of an energy is refused with face, value and limit",
                        "[contact][errors]", ((int Dim), Dim), 2, 3) {
-    const auto surface = two_tiles<Dim>();
+    const auto surface = touching_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {});
     const Matrix<Dim> one = Matrix<Dim>::Identity();
     contact::FaceCoupling<Dim> coupling{{0, 2, 4}, {0, 1, 0, 1}, {2.0 * one, one, one, 2.0 * one}};
@@ -340,7 +340,7 @@ TEMPLATE_TEST_CASE_SIG(
     "blocks that are zero, singular or symmetric up to rounding, and empty rows of rigid faces, are a "
     "coupling",
     "[contact][errors]", ((int Dim), Dim), 2, 3) {
-    auto surface = two_tiles<Dim>();
+    auto surface = touching_tiles<Dim>();
     const Matrix<Dim> one = Matrix<Dim>::Identity(), zero = Matrix<Dim>::Zero();
     contact::FaceCoupling<Dim> coupling{{0, 2, 4}, {0, 1, 0, 1}, {2.0 * one, one, one, 2.0 * one}};
     SECTION("symmetric up to rounding") { coupling.blocks[1](0, 1) = 1e-11; }

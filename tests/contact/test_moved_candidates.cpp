@@ -19,8 +19,8 @@ namespace {
 using List = std::vector<IndexPair>;
 
 template <int Dim>
-List candidates_of(const contact::Surface<Dim>& surface, const Points<Dim>& x_0, const Points<Dim>& x_1,
-                   contact::CandidateOptions options, double skin, GapOf gap = GapOf::overlap) {
+List moved_candidates_of(const contact::Surface<Dim>& surface, const Points<Dim>& x_0, const Points<Dim>& x_1,
+                         contact::CandidateOptions options, double skin, GapOf gap = GapOf::overlap) {
     options.skin = skin > 0.0 ? skin : 1e-300;
     contact::CandidateSearch<Dim> search(surface.view(), options);
     search.search_moved(x_0, x_1, gap);
@@ -117,8 +117,8 @@ TEMPLATE_TEST_CASE_SIG(
         const auto surface = random_scene<Dim>(random);
         const auto x_0 = turned_and_deformed(random, surface, 1.0, 1.0, 0.2);
         const auto x_1 = turned_and_deformed(random, surface, 1.0, 1.0, 0.2);
-        const auto found = candidates_of<Dim>(surface, x_0, x_1, {.distance = distance}, 0.0);
-        const auto at_start = candidates_of<Dim>(surface, x_0, x_0, {.distance = distance}, 0.0);
+        const auto found = moved_candidates_of<Dim>(surface, x_0, x_1, {.distance = distance}, 0.0);
+        const auto at_start = moved_candidates_of<Dim>(surface, x_0, x_0, {.distance = distance}, 0.0);
         for (int sample = 0; sample <= 20; ++sample) {
             const auto now = rebuilt(surface, between<Dim>(x_0, x_1, sample / 20.0));
             check_all_held<Dim>(pairs_by_height<Dim>(random, now, distance), found, at_start, tally);
@@ -139,8 +139,8 @@ TEMPLATE_TEST_CASE_SIG(
         const auto surface = random_scene<Dim>(random);
         const auto x_0 = turned_and_deformed(random, surface, 1.0, 1.0, 0.2);
         const auto x_1 = turned_and_deformed(random, surface, 1.0, 1.0, 0.2);
-        const auto found = candidates_of<Dim>(surface, x_0, x_1, {}, 0.0, GapOf::centroids);
-        const auto over_points = candidates_of<Dim>(surface, x_0, x_1, {}, 0.0, GapOf::overlap);
+        const auto found = moved_candidates_of<Dim>(surface, x_0, x_1, {}, 0.0, GapOf::centroids);
+        const auto over_points = moved_candidates_of<Dim>(surface, x_0, x_1, {}, 0.0, GapOf::overlap);
         CHECK(std::ranges::includes(found, over_points));
         more += found.size() - over_points.size();
         for (int sample = 0; sample <= 20; ++sample) {
@@ -168,8 +168,8 @@ TEST_CASE("tilted faces without a gap between centroids can be farther apart tha
     REQUIRE(overlaps.found.size() == 1);
     REQUIRE(overlaps.found[0].gap == Approx(0.0).margin(1e-12));
     const auto& x = surface.vertices;
-    CHECK(candidates_of<2>(surface, x, x, {}, 0.0, GapOf::overlap).empty());
-    CHECK(candidates_of<2>(surface, x, x, {}, 0.0, GapOf::centroids).size() == 1);
+    CHECK(moved_candidates_of<2>(surface, x, x, {}, 0.0, GapOf::overlap).empty());
+    CHECK(moved_candidates_of<2>(surface, x, x, {}, 0.0, GapOf::centroids).size() == 1);
 }
 
 TEMPLATE_TEST_CASE_SIG("a list of moved vertices stays a superset while no vertex is farther than half the skin",
@@ -188,9 +188,9 @@ TEMPLATE_TEST_CASE_SIG("a list of moved vertices stays a superset while no verte
                     surface.append(corners, scene.cell_depth[face], 1.0, body);
                 }
         const auto x_0 = turned_and_deformed(random, surface, 1.0, 1.0, 0.2);
-        const auto list = candidates_of<Dim>(surface, x_0, x_0, {}, skin);
-        const auto bare = candidates_of<Dim>(surface, x_0, x_0, {}, 0.0);
-        const auto list_c = candidates_of<Dim>(surface, x_0, x_0, {}, skin, GapOf::centroids);
+        const auto list = moved_candidates_of<Dim>(surface, x_0, x_0, {}, skin);
+        const auto bare = moved_candidates_of<Dim>(surface, x_0, x_0, {}, 0.0);
+        const auto list_c = moved_candidates_of<Dim>(surface, x_0, x_0, {}, skin, GapOf::centroids);
         for (int sample = 0; sample < 20; ++sample) {
             auto x = x_0;
             for (Vector<Dim>& moved : x) moved += 0.5 * skin * random_vector<Dim>(random, 1.0).normalized();
@@ -216,13 +216,13 @@ TEMPLATE_TEST_CASE_SIG("every broad phase and any number of threads give the sam
         std::vector<List> lists;
         for (const BroadPhase method : geometry::broad_phases()) {
             options.broad_phase = method;
-            lists.push_back(candidates_of<Dim>(surface, x_0, x_1, options, 0.05));
+            lists.push_back(moved_candidates_of<Dim>(surface, x_0, x_1, options, 0.05));
         }
         for (const int threads : {1, 3}) {
             const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(threads));
             tbb::task_arena arena(threads);
-            arena.execute([&] { lists.push_back(candidates_of<Dim>(surface, x_0, x_1, options, 0.05)); });
+            arena.execute([&] { lists.push_back(moved_candidates_of<Dim>(surface, x_0, x_1, options, 0.05)); });
         }
         for (const List& list : lists) CHECK(list == lists.back());
         CHECK(lists[0].size() > 50);
@@ -304,7 +304,7 @@ TEST_CASE("positions may lie as a host keeps them, and vertices that no face nam
         for (const Vector<3>& x : x_0) by_component.push_back(x[i]);
     contact::CandidateSearch<3> search(surface.view(), {.skin = 0.1});
     search.search_moved({by_component.data(), n, 1, n}, x_1);
-    CHECK(std::ranges::equal(search.candidates(), candidates_of<3>(surface, x_0, x_1, {}, 0.1)));
+    CHECK(std::ranges::equal(search.candidates(), moved_candidates_of<3>(surface, x_0, x_1, {}, 0.1)));
 }
 
 TEMPLATE_TEST_CASE_SIG("a vertex that is not finite, or moves beyond all measure within a step, is refused by name",
@@ -342,7 +342,7 @@ TEST_CASE("more pairs of moved faces than allowed are an error, and leave no lis
     std::mt19937 random(27);
     const auto surface = random_surface<3>(random, 30);
     const auto& x = surface.vertices;
-    const auto n = static_cast<std::int64_t>(candidates_of<3>(surface, x, x, {}, 0.01).size());
+    const auto n = static_cast<std::int64_t>(moved_candidates_of<3>(surface, x, x, {}, 0.01).size());
     contact::CandidateSearch<3> tight(surface.view(), {.skin = 0.01, .limits = {.pairs = n - 1}});
     CHECK_THROWS_AS(tight.search_moved(x, x), geometry::SearchLimitError);
     CHECK_FALSE(tight.is_valid_for(0.0));

@@ -63,7 +63,7 @@ std::string message_of(const std::function<void()>& call) {
     return "";
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has_part(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -172,7 +172,7 @@ TEST_CASE("errors name the faces of the host, not their halves", "[contact][noda
         for (std::int32_t i = scene.faces.offsets[face]; i < scene.faces.offsets[face + 1]; ++i)
             has_it = has_it || scene.faces.nodes[i] + 1 == static_cast<std::int32_t>(scene.rest.size());
         CHECK(has_it);
-        CHECK(has(error.what(), "face " + std::to_string(face) + " "));
+        CHECK(has_part(error.what(), "face " + std::to_string(face) + " "));
     }
 }
 
@@ -194,9 +194,9 @@ TEST_CASE("faces of bodies that have become one, or rigid, press on each other n
     const auto refused = [&](std::vector<std::int32_t> old) {
         return message_of([&] { contact.surface_replaced(faces.scene.surface(), old); });
     };
-    CHECK(has(refused({0, 0}), "which another one is, too"));
-    CHECK(has(refused({0, 2}), "there were 2 faces"));
-    CHECK(has(refused({0}), "give one each"));
+    CHECK(has_part(refused({0, 0}), "which another one is, too"));
+    CHECK(has_part(refused({0, 2}), "there were 2 faces"));
+    CHECK(has_part(refused({0}), "give one each"));
 }
 
 TEST_CASE("the run begins for a new face: it is in contact where its nodes are pressed in", "[contact][nodal]") {
@@ -281,9 +281,9 @@ TEST_CASE("faces with four corners are cut inside, and refused where their edges
     CHECK(surface.facets().area[0] + surface.facets().area[1] == Approx(0.5 * 2.0 * 5.0 - 0.5 * 2.0 * 0.2));
     for (const Vector<3>& normal : surface.facets().normal) CHECK(normal.z() == Approx(1.0));
     scene.rest = {Vector<3>(0, 0, 0), Vector<3>(1, 1, 0), Vector<3>(1, 0, 0), Vector<3>(0, 1, 0)};
-    CHECK(has(message_of([&] { static_cast<void>(scene.surface()); }), "edges that cross"));
+    CHECK(has_part(message_of([&] { static_cast<void>(scene.surface()); }), "edges that cross"));
     scene.faces.nodes.push_back(0);
-    CHECK(has(message_of([&] { static_cast<void>(scene.surface()); }), "`offsets` goes from 0 to 4"));
+    CHECK(has_part(message_of([&] { static_cast<void>(scene.surface()); }), "`offsets` goes from 0 to 4"));
 }
 
 TEMPLATE_TEST_CASE_SIG("bodies whose faces look inwards are told of", "[contact][nodal]", ((int Dim), Dim), 2, 3) {

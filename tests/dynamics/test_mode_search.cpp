@@ -17,11 +17,11 @@ using dynamics::ModeSearch;
 namespace {
 
 /// A chain of springs of random stiffness between walls.
-struct Chain {
+struct EvenChain {
     std::vector<double> stiffness;  ///< of spring i before mass i; one more than masses
     std::vector<double> weights;    ///< 1/m
 
-    explicit Chain(std::size_t n, unsigned seed = 1) {
+    explicit EvenChain(std::size_t n, unsigned seed = 1) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> value(0.5, 2.0);
         for (std::size_t i = 0; i <= n; ++i) stiffness.push_back(value(random));
@@ -54,7 +54,7 @@ void iterate(ModeSearch& search, int iterations) {
 }  // namespace
 
 TEST_CASE("mode search: the quotient rises to the highest eigenvalue and never above it", "[dynamics][mode-search]") {
-    const Chain chain(300, GENERATE(1u, 2u, 3u));
+    const EvenChain chain(300, GENERATE(1u, 2u, 3u));
     ModeSearch search(chain.size(), chain.product());
     search.set_weights(chain.weights);
     const double highest = chain.highest();
@@ -77,7 +77,7 @@ TEST_CASE("mode search: the quotient rises to the highest eigenvalue and never a
 }
 
 TEST_CASE("mode search: a third of the products of a power iteration gives more", "[dynamics][mode-search]") {
-    const Chain chain(3000, GENERATE(1u, 2u, 3u));
+    const EvenChain chain(3000, GENERATE(1u, 2u, 3u));
     const auto power = dynamics::highest_mode(chain.weights, chain.product());
     ModeSearch search(chain.size(), chain.product());
     search.set_weights(chain.weights);
@@ -86,7 +86,7 @@ TEST_CASE("mode search: a third of the products of a power iteration gives more"
 }
 
 TEST_CASE("mode search: what has no weight is held, and other weights are gone on with", "[dynamics][mode-search]") {
-    Chain chain(300);
+    EvenChain chain(300);
     ModeSearch search(chain.size(), chain.product());
     search.set_weights(chain.weights);
     iterate(search, 20);
@@ -102,7 +102,7 @@ TEST_CASE("mode search: what has no weight is held, and other weights are gone o
 }
 
 TEST_CASE("mode search: at a mode it stays, and with nothing free it is refused", "[dynamics][mode-search]") {
-    Chain chain(1);
+    EvenChain chain(1);
     ModeSearch search(1, chain.product());
     search.set_weights(chain.weights);
     iterate(search, 3);
@@ -112,7 +112,7 @@ TEST_CASE("mode search: at a mode it stays, and with nothing free it is refused"
 }
 
 TEST_CASE("mode search: the same bits on any number of threads", "[dynamics][mode-search][reproducible]") {
-    const Chain chain(20'000);
+    const EvenChain chain(20'000);
     std::vector<double> quotients;
     for (const std::size_t threads : {1u, 2u, 3u}) {
         const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
@@ -127,7 +127,7 @@ TEST_CASE("mode search: the same bits on any number of threads", "[dynamics][mod
 
 TEST_CASE("mode search: begun again, it finds what it had forgotten of a part that nothing couples with the rest",
           "[dynamics][mode-search]") {
-    const Chain left(200, 5), right(200, 6);
+    const EvenChain left(200, 5), right(200, 6);
     const std::size_t n = left.size() + right.size();
     ModeSearch search(n, [&](std::span<const double> x, std::span<double> product) {
         left.product()(x.first(left.size()), product.first(left.size()));

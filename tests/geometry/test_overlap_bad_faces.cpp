@@ -15,11 +15,11 @@ using geometry::TrianglePair;
 
 namespace {
 
-constexpr std::array methods{AreaMethod::fast, AreaMethod::exact};
+constexpr std::array both_methods{AreaMethod::fast, AreaMethod::exact};
 
 using Segment = std::array<PlaneVector<2>, 2>;
 
-Segment segment(double lower, double upper) { return {PlaneVector<2>(lower), PlaneVector<2>(upper)}; }
+Segment line(double lower, double upper) { return {PlaneVector<2>(lower), PlaneVector<2>(upper)}; }
 
 // Along the line from a by d: whether corners lie on one line is exact where a and d are small multiples of powers of two;
 // needles and points have none of an area wherever they are.
@@ -43,7 +43,7 @@ TrianglePair triangles(const Polygon& face_1, const Polygon& face_2, const Point
 
 void check_shares_nothing(const Polygon& flat, const Polygon& other, const Point& shift) {
     CAPTURE(flat[0], flat[1], flat[2], other[0], shift);
-    for (const AreaMethod method : methods) {
+    for (const AreaMethod method : both_methods) {
         CHECK(is_nothing(shared(flat, other, shift, method)));
         CHECK(is_nothing(shared(other, flat, -shift, method)));
     }
@@ -91,12 +91,12 @@ TEST_CASE("a needle with two equal corners shares nothing wherever it points", "
 }
 
 TEST_CASE("2D: a segment of no length shares nothing", "[overlap][2d]") {
-    for (const AreaMethod method : methods)
+    for (const AreaMethod method : both_methods)
         for (const double at : {-1.0, 0.0, 0.25, 1.0, 2.0})
             for (const double shift : {0.0, 0.3}) {
-                CHECK(overlap_area<2>(segment(at, at), segment(0, 1), PlaneVector<2>(shift), method).area == 0.0);
-                CHECK(overlap_area<2>(segment(0, 1), segment(at, at), PlaneVector<2>(shift), method).area == 0.0);
-                CHECK(overlap_polygon<2>(segment(at, at), segment(0, 1)).empty());
+                CHECK(overlap_area<2>(line(at, at), line(0, 1), PlaneVector<2>(shift), method).area == 0.0);
+                CHECK(overlap_area<2>(line(0, 1), line(at, at), PlaneVector<2>(shift), method).area == 0.0);
+                CHECK(overlap_polygon<2>(line(at, at), line(0, 1)).empty());
             }
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("a coordinate or a shift that is not finite is refused, in any method"
                                 -std::numeric_limits<double>::infinity());
     const TrianglePair good = triangles({{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {2, 0}, {0, 2}}, {0.1, 0.1});
     const auto check_refused = [](const TrianglePair& pair, const std::string& says) {
-        for (const AreaMethod method : methods) {
+        for (const AreaMethod method : both_methods) {
             const auto overlap = [&] { return overlap_area<3>(pair.face_1, pair.face_2, pair.shift, method); };
             CHECK_THROWS_AS(overlap(), BadInput);
             CHECK_THROWS_WITH(overlap(), Contains(says) && Contains("must be finite"));
@@ -128,13 +128,13 @@ TEST_CASE("a coordinate or a shift that is not finite is refused, in any method"
         pair.shift[axis] = bad;
         check_refused(pair, "the shift");
     }
-    for (const AreaMethod method : methods) {
+    for (const AreaMethod method : both_methods) {
         const auto overlap = [&](const Segment& face_1, const Segment& face_2, double shift) {
             return overlap_area<2>(face_1, face_2, PlaneVector<2>(shift), method);
         };
-        CHECK_THROWS_WITH(overlap(segment(0, bad), segment(0, 1), 0.0), Contains("corner 1 of face 1"));
-        CHECK_THROWS_WITH(overlap(segment(0, 1), segment(bad, 1), 0.0), Contains("corner 0 of face 2"));
-        CHECK_THROWS_WITH(overlap(segment(0, 1), segment(0, 1), bad), Contains("the shift"));
+        CHECK_THROWS_WITH(overlap(line(0, bad), line(0, 1), 0.0), Contains("corner 1 of face 1"));
+        CHECK_THROWS_WITH(overlap(line(0, 1), line(bad, 1), 0.0), Contains("corner 0 of face 2"));
+        CHECK_THROWS_WITH(overlap(line(0, 1), line(0, 1), bad), Contains("the shift"));
     }
-    CHECK_THROWS_AS(overlap_polygon<2>(segment(0, bad), segment(0, 1)), BadInput);
+    CHECK_THROWS_AS(overlap_polygon<2>(line(0, bad), line(0, 1)), BadInput);
 }

@@ -75,7 +75,7 @@ std::string text_of(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void save(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void save_text(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 /// Format 2.2: a tetrahedron with one named face.
 std::string small_msh() {
@@ -91,7 +91,7 @@ std::string small_msh_41() {
            "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
+std::string with_replaced(std::string text, const std::string& from, const std::string& to) {
     const auto at = text.find(from);
     REQUIRE(at != std::string::npos);
     return text.replace(at, from.size(), to);
@@ -157,7 +157,7 @@ TEST_CASE("without physical groups a body is a connected component", "[mesh][fil
 
 TEST_CASE("physical names and tags of a file are kept", "[mesh][files]") {
     const test::ScratchFolder folder;
-    save(folder / "a.msh", small_msh());
+    save_text(folder / "a.msh", small_msh());
     const auto mesh = read_gmsh<3>(folder / "a.msh");
     CHECK(mesh.body_names == std::vector<std::string>{"wedge"});
     CHECK(mesh.groups.size() == 1);
@@ -196,23 +196,23 @@ TEST_CASE("voxels, both orders of wedges and lower cells are read from VTU", "[m
                "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">" + types +
                "</DataArray>\n</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     };
-    save(folder / "voxel.vtu", file("0 1 2 3 4 5 6 7", "8", "11", 1));
+    save_text(folder / "voxel.vtu", file("0 1 2 3 4 5 6 7", "8", "11", 1));
     CHECK(read_vtu<3>(folder / "voxel.vtu").cell_measure[0] == Approx(1.0));
     for (const char* wedge : {"0 1 2 4 5 6", "0 2 1 4 6 5"}) {
-        save(folder / "wedge.vtu", file(wedge, "6", "13", 1));
+        save_text(folder / "wedge.vtu", file(wedge, "6", "13", 1));
         CHECK(read_vtu<3>(folder / "wedge.vtu").cell_measure[0] == Approx(0.5));
     }
-    save(folder / "mixed.vtu", file("0 1 2 0 1 2 4", "3 7", "5 10", 2));
+    save_text(folder / "mixed.vtu", file("0 1 2 0 1 2 4", "3 7", "5 10", 2));
     const auto mesh = read_vtu<3>(folder / "mixed.vtu");
     CHECK(mesh.n_cells() == 1);
     CHECK(mesh.report.n_ignored_elements == 1);
     CHECK(mesh.report.n_unused_vertices == 4);
     CHECK(mesh.cell_label == std::vector<std::int64_t>{1});
-    save(folder / "curved.vtu", file("0 1 2 3 4 5", "6", "22", 1));
+    save_text(folder / "curved.vtu", file("0 1 2 3 4 5", "6", "22", 1));
     CHECK_THAT(complaint_about_vtu(folder / "curved.vtu"),
                Contains("cell 0 has the VTK cell type 22") && Contains("Convert it to straight-sided"));
     const auto complaint_of = [&](const std::string& connectivity, const std::string& offsets) {
-        save(folder / "range.vtu", file(connectivity, offsets, "10", 1));
+        save_text(folder / "range.vtu", file(connectivity, offsets, "10", 1));
         return complaint_about_vtu(folder / "range.vtu");
     };
     CHECK_THAT(complaint_of("0 1 2 99", "4"),
@@ -229,15 +229,15 @@ TEST_CASE("files that are missing, empty or something else are refused by name",
         const auto path = folder / name;
         const auto complain = [&] { return name == "a.msh" ? complaint_about_msh(path) : complaint_about_vtu(path); };
         CHECK(complain() == path.string() + ": there is no such file. Check the path.");
-        save(path, "");
+        save_text(path, "");
         CHECK_THAT(complain(), Contains(path.string() + ": the file is empty (0 bytes)."));
-        save(path, "solid cube\nfacet normal\n");
+        save_text(path, "solid cube\nfacet normal\n");
         CHECK_THAT(complain(), Contains(path.string() + ": is not a "));
         std::filesystem::remove(path);
         std::filesystem::create_directory(path);
         CHECK_THAT(complain(), Contains("is a folder"));
     }
-    save(folder / "a.stl", "solid");
+    save_text(folder / "a.stl", "solid");
     CHECK_THROWS_WITH(read_mesh<3>(folder / "a.stl"), Contains("the extension '.stl' is none of a mesh file"));
 }
 
@@ -249,7 +249,7 @@ TEST_CASE("a truncated Gmsh file is refused wherever it is cut", "[mesh][files]"
     const std::string whole = text_of(folder / "whole.msh");
     REQUIRE(complaint_about_msh(folder / "whole.msh") == "nothing");
     for (const double part : {0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
-        save(folder / "cut.msh", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+        save_text(folder / "cut.msh", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
         CHECK_THAT(complaint_about_msh(folder / "cut.msh"),
                    Contains("cut.msh: the file is truncated") || Contains("has the Gmsh format"));
     }
@@ -257,15 +257,15 @@ TEST_CASE("a truncated Gmsh file is refused wherever it is cut", "[mesh][files]"
 
 TEST_CASE("a Gmsh file with fewer elements than promised is refused", "[mesh][files]") {
     const test::ScratchFolder folder;
-    save(folder / "a.msh", replaced(small_msh(), "22 4 2 9 1 11 12 13 14\n", ""));
+    save_text(folder / "a.msh", with_replaced(small_msh(), "22 4 2 9 1 11 12 13 14\n", ""));
     CHECK_THAT(complaint_about_msh(folder / "a.msh"), Contains("a.msh: cannot be read: Gmsh says: Error: Error loading"));
 }
 
 TEST_CASE("a Gmsh file whose header promises more than its blocks hold is refused, with both numbers", "[mesh][files]") {
     const test::ScratchFolder folder;
-    save(folder / "a.msh", small_msh_41());
+    save_text(folder / "a.msh", small_msh_41());
     REQUIRE(complaint_about_msh(folder / "a.msh") == "nothing");
-    save(folder / "a.msh", replaced(small_msh_41(), "1 1 1 1\n3 1 4 1\n", "1 5 1 1\n3 1 4 1\n"));
+    save_text(folder / "a.msh", with_replaced(small_msh_41(), "1 1 1 1\n3 1 4 1\n", "1 5 1 1\n3 1 4 1\n"));
     CHECK(complaint_about_msh(folder / "a.msh") ==
           (folder / "a.msh").string() +
               ": the file is damaged: 1 elements could be read, its header promises 5. Write the mesh again.");
@@ -273,9 +273,9 @@ TEST_CASE("a Gmsh file whose header promises more than its blocks hold is refuse
 
 TEST_CASE("what Gmsh warns of while it reads is in the report", "[mesh][files]") {
     const test::ScratchFolder folder;
-    save(folder / "a.msh", small_msh());
+    save_text(folder / "a.msh", small_msh());
     CHECK(read_gmsh<3>(folder / "a.msh").report.warnings.empty());
-    save(folder / "a.msh", replaced(small_msh(), "$Nodes\n4\n", "$Nodes\n5\n14 0 0 1\n"));
+    save_text(folder / "a.msh", with_replaced(small_msh(), "$Nodes\n4\n", "$Nodes\n5\n14 0 0 1\n"));
     const auto warnings = read_gmsh<3>(folder / "a.msh").report.warnings;
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Contains("Warning: Skipping duplicate node 14"));
@@ -284,7 +284,8 @@ TEST_CASE("what Gmsh warns of while it reads is in the report", "[mesh][files]")
 TEST_CASE("elements that are neither cells nor in a boundary group are counted, each once", "[mesh][files]") {
     const test::ScratchFolder folder;
     const auto ignored = [&](const std::string& elements) {
-        save(folder / "a.msh", replaced(small_msh(), "2\n21 2 2 7 1 11 12 13\n22 4 2 9 1 11 12 13 14\n", elements));
+        save_text(folder / "a.msh",
+                  with_replaced(small_msh(), "2\n21 2 2 7 1 11 12 13\n22 4 2 9 1 11 12 13 14\n", elements));
         return read_gmsh<3>(folder / "a.msh").report.n_ignored_elements;
     };
     CHECK(ignored("2\n21 2 2 7 1 11 12 13\n22 4 2 9 1 11 12 13 14\n") == 0);
@@ -294,10 +295,11 @@ TEST_CASE("elements that are neither cells nor in a boundary group are counted, 
 
 TEST_CASE("a face in two boundary groups is in both, and no reason to count less", "[mesh][files]") {
     const test::ScratchFolder folder;
-    const std::string text =
-        replaced(small_msh_41(), "$Nodes\n",
-                 "$Entities\n0 1 1 1\n1 0 0 0 1 0 0 0 0\n1 0 0 0 1 1 0 2 7 8 0\n1 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n");
-    save(folder / "a.msh", replaced(text, "1 1 1 1\n3 1 4 1\n", "3 3 1 3\n1 1 1 1\n3 1 2\n2 1 2 1\n2 1 2 3\n3 1 4 1\n"));
+    const std::string text = with_replaced(
+        small_msh_41(), "$Nodes\n",
+        "$Entities\n0 1 1 1\n1 0 0 0 1 0 0 0 0\n1 0 0 0 1 1 0 2 7 8 0\n1 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n");
+    save_text(folder / "a.msh",
+              with_replaced(text, "1 1 1 1\n3 1 4 1\n", "3 3 1 3\n1 1 1 1\n3 1 2\n2 1 2 1\n2 1 2 3\n3 1 4 1\n"));
     const auto mesh = read_gmsh<3>(folder / "a.msh");
     CHECK(mesh.group("physical_7").faces == mesh.group("physical_8").faces);
     CHECK(mesh.group("physical_7").faces.size() == 1);
@@ -307,45 +309,45 @@ TEST_CASE("a face in two boundary groups is in both, and no reason to count less
 TEST_CASE("a physical group without cells and groups of one name are refused", "[mesh][files]") {
     const test::ScratchFolder folder;
     const auto said_of = [&](const std::string& text) {
-        save(folder / "a.msh", text);
+        save_text(folder / "a.msh", text);
         return complaint_about_msh(folder / "a.msh");
     };
-    const std::string with_empty_volume = replaced(
+    const std::string with_empty_volume = with_replaced(
         small_msh_41(), "$Nodes\n", "$Entities\n0 0 0 2\n1 0 0 0 1 1 1 1 7 0\n2 0 0 0 1 1 1 1 8 0\n$EndEntities\n$Nodes\n");
     CHECK_THAT(said_of(with_empty_volume),
                Contains("a.msh: body 'physical_8' has 0 cells of dimension 3, at least 1 is needed."));
     // A group without a name is called by its tag, which may be the name of another one.
     const std::string text =
-        replaced(small_msh(), "2\n21 2 2 7 1 11 12 13\n", "3\n21 2 2 7 1 11 12 13\n23 2 2 8 2 11 13 14\n");
+        with_replaced(small_msh(), "2\n21 2 2 7 1 11 12 13\n", "3\n21 2 2 7 1 11 12 13\n23 2 2 8 2 11 13 14\n");
     CHECK(said_of(text) == "nothing");
-    CHECK_THAT(said_of(replaced(text, "floor", "physical_8")),
+    CHECK_THAT(said_of(with_replaced(text, "floor", "physical_8")),
                Contains("a.msh: 2 boundary groups are called 'physical_8', each needs a name of its own."));
 }
 
 TEST_CASE("a body without a group does not take the name of one that has it", "[mesh][files]") {
     const test::ScratchFolder folder;
-    save(folder / "a.msh",
-         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 9 \"body_1\"\n$EndPhysicalNames\n"
-         "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 5 0 0\n6 6 0 0\n7 5 1 0\n8 5 0 1\n$EndNodes\n"
-         "$Elements\n2\n1 4 2 9 1 1 2 3 4\n2 4 2 0 2 5 6 7 8\n$EndElements\n");
+    save_text(folder / "a.msh",
+              "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 9 \"body_1\"\n$EndPhysicalNames\n"
+              "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 5 0 0\n6 6 0 0\n7 5 1 0\n8 5 0 1\n$EndNodes\n"
+              "$Elements\n2\n1 4 2 9 1 1 2 3 4\n2 4 2 0 2 5 6 7 8\n$EndElements\n");
     CHECK(read_gmsh<3>(folder / "a.msh").body_names == std::vector<std::string>{"body_1", "body_2"});
 }
 
 TEST_CASE("what is wrong inside a Gmsh file is said with the numbers of the file", "[mesh][files]") {
     const test::ScratchFolder folder;
     const auto said_of = [&](const std::string& text) {
-        save(folder / "a.msh", text);
+        save_text(folder / "a.msh", text);
         return complaint_about_msh(folder / "a.msh");
     };
     CHECK(said_of(small_msh()) == "nothing");
-    CHECK_THAT(said_of(replaced(small_msh(), "2.2 0 8", "1.0 0 8")),
+    CHECK_THAT(said_of(with_replaced(small_msh(), "2.2 0 8", "1.0 0 8")),
                Contains("has the Gmsh format '1.0', 2.0 to 2.2 and 4.1 can be read."));
-    CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 13 12 14\n")),
+    CHECK_THAT(said_of(with_replaced(small_msh(), "11 12 13 14\n", "11 13 12 14\n")),
                Contains("a.msh: cell 22 (tetrahedron) is inverted: its measure is -0.166667 m^3, more than ") &&
                    Contains("counter-clockwise."));
-    CHECK_THAT(said_of(replaced(small_msh(), "14 0 0 1", "14 0 0 nan")),
+    CHECK_THAT(said_of(with_replaced(small_msh(), "14 0 0 1", "14 0 0 nan")),
                Contains("a.msh: vertex 14 has the z coordinate nan, a finite number is needed. Mesh the part again."));
-    CHECK_THAT(said_of(replaced(small_msh(), "11 12 13 14\n", "11 12 13 77\n")),
+    CHECK_THAT(said_of(with_replaced(small_msh(), "11 12 13 14\n", "11 12 13 77\n")),
                Contains("a.msh: cannot be read: Gmsh says: Error: Wrong node index 77."));
 }
 
@@ -369,14 +371,14 @@ TEST_CASE("a truncated or damaged VTU file is refused", "[mesh][files]") {
     write_vtu(test::small_box_3d(CellShape::tetrahedron), folder / "whole.vtu");
     const std::string whole = text_of(folder / "whole.vtu");
     for (const double part : {0.3, 0.6, 0.99}) {
-        save(folder / "cut.vtu", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
+        save_text(folder / "cut.vtu", whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));
         CHECK_THAT(
             complaint_about_vtu(folder / "cut.vtu"),
             Contains("cut.vtu: the file is truncated: '</VTKFile>' is missing after ") && Contains("Write the mesh again."));
     }
     std::string damaged = whole;
     for (std::size_t i = 0; i < 200; ++i) damaged[damaged.size() / 2 + i] = 'x';
-    save(folder / "damaged.vtu", damaged);
+    save_text(folder / "damaged.vtu", damaged);
     CHECK_THAT(complaint_about_vtu(folder / "damaged.vtu"),
                Contains("damaged.vtu: cannot be read: VTK says: ") && Contains(". Write the mesh again."));
 }

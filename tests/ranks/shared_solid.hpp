@@ -159,6 +159,7 @@ contact::ContactReport check_same_bits(const ranks::Communicator& all, const mes
     REQUIRE(everywhere(all, impulses.size() == of_shared.size()));
     for (std::size_t i = 0; i < impulses.size(); ++i) CHECK(impulses[i].impulse == of_shared[i].impulse);
     CHECK(alone.work() == solid.work());
+    if (!options.moments.empty()) CHECK(alone.work() != 0.0);  // they act
     CHECK(alone.rotations(run.q()) == solid.rotations(run_here.q()));
     CHECK(alone.local_rotations(run.q()) == solid.local_rotations(run_here.q()));
     return report;

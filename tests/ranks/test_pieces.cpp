@@ -123,13 +123,24 @@ TEST_CASE("frames in pieces hold, cell by cell, what the whole holds", "[ranks][
     check_pieces<2>(scene, 15, results("discs"));
 }
 
-TEST_CASE("so do frames of bodies that turn, and of rigid ones", "[ranks][run][pieces]") {
+TEST_CASE("frames in pieces of floating and of rigid bodies hold what the whole holds, also where a rank has no cells",
+          "[ranks][run][pieces]") {
     auto scene = test::meeting_bodies<2>(0.3);
     scene.outputs.fields.gap = false;
     scene.solid.kinematics = {solid::Kinematics::floating, solid::Kinematics::rigid};
     if (GENERATE(false, true)) std::swap(scene.solid.kinematics[0], scene.solid.kinematics[1]);
     scene.added_velocity = [](const Vector<2>& x) -> Vector<2> { return 0.3 * Vector<2>(-x[1], x[0]); };
     check_pieces<2>(scene, 15, results("turning"));
+}
+
+TEST_CASE("frames in pieces of a body that flies off hold what the whole holds, also where a rank has no cells",
+          "[ranks][run][pieces]") {
+    auto scene = test::meeting_bodies<2>(0.3);
+    scene.solid.kinematics = {solid::Kinematics::floating, solid::Kinematics::floating};
+    scene.contact = false;
+    scene.velocity.assign(2, Vector<2>(-20.0, -10.0));
+    scene.added_velocity = [](const Vector<2>& x) -> Vector<2> { return 2.0 * Vector<2>(-x[1], x[0]); };
+    check_pieces<2>(scene, 15, results("flying"));
 }
 
 TEST_CASE("the same in space, where vertices have cells of many ranks around them", "[ranks][run][pieces]") {

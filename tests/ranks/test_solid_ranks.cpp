@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "ranks/shared_solid.hpp"
@@ -219,6 +220,34 @@ TEMPLATE_TEST_CASE_SIG("tractions on bodies that turn have the bits of one rank,
                                   }}};
     const std::vector<Vector<Dim>> velocity{Vector<Dim>::Zero()};
     check_same_bits<Dim>(all, mesh, options, velocity, 40, parts(all, mesh), {.waves = 0.01, .spin = 0.05});
+}
+
+TEST_CASE("a moment on a body of several blocks of cells has the bits of one rank", "[ranks][solid][attachments]") {
+    const ranks::Communicator all = test::world();
+    const auto mesh = bar<3>(mesh::CellShape::tetrahedron);
+    REQUIRE(mesh.n_cells() > 3 * parallel_grain);
+    solid::SolidOptions<3> options;
+    options.materials = {steel};
+    options.kinematics = {solid::Kinematics::floating};
+    options.moments = {{.body = 0, .moment = Vector<3>(0.01, 0.02, -0.01), .damping = 0.1}};
+    const std::vector<Vector<3>> velocity{Vector<3>::Zero()};
+    check_same_bits<3>(all, mesh, options, velocity, 20, parts(all, mesh), {.waves = 0.01, .spin = 0.05});
+}
+
+TEST_CASE("a traction on a floating and a rigid body, on faces in any order, has the bits of one rank",
+          "[ranks][solid][attachments][rigid]") {
+    const ranks::Communicator all = test::world();
+    const std::array boxes{mesh::structured_box<2>({0.0, 0.0}, {2.0, 1.0}, {16, 8}, mesh::CellShape::triangle),
+                           mesh::structured_box<2>({3.0, 0.0}, {5.0, 1.0}, {16, 8}, mesh::CellShape::triangle)};
+    auto mesh = mesh::combine<2>(boxes);
+    mesh.groups.push_back({"all", {mesh.boundary_faces.rbegin(), mesh.boundary_faces.rend()}});
+    solid::SolidOptions<2> options;
+    options.materials = {steel, steel};
+    options.kinematics = {solid::Kinematics::floating, solid::Kinematics::rigid};
+    if (GENERATE(false, true)) std::swap(options.kinematics[0], options.kinematics[1]);
+    options.boundary.traction = {{.group = "all", .value = Vector<2>(0.002, 0.01), .follows = true}};
+    const std::vector<Vector<2>> velocity(2, Vector<2>::Zero());
+    check_same_bits<2>(all, mesh, options, velocity, 40, parts(all, mesh), {.waves = 0.01, .spin = 0.05});
 }
 
 TEST_CASE("a traction on bodies of both kinds is refused on all ranks", "[ranks][solid][attachments]") {

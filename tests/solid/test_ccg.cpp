@@ -17,7 +17,7 @@ namespace {
 inline constexpr std::array neumann_choices{FreeFaceRule::local_equilibrium, FreeFaceRule::extrapolate,
                                             FreeFaceRule::adjacent};
 
-const solid::Material material{.young = 2.0, .poisson = 0.3, .density = 1.5};
+const solid::Material rubber{.young = 2.0, .poisson = 0.3, .density = 1.5};
 
 template <int Dim>
 solid::BoundaryConditions<Dim> free_boundary(FreeFaceRule neumann) {
@@ -29,7 +29,7 @@ solid::BoundaryConditions<Dim> free_boundary(FreeFaceRule neumann) {
 template <int Dim>
 std::vector<double> eigenvalues(const mesh::Mesh<Dim>& mesh, FreeFaceRule neumann) {
     solid::SolidOptions<Dim> options;
-    options.materials = {material};
+    options.materials = {rubber};
     options.boundary = free_boundary<Dim>(neumann);
     solid::Solid<Dim> solid(mesh, options);
     const MatrixXd k = dense_stiffness(solid);
@@ -54,7 +54,7 @@ struct Operators {
     explicit Operators(FreeFaceRule neumann, double size = 0.5) : Operators(round_body<Dim>(size), neumann) {}
     Operators(mesh::Mesh<Dim> body, FreeFaceRule neumann)
         : mesh(std::move(body)),
-          ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann)),
+          ccg(mesh, std::vector{rubber}, free_boundary<Dim>(neumann)),
           q(random_state(static_cast<std::size_t>(mesh.n_cells()) * Dim, 3)) {}
 
     std::vector<BoundaryFace> some_faces(int step) const {
@@ -107,7 +107,7 @@ TEMPLATE_TEST_CASE_SIG("the stiffness is symmetric, on every kind of mesh and fo
     for (const auto& [name, mesh] : boxes<Dim>(2)) {
         INFO(name);
         solid::SolidOptions<Dim> options;
-        options.materials = {material};
+        options.materials = {rubber};
         options.boundary.free_face_rule = neumann;
         solid::Solid<Dim> solid(mesh, options);
         const MatrixXd k = dense_stiffness(solid);
@@ -124,7 +124,7 @@ TEMPLATE_TEST_CASE_SIG(
     const Vector<Dim> b = Eigen::Map<const Vector<Dim>>(values.data() + Dim * Dim);
     const auto affine = [&](const Vector<Dim>& x) { return Vector<Dim>(a * x + b); };
     const Matrix<Dim> strain = 0.5 * (a + a.transpose());
-    const Matrix<Dim> stress = material.lambda() * strain.trace() * Matrix<Dim>::Identity() + 2.0 * material.mu() * strain;
+    const Matrix<Dim> stress = rubber.lambda() * strain.trace() * Matrix<Dim>::Identity() + 2.0 * rubber.mu() * strain;
 
     for (const auto& [name, mesh] : boxes<Dim>()) {
         INFO(name);
@@ -136,7 +136,7 @@ TEMPLATE_TEST_CASE_SIG(
             condition.history = [&](double, const Vector<Dim>& x) { return affine(x); };
             conditions.dirichlet.push_back(condition);
         }
-        solid::Ccg<Dim> ccg(mesh, std::vector{material}, conditions);
+        solid::Ccg<Dim> ccg(mesh, std::vector{rubber}, conditions);
         const auto q = sampled(mesh, affine);
         std::vector<double> force(q.size());
         ccg.gradient(vectors<Dim>(q), ccg.load_at(0.0, 0.0), {}, vectors<Dim>(force));
@@ -248,7 +248,7 @@ TEMPLATE_TEST_CASE_SIG(
     mesh::Mesh<Dim> mesh = small_unstructured<Dim>(box);
     if constexpr (Dim == 2)
         if (fan) mesh = mesh::fan_disc({0.0, 0.0}, 1.0, 9);
-    solid::Ccg<Dim> ccg(mesh, std::vector{material}, free_boundary<Dim>(neumann));
+    solid::Ccg<Dim> ccg(mesh, std::vector{rubber}, free_boundary<Dim>(neumann));
     const auto all = ccg.boundary_faces();
     const std::vector<BoundaryFace> faces(all.begin(), all.end());
     const auto coupling = ccg.coupling(faces);
