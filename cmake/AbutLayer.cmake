@@ -97,21 +97,6 @@ function(abut_install_layer name lower_layers public_targets private_targets)
   install(FILES ${file} DESTINATION ${abut_package_dir} COMPONENT development)
 endfunction()
 
-add_library(abut_joined_options INTERFACE)
-target_compile_options(abut_joined_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>)
-
-# Compiles the sources of targets several at a time, which read most of the same headers. Names in unnamed namespaces must
-# differ; warnings that see names of other sources are off.
-function(abut_join_sources)
-  if(NOT ABUT_JOIN_SOURCES)
-    return()
-  endif()
-  foreach(target IN LISTS ARGN)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:abut_joined_options>)
-  endforeach()
-endfunction()
-
 function(abut_install_package)
   get_property(abut_layers GLOBAL PROPERTY abut_layers)
   list(JOIN abut_layers ", " abut_layer_names)

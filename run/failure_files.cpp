@@ -16,7 +16,7 @@
 namespace abut::run {
 namespace {
 
-constexpr std::string_view picture_script = R"gp(set size ratio -1
+constexpr std::string_view script = R"gp(set size ratio -1
 set tmargin 4
 set xlabel "{axis_1} [m]"
 set ylabel "{axis_2} [m]"
@@ -119,7 +119,7 @@ Picture picture(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& pos
         .name = std::string(failure_name),
         .purpose = "Where a run has failed, from failed.csv beside this file",
         .height = 900,
-        .script = fmt::format(fmt::runtime(picture_script), fmt::arg("axis_1", axis_names[first]),
+        .script = fmt::format(fmt::runtime(script), fmt::arg("axis_1", axis_names[first]),
                               fmt::arg("axis_2", axis_names[second]), fmt::arg("slowest", slowest),
                               fmt::arg("fastest", fastest), fmt::arg("title", title), fmt::arg("subtitle", in_quotes(names)),
                               fmt::arg("size", std::clamp(60.0 / std::sqrt(static_cast<double>(position.size())), 0.3, 4.0)),

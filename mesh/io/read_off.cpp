@@ -8,7 +8,7 @@
 namespace abut::mesh {
 namespace {
 
-constexpr const char* correct_line = "Correct the line, or write the mesh again.";
+constexpr const char* correct = "Correct the line, or write the mesh again.";
 
 /// One line per vertex and per face; colours, normals and textures behind them are numbers that are not read.
 class OffReader {
@@ -54,8 +54,7 @@ private:
     }
     std::int64_t read_count(std::string_view word, const char* what) {
         const std::int64_t count = words_.whole_number(word, what);
-        if (count < 0)
-            words_.refuse(std::string(what) + " is " + std::to_string(count) + ", at least 0 is needed", correct_line);
+        if (count < 0) words_.refuse(std::string(what) + " is " + std::to_string(count) + ", at least 0 is needed", correct);
         return count;
     }
     void skip_numbers() {
@@ -75,7 +74,7 @@ private:
         for (double& x : vertex) {
             x = words_.number(word, "a coordinate");
             if (!std::isfinite(x))
-                words_.refuse("a coordinate of vertex " + std::to_string(i) + " is no finite number", correct_line);
+                words_.refuse("a coordinate of vertex " + std::to_string(i) + " is no finite number", correct);
             if (&x != &vertex[2]) word = words_.next_in_line();
         }
         if (is_homogeneous_) {
@@ -84,7 +83,7 @@ private:
             if (!vertex.allFinite())
                 words_.refuse(
                     "vertex " + std::to_string(i) + " has no finite place: its weight is " + std::to_string(weight),
-                    correct_line);
+                    correct);
         }
         skip_numbers();
         mesh_.vertices.push_back(vertex);
@@ -97,12 +96,12 @@ private:
             if (word.empty())
                 words_.refuse("face " + std::to_string(i) + " has " + std::to_string(n_corners) +
                                   " corners, its line names " + std::to_string(k),
-                              correct_line);
+                              correct);
             const std::int64_t vertex = words_.whole_number(word, "a vertex");
             if (vertex < 0 || vertex >= n_vertices_)
                 words_.refuse("face " + std::to_string(i) + " names vertex " + std::to_string(vertex) + ", the file has " +
                                   std::to_string(n_vertices_) + ", counted from 0",
-                              correct_line);
+                              correct);
             corners_.push_back(static_cast<std::int32_t>(vertex));
         }
         skip_numbers();

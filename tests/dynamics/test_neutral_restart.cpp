@@ -19,12 +19,12 @@ using test::square_of_e;
 
 namespace {
 
-const std::vector<double> masses{1.0, 2.0, 0.5, 1.5, 0.7, 1.1, 0.9, 1.3, 0.6};
+const std::vector<double> row_masses{1.0, 2.0, 0.5, 1.5, 0.7, 1.1, 0.9, 1.3, 0.6};
 const std::vector<std::int32_t> first{0, 2, 3, 7, 8}, second{1, 4, 5, 6};  // the points of two bodies
 
 template <int Dim>
 Row<Dim> two_bodies(MomentArms arms) {
-    Row<Dim> row(masses, 3.0);
+    Row<Dim> row(row_masses, 3.0);
     row.arms = arms;
     row.bodies = {0, 1, 0, 0, 1, 1, 1, 0, 0};
     return row;

@@ -12,7 +12,7 @@
 #include "abut/solid/share_out.hpp"
 
 using namespace abut;
-using enum solid::Kinematics;
+using solid::Kinematics;
 
 namespace {
 
@@ -29,15 +29,18 @@ mesh::Mesh<2> three_boxes() {
 
 TEST_CASE("each point has one owner, rigid bodies behind all cells, wherever they are in the mesh", "[solid][ranks]") {
     const auto mesh = three_boxes();
-    const auto kinematics =
-        GENERATE(std::vector{rigid, small, floating}, std::vector{small, rigid, floating},
-                 std::vector{small, floating, rigid}, std::vector{rigid, rigid, rigid}, std::vector{small, small, small});
+    const auto kinematics = GENERATE(std::vector{Kinematics::rigid, Kinematics::small, Kinematics::floating},
+                                     std::vector{Kinematics::small, Kinematics::rigid, Kinematics::floating},
+                                     std::vector{Kinematics::small, Kinematics::floating, Kinematics::rigid},
+                                     std::vector{Kinematics::rigid, Kinematics::rigid, Kinematics::rigid},
+                                     std::vector{Kinematics::small, Kinematics::small, Kinematics::small});
     constexpr int n_ranks = 3;
     std::vector<int> owner;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) owner.push_back(c % n_ranks);
-    const auto n_rigid = static_cast<std::int32_t>(std::ranges::count(kinematics, rigid));
+    const auto n_rigid = static_cast<std::int32_t>(std::ranges::count(kinematics, Kinematics::rigid));
     std::int32_t n_deformable = 0;
-    for (const std::int32_t body : mesh.cell_body) n_deformable += kinematics[static_cast<std::size_t>(body)] != rigid;
+    for (const std::int32_t body : mesh.cell_body)
+        n_deformable += kinematics[static_cast<std::size_t>(body)] != Kinematics::rigid;
     std::map<std::int32_t, int> owner_of;
     for (int rank = 0; rank < n_ranks; ++rank) {
         const auto part = solid::part_of<2>(mesh, owner, rank, kinematics);
@@ -56,7 +59,7 @@ TEST_CASE("each point has one owner, rigid bodies behind all cells, wherever the
 
 TEST_CASE("cells of rigid bodies weigh nothing where others are evaluated", "[solid][ranks]") {
     const auto mesh = three_boxes();  // 4, 6 and 8 cells
-    const std::vector kinematics{small, rigid, floating};
+    const std::vector kinematics{Kinematics::small, Kinematics::rigid, Kinematics::floating};
     const std::vector<double> alike = solid::cell_weights<2>(mesh, kinematics, {});
     REQUIRE(alike.size() == 18);
     for (std::size_t c = 0; c < alike.size(); ++c) CHECK(alike[c] == (c >= 4 && c < 10 ? 0.0 : 1.0));
@@ -67,15 +70,15 @@ TEST_CASE("cells of rigid bodies weigh nothing where others are evaluated", "[so
     CHECK(weights[4] == 0.0);
     CHECK(weights[10] == 5.0);
     CHECK(weights[17] == 12.0);
-    CHECK(solid::cell_weights<2>(mesh, std::vector{rigid, rigid, rigid}, {}).empty());
+    CHECK(solid::cell_weights<2>(mesh, std::vector{Kinematics::rigid, Kinematics::rigid, Kinematics::rigid}, {}).empty());
     CHECK(solid::cell_weights<2>(mesh, {}, {}).empty());
 }
 
 TEST_CASE("kinematics, weights and parts that do not fit are refused", "[solid][ranks]") {
     const auto mesh = three_boxes();
-    const std::vector kinematics{small, rigid, floating};
+    const std::vector kinematics{Kinematics::small, Kinematics::rigid, Kinematics::floating};
     const std::vector<int> owner(18, 0);
-    CHECK_THROWS_AS(solid::part_of<2>(mesh, owner, 0, std::vector{rigid}), BadInput);
+    CHECK_THROWS_AS(solid::part_of<2>(mesh, owner, 0, std::vector{Kinematics::rigid}), BadInput);
     CHECK_THROWS_AS(solid::cell_weights<2>(mesh, kinematics, std::vector<double>(18, 1.0)), BadInput);
     CHECK_THROWS_AS(solid::points_of<2>(mesh::part_of<2>(mesh, owner, 1), kinematics), BadInput);  // no cell there
 }
