@@ -95,8 +95,8 @@ def check_pieces(program, scene, folder, expected):
 
 
 def check_choices(program, scene, folder):
-    """Bodies that turn in a frame, and bodies that bend, under the other law of contact; the filter; neutral restarts."""
-    for choice in (("--kinematics", "floating"), ("--kinematics", "finite"), ("--filter", "neutral"), ("--restart", "5")):
+    """Bodies that turn in a frame, that bend, and that are rigid, under the other law of contact; the filter; neutral restarts."""
+    for choice in (("--kinematics", "floating"), ("--kinematics", "finite"), ("--kinematics", "rigid"), ("--filter", "neutral"), ("--restart", "5")):
         alone, shared = folder / choice[1], folder / (choice[1] + "_on_3")
         subprocess.run(command(program, scene, alone, *choice), check=True)
         subprocess.run(command(program, scene, shared, *choice, "--ranks", "3"), check=True)
@@ -113,7 +113,7 @@ def check_one_message(run, words, what):
 def check_refused(program, other, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
-    for name, *options in (("a rigid body", "--kinematics", "rigid"), ("pilot run", "--kinematics", "automatic"),
+    for name, *options in (("pilot run", "--kinematics", "automatic"),
                            ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--precision", "single")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
         check_one_message(run, (name, not_made), options)
