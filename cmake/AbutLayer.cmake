@@ -18,6 +18,8 @@ target_compile_features(abut_compile_options INTERFACE cxx_std_20)
 # No interposition: calls between functions of one shared library are inlined as in a static one.
 target_compile_options(abut_compile_options INTERFACE
   -ffp-contract=off -fno-fast-math -fno-semantic-interposition
+  # Debug information does not name the build folder, so that a compiler cache serves another one, as tests make it.
+  -fdebug-prefix-map=${PROJECT_BINARY_DIR}=.
   -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers  # {.shift = s} leaves the rest to its defaults on purpose
   $<$<BOOL:${ABUT_WERROR}>:-Werror>
   $<$<BOOL:${ABUT_NATIVE}>:-march=native>
