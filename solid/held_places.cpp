@@ -14,13 +14,6 @@ namespace {
 constexpr double least_width = 1e-3;      // of a cloud of points: its least second moment over the largest
 constexpr std::size_t first_choice = 32;  // cells that are sorted by distance at first
 
-template <int Dim>
-std::vector<Vector<Dim>> chosen_vectors(std::span<const double> values, std::span<const std::size_t> order) {
-    std::vector<Vector<Dim>> chosen;
-    for (const std::size_t i : order) chosen.push_back(as_vectors<Dim>(values)[i]);
-    return chosen;
-}
-
 }  // namespace
 
 /// Mass, centre and second moments of some points.
@@ -138,9 +131,9 @@ auto HeldPlaces<Dim>::gathered_points_of(std::int32_t body) const -> Points {
     std::vector<std::size_t> order(numbers.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, {}, [&](std::size_t i) { return numbers[i]; });
-    points.rest = chosen_vectors<Dim>(rest, order);
     for (const std::size_t i : order) {
         points.number.push_back(static_cast<std::int32_t>(numbers[i]));
+        points.rest.push_back(as_vectors<Dim>(std::span<const double>(rest))[i]);
         points.mass.push_back(masses[i]);
     }
     return points;

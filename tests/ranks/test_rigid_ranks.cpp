@@ -138,6 +138,21 @@ TEST_CASE("a traction on bodies of both kinds is refused on all ranks", "[ranks]
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("Give each kind a group of its own"));
 }
 
+TEST_CASE("a rigid body whose points are on two ranks is refused on all of them", "[ranks][solid][rigid]") {
+    const ranks::Communicator all = test::world();
+    if (all.size() == 1) return;
+    const auto mesh = bar<2>(mesh::CellShape::triangle);
+    solid::SolidOptions<2> options;
+    options.materials = {steel};
+    options.kinematics = {solid::Kinematics::rigid};
+    const auto part = solid::part_of<2>(mesh, parts(all, mesh), all.rank(), options.kinematics);
+    solid::PartPoints split = solid::points_of<2>(part, options.kinematics);
+    split.owner.back() = (split.owner.back() + 1) % all.size();
+    const ranks::PointRanks points(all, ranks::shared_points(all, 2, split.n_points, split.number, split.owner));
+    CHECK_THROWS_WITH(solid::Solid<2>(part.mesh, options, &points),
+                      Catch::Contains("points of a rigid body are on several"));
+}
+
 TEST_CASE("parts without the whole of a rigid body are refused on all ranks", "[ranks][solid][rigid]") {
     const ranks::Communicator all = test::world();
     if (all.size() == 1) return;
