@@ -46,8 +46,10 @@ public:
         const std::vector<int> around = count_around();
         for (std::size_t v = 0; v < around.size(); ++v)
             if (around[v] > 0) piece_.vertices.push_back(static_cast<std::int32_t>(v));
-        const std::vector<Vector<Dim>> of_all =
-            vertex_means(around, any_turns_ ? own_gradients(run.q) : std::vector<Matrix<Dim>>{});
+        if (any_turns_)
+            for (const std::int32_t position : positions_)
+                own_gradients_.push_back(solid_.displacement_gradient(position, run.q));
+        const std::vector<Vector<Dim>> of_all = vertex_means(around);
         for (const std::int32_t v : piece_.vertices)
             piece_.vertex_displacement.push_back(of_all[static_cast<std::size_t>(v)]);
     }
@@ -79,25 +81,17 @@ private:
         return around;
     }
 
-    /// Of own cells (n).
-    [[nodiscard]] std::vector<Matrix<Dim>> own_gradients(std::span<const double> q) const {
-        std::vector<Matrix<Dim>> of_own;
-        for (const std::int32_t position : positions_) of_own.push_back(solid_.displacement_gradient(position, q));
-        return of_own;
-    }
-
     /// Means over all cells around a vertex, one after the other by number, of where each carries it: by its displacement and,
-    /// where a body turns, by its displacement gradient. Values of own cells are given, those of others come from their ranks.
-    [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around,
-                                                        std::span<const Matrix<Dim>> own_gradients) const {
+    /// where a body turns, by its displacement gradient. Other ranks bring those of their cells.
+    [[nodiscard]] std::vector<Vector<Dim>> vertex_means(const std::vector<int>& around) const {
         std::vector<Vector<Dim>> of_cells(mesh_.cell_measure.size(), Vector<Dim>::Zero());
         std::vector<Matrix<Dim>> gradients(any_turns_ ? of_cells.size() : 0, Matrix<Dim>::Zero());
         for (std::size_t i = 0; i < piece_.cells.size(); ++i) {
             of_cells[static_cast<std::size_t>(piece_.cells[i])] = piece_.displacement[i];
-            if (any_turns_) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients[i];
+            if (any_turns_) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients_[i];
         }
         if (const dynamics::Ranks* ranks = solid_.ranks()) {
-            const std::vector<double> shared = ranks->gather(values_at_seams(own_gradients));
+            const std::vector<double> shared = ranks->gather(values_at_seams());
             const std::size_t width = 1 + Dim + (any_turns_ ? Dim * Dim : 0);
             for (std::size_t i = 0; i < shared.size(); i += width) {
                 const auto cell = static_cast<std::size_t>(shared[i]);
@@ -121,8 +115,9 @@ private:
         return mean;
     }
 
-    /// Number, displacement and, where a body turns, displacement gradient of own cells that share a vertex with a cell of another rank.
-    [[nodiscard]] std::vector<double> values_at_seams(std::span<const Matrix<Dim>> own_gradients) const {
+    /// Number, displacement and, where a body turns, displacement gradient of own cells that share a vertex with a cell of
+    /// another rank.
+    [[nodiscard]] std::vector<double> values_at_seams() const {
         std::vector<char> at_seam(mesh_.vertices.size(), 0);
         for (std::int32_t cell = 0; cell < mesh_.n_cells(); ++cell)
             if (!is_own_[static_cast<std::size_t>(cell)])
@@ -136,7 +131,7 @@ private:
             values.push_back(piece_.cells[i]);
             values.insert(values.end(), piece_.displacement[i].begin(), piece_.displacement[i].end());
             if (!any_turns_) continue;
-            values.insert(values.end(), own_gradients[i].data(), own_gradients[i].data() + Dim * Dim);
+            values.insert(values.end(), own_gradients_[i].data(), own_gradients_[i].data() + Dim * Dim);
         }
         return values;
     }
@@ -144,9 +139,10 @@ private:
     FramePiece<Dim>& piece_;
     solid::Solid<Dim>& solid_;
     const mesh::Mesh<Dim>& mesh_;
-    bool any_turns_;                       // then the mean displacement of its cells does not take a vertex where it is
-    std::vector<char> is_own_;             // of the cells of the scene
-    std::vector<std::int32_t> positions_;  // of own cells in the mesh of the solid
+    bool any_turns_;                          // then the mean displacement of its cells does not take a vertex where it is
+    std::vector<char> is_own_;                // of the cells of the scene
+    std::vector<std::int32_t> positions_;     // of own cells in the mesh of the solid
+    std::vector<Matrix<Dim>> own_gradients_;  // of displacement; empty where no body turns
 };
 
 }  // namespace

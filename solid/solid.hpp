@@ -262,6 +262,8 @@ private:
     void to_force(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> gradient);
     void require_no_collapse();
     void add_work(double share);
+    void finish_step(const Ends& ends, double time, double dt, contact::TakenForce take, std::span<Vector<Dim>> gradient,
+                     std::span<double> force);
     void end_step(double time);
     void add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt, std::span<Vector<Dim>> impulse);
     void follow_flight(const dynamics::FreeFlight& flight, double time, double dt);

@@ -52,15 +52,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
         take_gradient(loads_->mean());
     else
         take_gradient(loads_->end());
-    require_no_collapse();
-    add_work(1.0);
-    if (contact_) contact_->add_impulses(dt);
-    to_force(u_0, u_1, gradient);
-    add_point_loads(u_0, u_1, time, dt, contact::TakenForce::mean, gradient);
-    outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
-    take_result(force);
-    evaluations_ += n_cells_of_all();
-    end_step(time + dt);
+    finish_step({u_0, u_1}, time, dt, contact::TakenForce::mean, gradient, force);
 }
 
 template <int Dim>
@@ -86,12 +78,21 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
         const ProcessorStopwatch of_cells(times_.own_cells);
         ccg_.step_gradient(in_frames(u_1, all_cells_), loads_->end(), corrections(), gradient);
     }
+    finish_step({u_0, u_1}, time, dt, contact::TakenForce::end, gradient, force);
+}
+
+/// Books the work of the step, makes the force of its gradient, and ends it. At its end alone half of the work is booked: the
+/// other half belongs to the force at its start.
+template <int Dim>
+void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::TakenForce take,
+                             std::span<Vector<Dim>> gradient, std::span<double> force) {
+    const bool is_mean = take == contact::TakenForce::mean;
     require_no_collapse();
-    add_work(0.5);
+    add_work(is_mean ? 1.0 : 0.5);
     if (contact_) contact_->add_impulses(dt);
-    to_force(u_1, u_1, gradient);
-    add_point_loads(u_0, u_1, time, dt, contact::TakenForce::end, gradient);
-    outside_->add_step(u_0, u_1, [this](std::int32_t body) { return mean_turn(body); });
+    to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
+    add_point_loads(ends.start, ends.end, time, dt, take, gradient);
+    outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });
     take_result(force);
     evaluations_ += n_cells_of_all();
     end_step(time + dt);

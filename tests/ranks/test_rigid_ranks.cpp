@@ -138,22 +138,8 @@ TEST_CASE("a traction on bodies of both kinds is refused on all ranks", "[ranks]
     CHECK_THROWS_WITH(test::SharedSolid<2>(all, mesh, options, owner), Catch::Contains("Give each kind a group of its own"));
 }
 
-TEST_CASE("a rigid body whose points are on two ranks is refused on all of them", "[ranks][solid][rigid]") {
-    const ranks::Communicator all = test::world();
-    if (all.size() == 1) return;
-    const auto mesh = bar<2>(mesh::CellShape::triangle);
-    solid::SolidOptions<2> options;
-    options.materials = {steel};
-    options.kinematics = {solid::Kinematics::rigid};
-    const auto part = solid::part_of<2>(mesh, parts(all, mesh), all.rank(), options.kinematics);
-    solid::PartPoints split = solid::points_of<2>(part, options.kinematics);
-    split.owner.back() = (split.owner.back() + 1) % all.size();
-    const ranks::PointRanks points(all, ranks::shared_points(all, 2, split.n_points, split.number, split.owner));
-    CHECK_THROWS_WITH(solid::Solid<2>(part.mesh, options, &points),
-                      Catch::Contains("points of a rigid body are on several"));
-}
-
-TEST_CASE("parts without the whole of a rigid body are refused on all ranks", "[ranks][solid][rigid]") {
+TEST_CASE("parts without the whole of a rigid body, or with its points on two ranks, are refused on all ranks",
+          "[ranks][solid][rigid]") {
     const ranks::Communicator all = test::world();
     if (all.size() == 1) return;
     const auto mesh = bar<2>(mesh::CellShape::triangle);
@@ -161,8 +147,12 @@ TEST_CASE("parts without the whole of a rigid body are refused on all ranks", "[
     options.materials = {steel};
     options.kinematics = {solid::Kinematics::rigid};
     const std::vector<int> owner = parts(all, mesh);
-    const auto right = solid::part_of<2>(mesh, owner, all.rank(), options.kinematics);
-    const ranks::PointRanks points(all, test::shared_points<2>(all, right, options.kinematics));
-    const auto wrong = mesh::part_of<2>(mesh, owner, all.rank());
-    CHECK_THROWS_WITH(solid::Solid<2>(wrong.mesh, options, &points), Catch::Contains("whole of it"));
+    const auto whole = solid::part_of<2>(mesh, owner, all.rank(), options.kinematics);
+    const auto cut = mesh::part_of<2>(mesh, owner, all.rank());
+    solid::PartPoints its = solid::points_of<2>(whole, options.kinematics);
+    const ranks::PointRanks points(all, ranks::shared_points(all, 2, its.n_points, its.number, its.owner));
+    CHECK_THROWS_WITH(solid::Solid<2>(cut.mesh, options, &points), Catch::Contains("whole of it"));
+    its.owner.back() = (its.owner.back() + 1) % all.size();
+    const ranks::PointRanks split(all, ranks::shared_points(all, 2, its.n_points, its.number, its.owner));
+    CHECK_THROWS_WITH(solid::Solid<2>(whole.mesh, options, &split), Catch::Contains("are on several ranks"));
 }
