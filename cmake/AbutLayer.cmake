@@ -84,6 +84,7 @@ function(abut_install_layer name lower_layers public_targets private_targets)
     list(APPEND needed ${private_targets})
   endif()
   set(lines "")
+  list(TRANSFORM needed REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1")
   foreach(target IN LISTS needed)
     get_property(package GLOBAL PROPERTY abut_package_of_${target})
     if(NOT package)
@@ -106,7 +107,8 @@ function(abut_install_package)
     ${PROJECT_BINARY_DIR}/package/abutConfig.cmake INSTALL_DESTINATION ${abut_package_dir})
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/package/abutConfig.cmake ${PROJECT_BINARY_DIR}/package/abutConfigVersion.cmake
-    ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLBFGSpp.cmake ${PROJECT_SOURCE_DIR}/cmake/FindZoltan.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindGmsh.cmake ${PROJECT_SOURCE_DIR}/cmake/FindKokkos.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindLBFGSpp.cmake ${PROJECT_SOURCE_DIR}/cmake/FindZoltan.cmake
     DESTINATION ${abut_package_dir} COMPONENT development)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC
     COMPONENT libraries)

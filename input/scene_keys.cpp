@@ -66,6 +66,8 @@ const Keys<Settings>& run_keys() {
         Of::word("integrator", option(&RunOptions::integrator), run::integrator_words, "scheme in time (integrators.md)"),
         Of::word("precision", option(&RunOptions::precision), run::precision_words,
                  "of the bulk in steps of memm and leapfrog: single is less exact (trade.md)"),
+        Of::word("device", option(&RunOptions::device), run::device_words,
+                 "of the bulk in steps of memm and leapfrog: the host, or what Kokkos was built for (devices.md)"),
         Of::count("levels", option(&RunOptions::levels), 0, Of::many, "of memm_async: different steps at most; 0: 8"),
         Of::count("contact_margin", option(&RunOptions::contact_margin), 0, Of::many,
                   "of memm_async: levels that cells in contact are finer than they need to be alone"),

@@ -121,6 +121,12 @@ void check(const RunOptions& options) {
             fmt::format("--precision single: steps in single precision are made by memm and leapfrog, and {} was "
                         "chosen. Take --precision double.",
                         name_of(options.integrator)));
+    if (options.device != solid::StepDevice::host && options.integrator != SolidIntegrator::memm &&
+        options.integrator != SolidIntegrator::leapfrog)
+        throw BadInput(
+            fmt::format("--device {}: steps on a device are made by memm and leapfrog, and {} was chosen. Take "
+                        "--device host.",
+                        word_of(device_words, options.device), name_of(options.integrator)));
     if (!std::isnan(options.gauge) && options.integrator != SolidIntegrator::bilbao)
         throw BadInput(fmt::format("--gauge: {} has no gauge. Take --integrator bilbao, or leave --gauge out.",
                                    name_of(options.integrator)));
@@ -148,6 +154,7 @@ NamedValues named_values(const RunOptions& options) {
     if (options.integrator == SolidIntegrator::bilbao && !std::isnan(options.gauge))
         values.push_back({"gauge", options.gauge});
     append(values, {{"precision", word_of(precision_words, options.precision)},
+                    {"device", word_of(device_words, options.device)},
                     {"filter", word_of(filter_words, options.filter)},
                     {"restart", options.restart},
                     {"kinematics", word_of(kinematics_words, options.kinematics)},

@@ -10,6 +10,7 @@
 #include "abut/run/value.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
+#include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 
 namespace abut::run {
@@ -38,7 +39,8 @@ struct RunOptions {
     solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;
     solid::Precision precision = solid::Precision::double_precision;  ///< of the bulk in steps
-    int levels = 0;                                                   ///< of memm_async, at most; 0: 8
+    solid::StepDevice device = solid::StepDevice::host;  ///< of the bulk in steps; the results do not depend on it
+    int levels = 0;                                      ///< of memm_async, at most; 0: 8
     int contact_margin = 1;    ///< of memm_async: levels that cells in contact are finer than they need to be alone
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
@@ -69,6 +71,8 @@ inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm",
                                                                         {"bilbao", SolidIntegrator::bilbao}}};
 inline constexpr std::array<Word<solid::Precision>, 2> precision_words{
     {{"double", solid::Precision::double_precision}, {"single", solid::Precision::single_precision}}};
+inline constexpr std::array<Word<solid::StepDevice>, 2> device_words{
+    {{"host", solid::StepDevice::host}, {"kokkos", solid::StepDevice::kokkos}}};
 inline constexpr std::array<Word<BodyKinematics>, 6> kinematics_words{{{"scene", BodyKinematics::scene},
                                                                        {"automatic", BodyKinematics::automatic},
                                                                        {"small", BodyKinematics::small},

@@ -58,6 +58,7 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
     solid.boundary.free_face_rule = options.neumann;
     solid.boundary.corner_rule = options.corners;
     solid.precision = options.precision;
+    solid.device = options.device;
     if (const auto kinematics = kinematics_of_all(options.kinematics))
         solid.kinematics.assign(scene.mesh.body_names.size(), *kinematics);
     if (options.law != solid::ContactLaw::automatic) solid.law = options.law;

@@ -11,6 +11,7 @@
 #include "abut/solid/attachments.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
+#include "abut/solid/ccg/step_device.hpp"
 #include "abut/solid/kinematics/kinematics.hpp"
 #include "abut/solid/material.hpp"
 
@@ -34,6 +35,7 @@ struct SolidOptions {
     /// Pairs of bodies, in either order, that pass through each other; obstacle i is body n_bodies + i
     std::vector<std::array<std::int32_t, 2>> ignored_pairs = {};
     Precision precision = Precision::double_precision;  ///< of the bulk in steps: `mean_force` and `end_force`
+    StepDevice device = StepDevice::host;               ///< of the same
 };
 
 /// Where the time of all steps of a Solid went [s].

@@ -33,6 +33,7 @@ void check_for_ranks(const dynamics::Ranks* ranks, const mesh::Mesh<Dim>& mesh, 
     if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
         dynamics::refuse_ranks(ranks, "a load from outside");
     if (options.precision == Precision::single_precision) dynamics::refuse_ranks(ranks, "a bulk in single precision");
+    if (options.device != StepDevice::host) dynamics::refuse_ranks(ranks, "a bulk on a device");
 }
 
 template <int Dim>
@@ -64,7 +65,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                             [&] {
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
                                 return Ccg<Dim>(bodies_->deformable(), deformable.materials, deformable.boundary,
-                                                deformable.kinematics, CellForm::automatic, deformable.precision);
+                                                deformable.kinematics, CellForm::automatic, deformable.precision,
+                                                deformable.device);
                             })),
       frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(part_.get()))),
       point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_, part_.get())),

@@ -15,6 +15,7 @@ const auto kinematics = choices_of(run::kinematics_words);
 const auto laws = choices_of(run::law_words);
 const auto integrators = choices_of(run::integrator_words);
 const auto precisions = choices_of(run::precision_words);
+const auto devices = choices_of(run::device_words);
 const auto switches = choices_of(run::event_words);
 const auto filters = choices_of(run::filter_words);
 const auto free_face_rules = choices_of(run::free_face_words);
@@ -54,6 +55,11 @@ void add_time_options(CLI::App& app, run::RunOptions& options, const std::string
                "of the bulk in steps of memm and leapfrog: single is less exact (docs/trade.md); contact is always "
                "double",
                precisions)
+        ->group("Time");
+    add_choice(app, "--device", options.device,
+               "of the bulk in steps of memm and leapfrog: kokkos is what Kokkos was built for, a GPU or the host "
+               "(docs/devices.md); the results are the same",
+               devices)
         ->group("Time");
     add_count(app, "--levels", options.levels, "of memm_async: different steps at most, each half the one before; 0: 8", 0)
         ->group("Time");

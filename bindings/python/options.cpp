@@ -44,6 +44,7 @@ const std::map<std::string, Take>& known_options() {
         {"allow_unstable", take_value<bool>(ABUT_OPTION(allow_unstable))},
         {"integrator", take_word(run::integrator_words, ABUT_OPTION(integrator))},
         {"precision", take_word(run::precision_words, ABUT_OPTION(precision))},
+        {"device", take_word(run::device_words, ABUT_OPTION(device))},
         {"levels", take_value<int>(ABUT_OPTION(levels))},
         {"contact_margin", take_value<int>(ABUT_OPTION(contact_margin))},
         {"contact_levels", take_value<int>(ABUT_OPTION(contact_levels))},

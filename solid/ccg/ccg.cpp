@@ -9,8 +9,10 @@
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/ccg/arrays.hpp"
+#include "abut/solid/ccg/device_sweeps.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
 #include "abut/solid/ccg/region.hpp"
+#include "abut/solid/ccg/single_sweeps.hpp"
 #include "abut/solid/ccg/sweeps.hpp"
 #include "abut/solid/motion_bound.hpp"
 
@@ -29,34 +31,44 @@ std::span<const Material> checked(const mesh::Mesh<Dim>& mesh, std::span<const M
 }
 
 template <int Dim>
-void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics) {
+void refuse_finite(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics, const std::string& steps,
+                   const std::string& remedy) {
     for (std::size_t body = 0; body < kinematics.size(); ++body)
         if (kinematics[body] == Kinematics::finite)
             throw BadInput(mesh.name + ": body '" + mesh.body_names[body] +
-                           "' is of Kinematics::finite, whose steps are not made in single precision. Take "
-                           "Precision::double_precision (--precision double), or other kinematics.");
+                           "' is of Kinematics::finite, whose steps are not made " + steps + ". Take " + remedy +
+                           ", or other kinematics.");
+}
+
+/// Null where steps are made in double precision on the host.
+template <int Dim>
+std::unique_ptr<StepSweeps<Dim>> step_sweeps(const mesh::Mesh<Dim>& mesh, std::span<const Kinematics> kinematics,
+                                             const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite,
+                                             const CcgSweeps<Dim>& sweeps, Precision precision, StepDevice device) {
+    const bool is_single = precision == Precision::single_precision;
+    if (is_single)
+        refuse_finite(mesh, kinematics, "in single precision", "Precision::double_precision (--precision double)");
+    if (device == StepDevice::host) return is_single ? std::make_unique<SingleSweeps<Dim>>(arrays, finite) : nullptr;
+    refuse_finite(mesh, kinematics, "on a device", "StepDevice::host (--device host)");
+    if (is_single)
+        throw BadInput(mesh.name +
+                       ": steps on a device are made in double precision alone. Take Precision::double_precision "
+                       "(--precision double), or StepDevice::host (--device host).");
+    return std::make_unique<DeviceSweeps<Dim>>(arrays, finite, sweeps);
 }
 
 }  // namespace
 
 template <int Dim>
 struct Ccg<Dim>::Impl {
-    struct Single {
-        CcgCoefficients<Dim, float> coefficients;
-        CcgSweeps<Dim, float> sweeps;
-        bool was_last = false;   // to compute gradients
-        bool has_state = false;  // was the last to be given a state
-
-        Single(const CcgArrays<Dim>& arrays, const FiniteCells<Dim>& finite)
-            : coefficients(in_single_precision(arrays)), sweeps(arrays, coefficients, finite) {}
-    };
-
     BoundaryConditions<Dim> conditions;
     FaceConditions<Dim> face_conditions;
     CcgArrays<Dim> arrays;
     FiniteCells<Dim> finite;
     CcgSweeps<Dim> sweeps;
-    std::unique_ptr<Single> single;  // null in double precision
+    std::unique_ptr<StepSweeps<Dim>> steps;  // null: `sweeps` make them
+    bool steps_were_last = false;            // to compute gradients
+    bool steps_have_state = false;           // were the last to be given a state
     std::optional<MotionBound<Dim>> motion_bound;
     IdVector<BoundaryFace, Vector<Dim>> boundary_centroid;
     IdVector<BoundaryFace, double> boundary_measure;
@@ -65,37 +77,28 @@ struct Ccg<Dim>::Impl {
 
     Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
          const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics, CellForm form,
-         Precision precision);
+         Precision precision, StepDevice device);
 
-    /// evaluate(sweeps) in the precision of steps.
+    /// evaluate(sweeps) of those that make steps.
     template <class Evaluate>
     void take_step(const Evaluate& evaluate) {
-        if (single) {
-            evaluate(single->sweeps);
-            single->was_last = single->has_state = true;
-        } else {
-            evaluate(sweeps);
-        }
-    }
-    void leave_single() {
-        if (single) single->was_last = single->has_state = false;
+        if (!steps) return evaluate(sweeps);
+        evaluate(*steps);
+        steps_were_last = steps_have_state = true;
     }
 };
 
 template <int Dim>
 Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials,
                      const BoundaryConditions<Dim>& boundary_conditions, std::span<const Kinematics> kinematics,
-                     CellForm form, Precision precision)
+                     CellForm form, Precision precision, StepDevice device)
     : conditions(boundary_conditions),
       face_conditions(sort_to_faces(mesh, boundary_conditions)),
       arrays(mesh, checked(mesh, materials), face_conditions, conditions.free_face_rule, conditions.corner_rule, kinematics,
              form),
       finite(mesh, face_conditions, kinematics),
-      sweeps(arrays, arrays, finite) {
-    if (precision == Precision::single_precision) {
-        refuse_finite(mesh, kinematics);
-        single = std::make_unique<Single>(arrays, finite);
-    }
+      sweeps(arrays, arrays, finite),
+      steps(step_sweeps(mesh, kinematics, arrays, finite, sweeps, precision, device)) {
     const auto all = solid::boundary_faces(mesh);
     motion_bound.emplace(arrays, std::vector<BoundaryFace>(all.begin(), all.end()));
     for (const std::int32_t f : arrays.boundary_faces) {
@@ -112,8 +115,8 @@ Ccg<Dim>::Impl::Impl(const mesh::Mesh<Dim>& mesh, std::span<const Material> mate
 
 template <int Dim>
 Ccg<Dim>::Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
-              std::span<const Kinematics> kinematics, CellForm form, Precision precision)
-    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision)) {}
+              std::span<const Kinematics> kinematics, CellForm form, Precision precision, StepDevice device)
+    : impl_(std::make_unique<Impl>(mesh, materials, conditions, kinematics, form, precision, device)) {}
 
 template <int Dim>
 Ccg<Dim>::~Ccg() = default;
@@ -231,13 +234,13 @@ template <int Dim>
 void Ccg<Dim>::gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                         const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result, const StepEnds<Dim>& ends) {
     impl_->sweeps.gradient(u, load, corrections, result, ends);
-    impl_->leave_single();
+    impl_->steps_were_last = impl_->steps_have_state = false;
 }
 
 template <int Dim>
 void Ccg<Dim>::step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                              const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    impl_->take_step([&](auto& sweeps) { sweeps.gradient(u, load, corrections, result, {}); });
+    impl_->take_step([&](auto& sweeps) { sweeps.gradient(u, load, corrections, result); });
 }
 
 template <int Dim>
@@ -250,13 +253,14 @@ template <int Dim>
 void Ccg<Dim>::gradient_of_packed(LargeArray<double>& u, const BoundaryLoad<Dim>& load,
                                   const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
                                   const StepEnds<Dim>& ends) {
-    impl_->take_step([&](auto& sweeps) { sweeps.gradient_of_packed(u, load, corrections, result, ends); });
+    if (impl_->steps)
+        return impl_->take_step([&](auto& sweeps) { sweeps.gradient_of_packed(u, load, corrections, result); });
+    impl_->sweeps.gradient_of_packed(u, load, corrections, result, ends);
 }
 
 template <int Dim>
 Vector<Dim> Ccg<Dim>::boundary_gradient(BoundaryFace face) const {
-    const auto& single = impl_->single;
-    return single && single->was_last ? single->sweeps.face_gradient(face) : impl_->sweeps.face_gradient(face);
+    return impl_->steps_were_last ? impl_->steps->face_gradient(face) : impl_->sweeps.face_gradient(face);
 }
 
 template <int Dim>
@@ -274,7 +278,7 @@ std::vector<double> Ccg<Dim>::cell_energies(std::span<const Vector<Dim>> u, cons
                                             const FaceCorrections<Dim>& corrections) {
     std::vector<double> energy(static_cast<std::size_t>(n_cells()));
     impl_->sweeps.cell_energies(u, load, corrections, energy);
-    if (impl_->single) impl_->single->has_state = false;
+    impl_->steps_have_state = false;
     return energy;
 }
 
@@ -328,7 +332,7 @@ template <int Dim>
 std::vector<std::int32_t> Ccg<Dim>::compute_only(std::span<const std::int32_t> cells) {
     Region<Dim> region = solid::region_of_cells(impl_->arrays, cells);
     impl_->sweeps.compute_only(region);
-    if (impl_->single) impl_->single->sweeps.compute_only(region);
+    if (impl_->steps) impl_->steps->compute_only(region);
     return std::move(region.input_cells);
 }
 
@@ -355,15 +359,12 @@ double Ccg<Dim>::corner_amplification(BoundaryFace face, const Vector<Dim>& arm)
 
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::displacement_gradient(std::int32_t cell) const {
-    const auto& single = impl_->single;
-    return single && single->has_state ? single->sweeps.displacement_gradient(cell)
-                                       : impl_->sweeps.displacement_gradient(cell);
+    return impl_->steps_have_state ? impl_->steps->displacement_gradient(cell) : impl_->sweeps.displacement_gradient(cell);
 }
 
 template <int Dim>
 Matrix<Dim> Ccg<Dim>::stress(std::int32_t cell) const {
-    const auto& single = impl_->single;
-    return single && single->has_state ? single->sweeps.stress(cell) : impl_->sweeps.stress(cell);
+    return impl_->steps_have_state ? impl_->steps->stress(cell) : impl_->sweeps.stress(cell);
 }
 
 template <int Dim>

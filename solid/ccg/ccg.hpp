@@ -10,6 +10,7 @@
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 #include "abut/solid/ccg/cell_form.hpp"
 #include "abut/solid/ccg/precision.hpp"
+#include "abut/solid/ccg/step_device.hpp"
 
 namespace abut::solid {
 
@@ -76,11 +77,12 @@ class Ccg {
 public:
     /// One material per body. Throws BadInput for another number of them, and as `check(Material)`,
     /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as all are
-    /// where none are given. `precision`: that of `step_gradient`, `mean_gradient` and `gradient_of_packed`; all else is in
-    /// double. Throws BadInput where it is single and a body is finite.
+    /// where none are given. `precision` and `device`: of `step_gradient`, `mean_gradient` and `gradient_of_packed`; all else is
+    /// in double on the host. Throws BadInput where either is not the default and a body is finite, where neither is, and where
+    /// there is no such device; LimitExceeded where the device has too little memory.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
         std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic,
-        Precision precision = Precision::double_precision);
+        Precision precision = Precision::double_precision, StepDevice device = StepDevice::host);
     ~Ccg();
     Ccg(Ccg&&) noexcept;
     Ccg& operator=(Ccg&&) noexcept;
@@ -115,7 +117,7 @@ public:
     /// of Kinematics::finite with `ends` the discrete gradient: its work along the step is the change of V.
     void gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                   std::span<Vector<Dim>> result, const StepEnds<Dim>& ends = {});
-    /// The same in the precision of steps.
+    /// The same in the precision and on the device of steps.
     void step_gradient(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                        const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result);
     /// The same of the mean of both ends: the mean of the gradient along the step.

@@ -32,10 +32,19 @@ template <int Dim, class Real>
 struct SweepUnits {
     static_assert(std::is_same_v<Real, double>);
 
-    [[nodiscard, gnu::always_inline]] static Lanes<Dim> displacement(Lanes<Dim> metres) { return metres; }
-    [[nodiscard, gnu::always_inline]] static Lanes<Dim> force(Lanes<Dim> newtons) { return newtons; }
+    template <class V>
+    [[nodiscard, gnu::always_inline]] static ABUT_HOST_DEVICE V displacement(V metres) {
+        return metres;
+    }
+    template <class V>
+    [[nodiscard, gnu::always_inline]] static ABUT_HOST_DEVICE V force(V newtons) {
+        return newtons;
+    }
     [[nodiscard, gnu::always_inline]] static Lanes<Dim> stress(Lanes<Dim> pascals) { return pascals; }
-    [[nodiscard, gnu::always_inline]] static Lanes<Dim> in_newtons(const Lanes<Dim>& force) { return force; }
+    template <class V>
+    [[nodiscard, gnu::always_inline]] static ABUT_HOST_DEVICE V in_newtons(const V& force) {
+        return force;
+    }
     [[nodiscard]] static Matrix<Dim> in_pascals(const Matrix<Dim>& stress) { return stress; }
 };
 

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "abut/base/parallel.hpp"
-#include "abut/solid/ccg/sweep_elements.hpp"
+#include "abut/solid/ccg/sweeps.hpp"
 
 // What the sweeps do with the cells of bodies of Kinematics::finite. docs/method.md, Bodies that bend.
 
@@ -40,24 +40,26 @@ LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::finite_stress(std::ptrdiff_t c, cons
 
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_finite_displacement_gradient(std::ptrdiff_t c) {
-    const LaneTensor<Dim, Real> g = gradient_of(u_, c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
+    const LaneTensor<Dim, Real> g =
+        element_.gradient_of(u_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
     LaneTensor<Dim, Real> change{};
     if (has_change_)
-        change = gradient_of(u_change_, c, [&](std::int32_t f) { return load_packed<Dim>(relative_change_, f); });
+        change =
+            element_.gradient_of(u_change_.data(), c, [&](std::int32_t f) { return load_packed<Dim>(relative_change_, f); });
     store_tensor(g, g_, c);
     store_tensor(change, g_change_, c);
     const FreeCell<Dim>* free = finite_.condensed(c);
-    if (!free) return set_traces(c, g);
+    if (!free) return element_.set_traces(c, g);
     CondensedStep<Dim>& step = condensed_[finite_.free_position(c)];
     const CellGeometry<Dim, Real>& cell = coefficients_.cells[c];
     step = CondensedStep<Dim>(*free, contraction(cell.lambda, cell.mu), unload(g), unload(change));
-    set_traces(c, load_packed<Dim>(step.mean()));
+    element_.set_traces(c, load_packed<Dim>(step.mean()));
 }
 
 /// F S, both means of the ends of the step, and what the jumps add.
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::set_finite_stress(std::ptrdiff_t c) {
-    LaneTensor<Dim, Real> sum = sum_jumps(c);
+    LaneTensor<Dim, Real> sum = element_.sum_jumps(c);
     if (finite_.condensed(c)) sum = load_packed<Dim>(condensed_[finite_.free_position(c)].pull_back(unload(sum)));
     const LaneTensor<Dim, Real> g = load_tensor<Dim>(g_, c);
     const LaneTensor<Dim, Real> stress = finite_stress(c, mean_green_strain(g, load_tensor<Dim>(g_change_, c)));
@@ -76,7 +78,7 @@ void CcgSweeps<Dim, Real>::add_moments(std::int32_t begin, std::int32_t end) {
             const CondensedStep<Dim>& step = condensed_[finite_.free_position(c)];
             added = load_packed<Dim>(Matrix<Dim>(step.pull_back(unload(moment) + normal_push) - normal_push));
         }
-        for (int j = 0; j < Dim; ++j) sum.col[j] += units_.stress(added.col[j]);
+        for (int j = 0; j < Dim; ++j) sum.col[j] += element_.units.stress(added.col[j]);
         store_tensor(sum, s_, c);
     });
 }

@@ -8,6 +8,7 @@
 
 #include "abut/base/large_array.hpp"
 #include "abut/base/vector.hpp"
+#include "abut/solid/ccg/tensor_of.hpp"
 
 // Passing 32-byte vectors by value has no fixed ABI without AVX; everything here is inlined within one source file.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -19,9 +20,17 @@ using Register4 = double __attribute__((vector_size(32)));
 using SingleRegister2 = float __attribute__((vector_size(8)));
 using SingleRegister4 = float __attribute__((vector_size(16)));
 
+/// Numbers that an element of an array of registers takes.
+template <int Dim>
+inline constexpr std::ptrdiff_t lane_width = Dim == 2 ? 2 : 4;
+
 /// A vector of Dim components in one SIMD register; in 3D the fourth lane is kept at zero.
 template <int Dim, class Real = double>
 struct Lanes {
+    static constexpr int dim = Dim;
+    static constexpr std::ptrdiff_t width = lane_width<Dim>;
+    using Scalar = Real;
+    using Double = Lanes<Dim>;
     using Register = std::conditional_t<std::is_same_v<Real, double>, std::conditional_t<Dim == 2, Register2, Register4>,
                                         std::conditional_t<Dim == 2, SingleRegister2, SingleRegister4>>;
     Register r{};
@@ -39,6 +48,13 @@ struct Lanes {
         r -= a.r;
         return *this;
     }
+
+    [[nodiscard]] static Lanes load(const Real* packed) {
+        Lanes a;
+        std::memcpy(&a.r, packed, sizeof a.r);
+        return a;
+    }
+    void store(Real* packed) const { std::memcpy(packed, &r, sizeof r); }
 };
 
 template <int Dim>
@@ -57,20 +73,19 @@ template <class To, int Dim, class From>
         return {__builtin_convertvector(a.r, typename Lanes<Dim, To>::Register)};
 }
 
-/// Numbers that an element of an array of registers takes.
-template <int Dim>
-inline constexpr std::size_t lane_width = Dim == 2 ? 2 : 4;
+template <int Dim, class Real>
+[[nodiscard]] inline Lanes<Dim> in_double(Lanes<Dim, Real> a) {
+    return converted<double>(a);
+}
 
 template <int Dim, class Real>
 [[nodiscard]] inline Lanes<Dim, Real> load_packed(const LargeArray<Real>& packed, std::ptrdiff_t i) {
-    Lanes<Dim, Real> a;
-    std::memcpy(&a.r, packed.data() + lane_width<Dim> * i, sizeof a.r);
-    return a;
+    return load<Lanes<Dim, Real>>(packed.data(), i);
 }
 
 template <int Dim, class Real>
 inline void store(Lanes<Dim, Real> a, LargeArray<Real>& packed, std::ptrdiff_t i) {
-    std::memcpy(packed.data() + lane_width<Dim> * i, &a.r, sizeof a.r);
+    store(a, packed.data(), i);
 }
 
 template <int Dim, class Real>
@@ -89,52 +104,33 @@ template <int Dim, class Real>
         return p[0] + p[1] + p[2];
 }
 
-/// A tensor by columns: T v = sum_j col[j] v_j.
 template <int Dim, class Real = double>
-struct LaneTensor {
+using LaneTensor = TensorOf<Lanes<Dim, Real>>;
+
+template <int Dim, class Real>
+[[nodiscard]] inline LaneTensor<Dim, Real> transpose(const LaneTensor<Dim, Real>& t) {
     using Column = Lanes<Dim, Real>;
-    Column col[Dim];
+    if constexpr (Dim == 2) {
+        return {Column{__builtin_shufflevector(t.col[0].r, t.col[1].r, 0, 2)},
+                Column{__builtin_shufflevector(t.col[0].r, t.col[1].r, 1, 3)}};
+    } else {
+        const auto low = __builtin_shufflevector(t.col[0].r, t.col[1].r, 0, 4, 2, 6);
+        const auto high = __builtin_shufflevector(t.col[0].r, t.col[1].r, 1, 5, 3, 7);
+        const auto third = t.col[2].r;  // (x, y, z, 0)
+        return {Column{__builtin_shufflevector(low, third, 0, 1, 4, 7)},
+                Column{__builtin_shufflevector(high, third, 0, 1, 5, 7)},
+                Column{__builtin_shufflevector(low, third, 2, 3, 6, 7)}};
+    }
+}
 
-    [[nodiscard]] Column operator*(Column v) const {
-        Column product = v[0] * col[0];
-        for (int j = 1; j < Dim; ++j) product += v[j] * col[j];
-        return product;
-    }
-    [[nodiscard]] Column times(const std::array<Real, Dim>& v) const {
-        Column product = v[0] * col[0];
-        for (int j = 1; j < Dim; ++j) product += v[j] * col[j];
-        return product;
-    }
-    /// T += a (x) b
-    void add_outer(Column a, const std::array<Real, Dim>& b) {
-        for (int j = 0; j < Dim; ++j) col[j] += b[j] * a;
-    }
-    [[nodiscard]] LaneTensor transposed() const {
-        if constexpr (Dim == 2) {
-            return {Column{__builtin_shufflevector(col[0].r, col[1].r, 0, 2)},
-                    Column{__builtin_shufflevector(col[0].r, col[1].r, 1, 3)}};
-        } else {
-            const auto low = __builtin_shufflevector(col[0].r, col[1].r, 0, 4, 2, 6);
-            const auto high = __builtin_shufflevector(col[0].r, col[1].r, 1, 5, 3, 7);
-            const auto third = col[2].r;  // (x, y, z, 0)
-            return {Column{__builtin_shufflevector(low, third, 0, 1, 4, 7)},
-                    Column{__builtin_shufflevector(high, third, 0, 1, 5, 7)},
-                    Column{__builtin_shufflevector(low, third, 2, 3, 6, 7)}};
-        }
-    }
-};
-
-/// Element i of a packed array of tensors, by columns: shape (n, Dim, Dim).
 template <int Dim, class Real>
 [[nodiscard]] inline LaneTensor<Dim, Real> load_tensor(const LargeArray<Real>& packed, std::ptrdiff_t i) {
-    LaneTensor<Dim, Real> t;
-    for (int j = 0; j < Dim; ++j) t.col[j] = load_packed<Dim>(packed, Dim * i + j);
-    return t;
+    return load_tensor<Lanes<Dim, Real>>(packed.data(), i);
 }
 
 template <int Dim, class Real>
 inline void store_tensor(const LaneTensor<Dim, Real>& t, LargeArray<Real>& packed, std::ptrdiff_t i) {
-    for (int j = 0; j < Dim; ++j) store(t.col[j], packed, Dim * i + j);
+    store_tensor(t, packed.data(), i);
 }
 
 template <int Dim>

@@ -45,6 +45,9 @@ public:
     [[nodiscard]] const SimplexCell<Dim>& operator[](std::ptrdiff_t cell) const {
         return cells_[static_cast<std::size_t>(cell)];
     }
+    /// By cell, as the function above; empty: no body is of simplices.
+    [[nodiscard]] const LargeArray<SimplexCell<Dim>>& cells() const { return cells_; }
+    [[nodiscard]] const std::vector<BoundaryFace>& condensed_faces() const { return condensed_face_; }
     /// By cell.
     [[nodiscard]] std::span<const CondensedCell> condensed() const { return condensed_; }
     /// The boundary face of a condensed cell; `no_face` for others.

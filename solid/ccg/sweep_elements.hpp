@@ -1,26 +1,94 @@
 #pragma once
 // Private to the sources of this layer.
-#include "abut/solid/ccg/sweeps.hpp"
+#include <algorithm>
 
-// What the sweeps do with one element, for the sources that need it inlined.
+#include "abut/solid/ccg/sweep_tables.hpp"
+#include "abut/solid/ccg/tensor_of.hpp"
+
+// What the sweeps do with one element, for the sources that need it inlined: with registers (Lanes) on the host, by components
+// on devices (Components). Sums are the same, so that the bits are.
 
 namespace abut::solid {
 
 /// sigma of linear elasticity for the displacement gradient g.
-template <int Dim, class Real>
-[[nodiscard]] inline LaneTensor<Dim, Real> elastic_stress(const CellGeometry<Dim, Real>& cell,
-                                                          const LaneTensor<Dim, Real>& g) {
-    const LaneTensor<Dim, Real> transposed = g.transposed();
-    Real trace = 0;
-    for (int j = 0; j < Dim; ++j) trace += g.col[j][j];
-    LaneTensor<Dim, Real> sigma;
-    for (int j = 0; j < Dim; ++j) {
-        Lanes<Dim, Real> unit;
+template <class V>
+[[nodiscard]] ABUT_HOST_DEVICE inline TensorOf<V> elastic_stress(const CellGeometry<V::dim, typename V::Scalar>& cell,
+                                                                 const TensorOf<V>& g) {
+    const TensorOf<V> transposed = g.transposed();
+    typename V::Scalar trace = 0;
+    for (int j = 0; j < V::dim; ++j) trace += g.col[j][j];
+    TensorOf<V> sigma;
+    for (int j = 0; j < V::dim; ++j) {
+        V unit;
         unit.r[j] = 1;
         sigma.col[j] = cell.mu * (g.col[j] + transposed.col[j]) + (cell.lambda * trace) * unit;
     }
     return sigma;
 }
+
+/// sigma of a simplex, and the sum of u_f - u_c over its faces.
+template <class V>
+struct SimplexState {
+    TensorOf<V> stress;
+    V sum;
+};
+
+/// V: the vectors that are computed with.
+template <class V>
+class SweepElements {
+public:
+    static constexpr int Dim = V::dim;
+    using Real = typename V::Scalar;
+    using Double = typename V::Double;
+    using Tensor = TensorOf<V>;
+
+    SweepElements() = default;
+    SweepElements(const SweepTables<Dim, Real>& of, const SweepUnits<Dim, Real>& in) : tables(of), units(in) {}
+
+    // Of the first sweep
+    [[nodiscard]] ABUT_HOST_DEVICE V reconstructed(const double* u, std::ptrdiff_t f) const;
+    [[nodiscard]] ABUT_HOST_DEVICE V reconstructed_row(const double* u, BoundaryFace b) const;
+
+    // Of cells of any shape
+    template <class Relative>
+    [[nodiscard]] ABUT_HOST_DEVICE Tensor gradient_of(const double* u, std::ptrdiff_t c, const Relative& relative) const;
+    ABUT_HOST_DEVICE void set_traces(std::ptrdiff_t c, const Tensor& g) const;
+    ABUT_HOST_DEVICE void set_displacement_gradient(std::ptrdiff_t c) const;
+    [[nodiscard]] ABUT_HOST_DEVICE Tensor sum_jumps(std::ptrdiff_t c) const;
+    ABUT_HOST_DEVICE void set_stress(std::ptrdiff_t c) const;
+    [[nodiscard]] ABUT_HOST_DEVICE V interior_gradient(std::ptrdiff_t f) const;
+    [[nodiscard]] ABUT_HOST_DEVICE V boundary_gradient(BoundaryFace b) const;
+    [[nodiscard]] ABUT_HOST_DEVICE Double cell_gradient(std::ptrdiff_t c) const;
+    [[nodiscard]] ABUT_HOST_DEVICE Double boundary_cell_gradient(std::ptrdiff_t position) const;
+
+    // Of simplices: simplex_elements.hpp
+    template <class Relative>
+    [[nodiscard]] ABUT_HOST_DEVICE SimplexState<V> simplex_state(const double* u, std::int32_t c,
+                                                                 const Relative& relative) const;
+    [[nodiscard]] ABUT_HOST_DEVICE V condensed_face(const CondensedCell& condensed, const Tensor& stress) const;
+    ABUT_HOST_DEVICE void add_condensed_face(const CondensedCell& condensed) const;
+    ABUT_HOST_DEVICE void set_simplex_stress(std::int32_t c) const;
+    ABUT_HOST_DEVICE void set_simplex_jumps(std::int32_t c) const;
+    [[nodiscard]] ABUT_HOST_DEVICE V interior_gradient_of_simplices(std::ptrdiff_t f) const;
+    ABUT_HOST_DEVICE void condense(const CondensedCell& condensed) const;
+
+    // Whatever the cell is, except of a finite body: simplex_elements.hpp
+    ABUT_HOST_DEVICE void set_any_displacement_gradient(std::int32_t c) const;
+    ABUT_HOST_DEVICE void set_any_stress(std::int32_t c) const;
+    ABUT_HOST_DEVICE void set_any_face_gradient(std::int32_t f) const;
+    [[nodiscard]] Tensor present_gradient(std::ptrdiff_t c) const;
+
+    SweepTables<Dim, Real> tables;
+    SweepUnits<Dim, Real> units;  // of a size of its own even if empty: compilers of devices do not agree otherwise
+
+private:
+    /// Of a table that is not packed.
+    [[nodiscard]] static ABUT_HOST_DEVICE Double gathered(const Table<const double>& table, std::ptrdiff_t i) {
+        Double a;
+        for (int j = 0; j < Dim; ++j) a.r[j] = table[Dim * i + j];
+        return a;
+    }
+};
 
 // Displacements enter by their differences to that of a cell nearby, which are taken in double whatever Real is: a translation
 // of the body costs no accuracy.
@@ -29,129 +97,123 @@ template <int Dim, class Real>
 template <int Dim, class Real>
 inline constexpr Real simplex_share = Real{1} / (Dim + 1);
 
-template <int Dim, class Real>
-[[gnu::always_inline]] inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::reconstructed(const LargeArray<double>& u,
-                                                                                   std::ptrdiff_t f) const {
-    const FaceStencil<Dim, Real>& stencil = coefficients_.stencils[f];
-    const Lanes<Dim> u_0 = load_packed<Dim>(u, stencil.cells[0]);
-    Lanes<Dim, Real> sum = units_.displacement(u_0 - load_packed<Dim>(u, arrays_.face_cells[f][0]));
-    for (int j = 1; j <= Dim; ++j)
-        sum += stencil.weights[j] * units_.displacement(load_packed<Dim>(u, stencil.cells[j]) - u_0);
+template <class V>
+[[gnu::always_inline]] inline V SweepElements<V>::reconstructed(const double* u, std::ptrdiff_t f) const {
+    const FaceStencil<Dim, Real>& stencil = tables.stencils[f];
+    const Double u_0 = load<Double>(u, stencil.cells[0]);
+    V sum = units.displacement(u_0 - load<Double>(u, tables.face_cells[f][0]));
+    for (int j = 1; j <= Dim; ++j) sum += stencil.weights[j] * units.displacement(load<Double>(u, stencil.cells[j]) - u_0);
     return sum;
 }
 
 /// relative(f): u_f less that of its first side.
-template <int Dim, class Real>
+template <class V>
 template <class Relative>
-[[gnu::always_inline]] inline LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::gradient_of(const LargeArray<double>& u,
-                                                                                      std::ptrdiff_t c,
-                                                                                      const Relative& relative) const {
-    const Lanes<Dim> u_c = load_packed<Dim>(u, c);
-    LaneTensor<Dim, Real> g{};
-    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
-        const HalfFace& half_face = arrays_.half_faces[i];
+[[gnu::always_inline]] inline TensorOf<V> SweepElements<V>::gradient_of(const double* u, std::ptrdiff_t c,
+                                                                        const Relative& relative) const {
+    const Double u_c = load<Double>(u, c);
+    Tensor g{};
+    for (std::int32_t i = tables.half_face_offsets[c]; i < tables.half_face_offsets[c + 1]; ++i) {
+        const HalfFace& half_face = tables.half_faces[i];
         const Real sign = half_face.first == c ? 1 : -1;
-        g.add_outer(sign * (relative(half_face.face) + units_.displacement(load_packed<Dim>(u, half_face.first) - u_c)),
-                    coefficients_.faces[half_face.face].area_vector);
+        g.add_outer(sign * (relative(half_face.face) + units.displacement(load<Double>(u, half_face.first) - u_c)),
+                    tables.faces[half_face.face].area_vector);
     }
-    for (Lanes<Dim, Real>& column : g.col) column = coefficients_.cells[c].inverse_measure * column;
+    for (V& column : g.col) column = tables.cells[c].inverse_measure * column;
     return g;
 }
 
-template <int Dim, class Real>
-[[gnu::always_inline]] inline void CcgSweeps<Dim, Real>::set_traces(std::ptrdiff_t c, const LaneTensor<Dim, Real>& g) {
-    const Lanes<Dim> u_c = displacement(c);
-    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i)
-        store(g.times(coefficients_.lever_arms[i]) + units_.displacement(u_c - displacement(arrays_.half_faces[i].first)),
-              trace_, i);
+template <class V>
+[[gnu::always_inline]] inline void SweepElements<V>::set_traces(std::ptrdiff_t c, const Tensor& g) const {
+    const Double u_c = load<Double>(tables.u.data, c);
+    for (std::int32_t i = tables.half_face_offsets[c]; i < tables.half_face_offsets[c + 1]; ++i)
+        store(g.times(tables.lever_arms[i]) +
+                  units.displacement(u_c - load<Double>(tables.u.data, tables.half_faces[i].first)),
+              tables.trace.data, i);
 }
 
-template <int Dim, class Real>
-[[gnu::always_inline]] inline void CcgSweeps<Dim, Real>::set_displacement_gradient(std::ptrdiff_t c) {
-    const LaneTensor<Dim, Real> g = gradient_of(u_, c, [&](std::int32_t f) { return load_packed<Dim>(of_face_, f); });
-    store_tensor(g, g_, c);
+template <class V>
+[[gnu::always_inline]] inline void SweepElements<V>::set_displacement_gradient(std::ptrdiff_t c) const {
+    const Tensor g = gradient_of(tables.u.data, c, [&](std::int32_t f) { return load<V>(tables.of_face.data, f); });
+    store_tensor(g, tables.g.data, c);
     set_traces(c, g);
 }
 
 /// Sets the sum of k [u], and returns that of k [u] (x) (x_f - x_c) over |c|.
-template <int Dim, class Real>
-[[gnu::always_inline]] inline LaneTensor<Dim, Real> CcgSweeps<Dim, Real>::sum_jumps(std::ptrdiff_t c) {
-    LaneTensor<Dim, Real> sum{};
-    Lanes<Dim, Real> direct;
-    for (std::int32_t i = arrays_.half_face_offsets[c]; i < arrays_.half_face_offsets[c + 1]; ++i) {
-        const HalfFace& half_face = arrays_.half_faces[i];
-        const Lanes<Dim, Real> jump_gradient = coefficients_.faces[half_face.face].jump_stiffness *
-                                               (load_packed<Dim>(trace_, i) - load_packed<Dim>(trace_, half_face.twin));
-        sum.add_outer(jump_gradient, coefficients_.lever_arms[i]);
+template <class V>
+[[gnu::always_inline]] inline TensorOf<V> SweepElements<V>::sum_jumps(std::ptrdiff_t c) const {
+    Tensor sum{};
+    V direct;
+    for (std::int32_t i = tables.half_face_offsets[c]; i < tables.half_face_offsets[c + 1]; ++i) {
+        const HalfFace& half_face = tables.half_faces[i];
+        const V jump_gradient = tables.faces[half_face.face].jump_stiffness *
+                                (load<V>(tables.trace.data, i) - load<V>(tables.trace.data, half_face.twin));
+        sum.add_outer(jump_gradient, tables.lever_arms[i]);
         direct += jump_gradient;
     }
-    store(direct, direct_, c);
-    for (Lanes<Dim, Real>& column : sum.col) column = coefficients_.cells[c].inverse_measure * column;
+    store(direct, tables.direct.data, c);
+    for (V& column : sum.col) column = tables.cells[c].inverse_measure * column;
     return sum;
 }
 
-template <int Dim, class Real>
-[[gnu::always_inline]] inline void CcgSweeps<Dim, Real>::set_stress(std::ptrdiff_t c) {
-    LaneTensor<Dim, Real> sum = sum_jumps(c);
-    const LaneTensor<Dim, Real> sigma = elastic_stress(coefficients_.cells[c], load_tensor<Dim>(g_, c));
+template <class V>
+[[gnu::always_inline]] inline void SweepElements<V>::set_stress(std::ptrdiff_t c) const {
+    Tensor sum = sum_jumps(c);
+    const Tensor sigma = elastic_stress(tables.cells[c], load_tensor<V>(tables.g.data, c));
     for (int j = 0; j < Dim; ++j) sum.col[j] = sigma.col[j] + sum.col[j];
-    store_tensor(sum, s_, c);
+    store_tensor(sum, tables.s.data, c);
 }
 
-template <int Dim, class Real>
-inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::reconstructed_boundary(const LargeArray<double>& u, BoundaryFace face,
-                                                                     const BoundaryLoad<Dim>& boundary_load) const {
-    const BoundaryReconstruction<Dim>& boundary = arrays_.boundary;
-    const Lanes<Dim> origin = load_packed<Dim>(u, arrays_.cell_of(face));
+/// û_b - u_c by the row of R.
+template <class V>
+inline V SweepElements<V>::reconstructed_row(const double* u, BoundaryFace face) const {
+    const Double origin = load<Double>(u, tables.cell_of(face));
     const std::int32_t b = number_of(face);
-    Lanes<Dim, Real> sum;
-    for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i)
-        sum += coefficients_.boundary_weights[i] * units_.displacement(load_packed<Dim>(u, boundary.cells[i]) - origin);
-    sum += load_packed<Dim>(correction_, b);
-    if (boundary_load.displacement.empty()) return sum;
-    return sum + units_.displacement(load_packed<Dim>(
-                     Vector<Dim>(boundary_load.displacement[b] - boundary.deficit[b] * unload<Dim>(origin))));
+    V sum;
+    for (std::int32_t i = tables.row_offsets[b]; i < tables.row_offsets[b + 1]; ++i)
+        sum +=
+            load_tensor<V>(tables.row_weights.data, i) * units.displacement(load<Double>(u, tables.row_cells[i]) - origin);
+    sum += load<V>(tables.correction.data, b);
+    if (tables.load_displacement.size == 0) return sum;
+    Double missing;
+    for (int j = 0; j < Dim; ++j) missing += origin[j] * gathered(tables.deficit, std::ptrdiff_t{Dim} * b + j);
+    return sum + units.displacement(gathered(tables.load_displacement, b) - missing);
 }
 
-template <int Dim, class Real>
-[[gnu::always_inline]] inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::interior_gradient(std::ptrdiff_t f) const {
-    const auto [a, b] = arrays_.face_cells[f];
-    LaneTensor<Dim, Real> difference = load_tensor<Dim>(s_, a);
-    const LaneTensor<Dim, Real> other = load_tensor<Dim>(s_, b);
+template <class V>
+[[gnu::always_inline]] inline V SweepElements<V>::interior_gradient(std::ptrdiff_t f) const {
+    const auto [a, b] = tables.face_cells[f];
+    Tensor difference = load_tensor<V>(tables.s.data, a);
+    const Tensor other = load_tensor<V>(tables.s.data, b);
     for (int j = 0; j < Dim; ++j) difference.col[j] -= other.col[j];
-    return difference.times(coefficients_.faces[f].area_vector);
+    return difference.times(tables.faces[f].area_vector);
 }
 
-template <int Dim, class Real>
-inline Lanes<Dim, Real> CcgSweeps<Dim, Real>::boundary_gradient(BoundaryFace face,
-                                                                const BoundaryLoad<Dim>& boundary_load) const {
-    const std::int32_t f = arrays_.face_of(face), b = number_of(face), c = arrays_.face_cells[f][0];
-    Lanes<Dim, Real> gradient =
-        load_tensor<Dim>(s_, c).times(coefficients_.faces[f].area_vector) + load_packed<Dim>(pair_gradient_, b);
-    if (arrays_.simplices.contains(c)) gradient -= simplex_share<Dim, Real> * load_packed<Dim>(direct_, c);
-    return boundary_load.traction.empty() ? gradient : gradient - units_.force(load_packed<Dim>(boundary_load.traction[b]));
+template <class V>
+inline V SweepElements<V>::boundary_gradient(BoundaryFace face) const {
+    const std::int32_t f = tables.face_of(face), b = number_of(face), c = tables.face_cells[f][0];
+    V gradient = load_tensor<V>(tables.s.data, c).times(tables.faces[f].area_vector) + load<V>(tables.pair_gradient.data, b);
+    if (tables.of_simplices(c)) gradient -= simplex_share<Dim, Real> * load<V>(tables.direct.data, c);
+    return tables.traction.size == 0 ? gradient : gradient - units.force(gathered(tables.traction, b));
 }
 
 // What cells receive is summed in double.
 
-template <int Dim, class Real>
-[[gnu::always_inline]] inline Lanes<Dim> CcgSweeps<Dim, Real>::cell_gradient(std::ptrdiff_t c) const {
-    const auto& [offsets, rows] = arrays_.of_cell;
-    const auto& weights = coefficients_.of_cell_weights;
-    Lanes<Dim> sum = converted<double>(load_packed<Dim>(direct_, c));
-    for (std::int32_t i = offsets[c]; i < offsets[c + 1]; ++i)
-        sum += weights[i] * converted<double>(load_packed<Dim>(of_face_, rows[i]));
-    return units_.in_newtons(sum);
+template <class V>
+[[gnu::always_inline]] inline auto SweepElements<V>::cell_gradient(std::ptrdiff_t c) const -> Double {
+    Double sum = in_double(load<V>(tables.direct.data, c));
+    for (std::int32_t i = tables.of_cell_offsets[c]; i < tables.of_cell_offsets[c + 1]; ++i)
+        sum += tables.of_cell_weights[i] * in_double(load<V>(tables.of_face.data, tables.of_cell_rows[i]));
+    return units.in_newtons(sum);
 }
 
-template <int Dim, class Real>
-inline Lanes<Dim> CcgSweeps<Dim, Real>::boundary_cell_gradient(std::ptrdiff_t position) const {
-    const auto& [offsets, rows] = arrays_.of_boundary_cell;
-    const auto& weights = coefficients_.boundary_cell_weights;
-    Lanes<Dim> sum;
-    for (std::int32_t i = offsets[position]; i < offsets[position + 1]; ++i)
-        sum += converted<double>(weights[i] * load_packed<Dim>(boundary_y_, number_of(rows[i])));
-    return units_.in_newtons(sum);
+template <class V>
+inline auto SweepElements<V>::boundary_cell_gradient(std::ptrdiff_t position) const -> Double {
+    Double sum;
+    for (std::int32_t i = tables.of_boundary_cell_offsets[position]; i < tables.of_boundary_cell_offsets[position + 1]; ++i)
+        sum += in_double(load_tensor<V>(tables.of_boundary_cell_weights.data, i) *
+                         load<V>(tables.boundary_y.data, number_of(tables.of_boundary_cell_rows[i])));
+    return units.in_newtons(sum);
 }
 
 }  // namespace abut::solid

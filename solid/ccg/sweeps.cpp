@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "abut/base/parallel.hpp"
-#include "abut/solid/ccg/sweep_elements.hpp"
+#include "abut/solid/ccg/simplex_elements.hpp"
 
 namespace abut::solid {
 namespace {
@@ -22,52 +22,10 @@ void for_all(const std::vector<Id>& list, const Body& body) {
 
 // Whole meshes -------------------------------------------------------------------------------------------------------
 
-/// The sweeps see the corrections face by face; zero everywhere else.
-template <int Dim, class Real>
-class CcgSweeps<Dim, Real>::PlacedCorrections {
-public:
-    PlacedCorrections(CcgSweeps& sweeps, const FaceCorrections<Dim>& corrections)
-        : sweeps_(sweeps), corrections_(corrections) {
-        sweeps.moments_.assign(sweeps.arrays_, sweeps.finite_, corrections);
-        for (std::size_t i = 0; i < corrections.faces.size(); ++i) {
-            const std::int32_t b = number_of(corrections.faces[i]);
-            if (!corrections.energy_gradient.empty())
-                store(sweeps.units_.force(load_packed<Dim>(corrections.energy_gradient[i])), sweeps.pair_gradient_, b);
-            if (corrections.displacement.empty()) continue;
-            const Vector<Dim>& correction = corrections.displacement[i];
-            add(correction, corrections.faces[i]);
-            sweeps.arrays_.boundary.for_each_answer(
-                corrections.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) { add(answer * correction, face); });
-        }
-    }
-    ~PlacedCorrections() {
-        sweeps_.moments_.clear();
-        for (const BoundaryFace face : corrections_.faces) {
-            store(Lanes<Dim, Real>{}, sweeps_.correction_, number_of(face));
-            store(Lanes<Dim, Real>{}, sweeps_.pair_gradient_, number_of(face));
-            sweeps_.arrays_.boundary.for_each_answer(face, [&](BoundaryFace answering, const Matrix<Dim>&) {
-                store(Lanes<Dim, Real>{}, sweeps_.correction_, number_of(answering));
-            });
-        }
-    }
-    PlacedCorrections(const PlacedCorrections&) = delete;
-    PlacedCorrections& operator=(const PlacedCorrections&) = delete;
-
-private:
-    void add(const Vector<Dim>& correction, BoundaryFace face) {
-        const std::int32_t b = number_of(face);
-        store(load_packed<Dim>(sweeps_.correction_, b) + sweeps_.units_.displacement(load_packed<Dim>(correction)),
-              sweeps_.correction_, b);
-    }
-
-    CcgSweeps& sweeps_;
-    const FaceCorrections<Dim>& corrections_;
-};
-
 template <int Dim, class Real>
 CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficients<Dim, Real>& coefficients,
                                 const FiniteCells<Dim>& finite)
-    : arrays_(arrays), coefficients_(coefficients), finite_(finite), units_(coefficients.units) {
+    : arrays_(arrays), coefficients_(coefficients), finite_(finite) {
     constexpr std::size_t width = lane_width<Dim>;
     u_.resize(width * arrays.cells.size());
     of_face_.resize(width * arrays.faces.size());
@@ -87,7 +45,30 @@ CcgSweeps<Dim, Real>::CcgSweeps(const CcgArrays<Dim>& arrays, const CcgCoefficie
         g_change_.resize(g_.size());
         condensed_.resize(finite.free().size());
     }
+    element_ = {tables_of(arrays, coefficients), coefficients.units};
+    SweepTables<Dim, Real>& tables = element_.tables;
+    tables.u = Table<double>(u_);
+    tables.of_face = Table<Real>(of_face_);
+    tables.g = Table<Real>(g_);
+    tables.trace = Table<Real>(trace_);
+    tables.s = Table<Real>(s_);
+    tables.deviation = Table<Real>(deviation_);
+    tables.direct = Table<Real>(direct_);
+    tables.boundary_y = Table<Real>(boundary_y_);
+    tables.correction = Table<Real>(correction_);
+    tables.pair_gradient = Table<Real>(pair_gradient_);
     set_chunks();
+}
+
+template <int Dim, class Real>
+PlacedCorrections<Dim, Real> CcgSweeps<Dim, Real>::placed(const FaceCorrections<Dim>& corrections) {
+    return {arrays_, finite_, element_.units, element_.tables, moments_, corrections};
+}
+
+template <int Dim, class Real>
+void CcgSweeps<Dim, Real>::set_load(const BoundaryLoad<Dim>& load) {
+    element_.tables.load_displacement = plain<double>(load.displacement);
+    element_.tables.traction = plain<double>(load.traction);
 }
 
 template <int Dim, class Real>
@@ -113,6 +94,7 @@ void CcgSweeps<Dim, Real>::gradient_of_packed(LargeArray<double>& u, const Bound
                                               const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result,
                                               const StepEnds<Dim>& ends) {
     std::swap(u_, u);
+    element_.tables.u = Table<double>(u_);
     if constexpr (takes_finite) load_change(ends);
     run_sweeps([](std::ptrdiff_t) {}, load, corrections, result);
 }
@@ -122,19 +104,20 @@ template <int Dim, class Real>
 template <class LoadCell>
 void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load,
                                       const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
-    const PlacedCorrections placed(*this, corrections);
+    const auto placed_corrections = placed(corrections);
+    set_load(load);
     schedule_.run([&](int stage, std::int32_t chunk) {
         switch (stage) {
             case loading:
                 return for_runs(wanted_.loaded[chunk], load_cell);
             case reconstruction:
-                return reconstruct_chunk(chunk, load);
+                return reconstruct_chunk(chunk);
             case displacement_gradients:
-                return displacement_gradients_of_chunk(chunk, load);
+                return displacement_gradients_of_chunk(chunk);
             case stresses:
-                return stresses_of_chunk(chunk, load);
+                return stresses_of_chunk(chunk);
             case face_gradients:
-                return face_gradients_of_chunk(chunk, load);
+                return face_gradients_of_chunk(chunk);
             default:
                 return cell_gradients_of_chunk(chunk, result);
         }
@@ -145,11 +128,12 @@ void CcgSweeps<Dim, Real>::run_sweeps(const LoadCell& load_cell, const BoundaryL
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::cell_energies(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                          const FaceCorrections<Dim>& corrections, std::span<double> result) {
-    const PlacedCorrections placed(*this, corrections);
+    const auto placed_corrections = placed(corrections);
+    set_load(load);
     load_displacement(u);
     const auto n_chunks = static_cast<std::int32_t>(chunks_.size()) - 1;
-    parallel_tasks(n_chunks, [&](std::int32_t k) { reconstruct_chunk(k, load); });
-    parallel_tasks(n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k, load); });
+    parallel_tasks(n_chunks, [&](std::int32_t k) { reconstruct_chunk(k); });
+    parallel_tasks(n_chunks, [&](std::int32_t k) { displacement_gradients_of_chunk(k); });
     parallel_tasks(n_chunks, [&](std::int32_t k) {
         for_runs(wanted_.cell_gradients[k], [&](std::int32_t c) { result[static_cast<std::size_t>(c)] = energy(c); });
     });
@@ -158,11 +142,12 @@ void CcgSweeps<Dim, Real>::cell_energies(std::span<const Vector<Dim>> u, const B
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::boundary_displacement(std::span<const Vector<Dim>> u, const BoundaryLoad<Dim>& load,
                                                  std::span<Vector<Dim>> displacement) {
+    set_load(load);
     LargeArray<double> packed(u_.size());  // u_ is of the last gradient
     parallel_each(arrays_.n_cells(), [&](std::ptrdiff_t c) { store(load_packed<Dim>(u[c]), packed, c); });
     parallel_each(arrays_.n_boundary(), [&](std::ptrdiff_t b) {
         const auto face = static_cast<BoundaryFace>(b);
-        displacement[b] = u[arrays_.cell_of(face)] + unload<Dim>(any_boundary_displacement(packed, face, load));
+        displacement[b] = u[arrays_.cell_of(face)] + unload<Dim>(any_boundary_displacement(packed.data(), face));
     });
 }
 
@@ -171,11 +156,12 @@ void CcgSweeps<Dim, Real>::boundary_displacement(std::span<const Vector<Dim>> u,
 template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                                               const BoundaryLoad<Dim>& boundary_load) {
+    set_load(boundary_load);
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
-    for_all(region.reconstructed, [&](std::int32_t f) { store(reconstructed(u_, f), of_face_, f); });
+    for_all(region.reconstructed, [&](std::int32_t f) { store(element_.reconstructed(u_.data(), f), of_face_, f); });
     for_all(region.reconstructed_boundary,
-            [&](BoundaryFace b) { store(reconstructed_boundary(u_, b, boundary_load), of_face_, arrays_.face_of(b)); });
-    for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_any_displacement_gradient(c, boundary_load); });
+            [&](BoundaryFace b) { store(element_.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b)); });
+    for_all(region.displacement_gradient_cells, [&](std::int32_t c) { set_any_displacement_gradient(c); });
 }
 
 template <int Dim, class Real>
@@ -195,9 +181,9 @@ void CcgSweeps<Dim, Real>::evaluate_faces(const Region<Dim>& region, std::span<c
     for_all(region.stress_cells, [&](std::int32_t c) { set_any_stress(c); });
     for (std::size_t i = 0; i < region.faces.size(); ++i) {
         displacement[i] = face_displacement(region.faces[i]);
-        gradient[i] = unload<Dim>(boundary_gradient(region.faces[i], boundary_load));
+        gradient[i] = unload<Dim>(element_.boundary_gradient(region.faces[i]));
         arrays_.boundary.for_each_answer(region.faces[i], [&](BoundaryFace face, const Matrix<Dim>& answer) {
-            gradient[i] += answer.transpose() * unload<Dim>(boundary_gradient(face, boundary_load));
+            gradient[i] += answer.transpose() * unload<Dim>(element_.boundary_gradient(face));
         });
     }
 }
@@ -206,16 +192,16 @@ template <int Dim, class Real>
 void CcgSweeps<Dim, Real>::evaluate_cells(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                           const BoundaryLoad<Dim>& boundary_load, const FaceCorrections<Dim>& corrections,
                                           std::span<Vector<Dim>> result) {
-    const PlacedCorrections placed(*this, corrections);
+    const auto placed_corrections = placed(corrections);
+    set_load(boundary_load);
     for_all(region.input_cells, [&](std::int32_t c) { store(load_packed<Dim>(u[c]), u_, c); });
-    const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, boundary_load, result); };
+    const auto task = [&](int stage, std::int32_t k) { run_task(region, stage, k, result); };
     if (region.chunks.size() == chunks_.size()) return schedule_.run(task);
     for (int stage = 0; stage < n_stages; ++stage) task(stage, 0);
 }
 
 template <int Dim, class Real>
-void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::int32_t k,
-                                    const BoundaryLoad<Dim>& boundary_load, std::span<Vector<Dim>> result) {
+void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::int32_t k, std::span<Vector<Dim>> result) {
     using Offsets = typename Region<Dim>::Offsets;
     const auto each = [&](const auto& list, std::int32_t Offsets::*of, const auto& body) {
         for (std::int32_t i = region.chunks[k].*of; i < region.chunks[k + 1].*of; ++i) body(list[i]);
@@ -225,29 +211,29 @@ void CcgSweeps<Dim, Real>::run_task(const Region<Dim>& region, int stage, std::i
             return;
         case reconstruction:
             each(region.reconstructed, &Offsets::reconstructed,
-                 [&](std::int32_t f) { store(reconstructed(u_, f), of_face_, f); });
+                 [&](std::int32_t f) { store(element_.reconstructed(u_.data(), f), of_face_, f); });
             return each(region.reconstructed_boundary, &Offsets::reconstructed_boundary, [&](BoundaryFace b) {
-                store(reconstructed_boundary(u_, b, boundary_load), of_face_, arrays_.face_of(b));
+                store(element_.reconstructed_row(u_.data(), b), of_face_, arrays_.face_of(b));
             });
         case displacement_gradients:
             return each(region.displacement_gradient_cells, &Offsets::displacement_gradient_cell,
-                        [&](std::int32_t c) { set_any_displacement_gradient(c, boundary_load); });
+                        [&](std::int32_t c) { set_any_displacement_gradient(c); });
         case stresses:
             return each(region.stress_cells, &Offsets::stress_cell, [&](std::int32_t c) {
                 set_any_stress(c);
-                answer_to_corrections(c, boundary_load);
+                answer_to_corrections(c);
             });
         case face_gradients:
             each(region.energy_gradient_faces, &Offsets::energy_gradient_face,
-                 [&](std::int32_t f) { set_any_face_gradient(f); });
+                 [&](std::int32_t f) { element_.set_any_face_gradient(f); });
             return each(region.faces, &Offsets::face,
-                        [&](BoundaryFace b) { store(boundary_gradient(b, boundary_load), boundary_y_, number_of(b)); });
+                        [&](BoundaryFace b) { store(element_.boundary_gradient(b), boundary_y_, number_of(b)); });
         default:
             for (std::int32_t i = region.chunks[k].cell; i < region.chunks[k + 1].cell; ++i) {
                 const std::int32_t c = region.cells[i];
-                Lanes<Dim> sum = cell_gradient(c);
+                Lanes<Dim> sum = element_.cell_gradient(c);
                 if (const std::int32_t position = arrays_.boundary_cell_position[c]; position >= 0)
-                    sum += boundary_cell_gradient(position);
+                    sum += element_.boundary_cell_gradient(position);
                 result[i] = unload<Dim>(sum);
             }
     }

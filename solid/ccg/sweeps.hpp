@@ -12,17 +12,12 @@
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/ccg/cell_moments.hpp"
 #include "abut/solid/ccg/finite_cells.hpp"
+#include "abut/solid/ccg/placed_corrections.hpp"
+#include "abut/solid/ccg/sweep_elements.hpp"
 #include "abut/solid/ccg/sweep_lists.hpp"
 #include "abut/solid/ccg/sweep_schedule.hpp"
 
 namespace abut::solid {
-
-/// sigma of a simplex, and the sum of u_f - u_c over its faces.
-template <int Dim, class Real>
-struct SimplexState {
-    LaneTensor<Dim, Real> stress;
-    Lanes<Dim, Real> sum;
-};
 
 /// The operators of CcgArrays applied to a displacement, element by element, in five sweeps:
 ///
@@ -85,15 +80,19 @@ public:
         return unload<Dim>(load_packed<Dim>(of_face_, arrays_.face_of(b)) + load_packed<Dim>(u_, arrays_.cell_of(b)));
     }
     [[nodiscard]] Vector<Dim> face_gradient(BoundaryFace b) const {
-        return unload<Dim>(units_.in_newtons(converted<double>(load_packed<Dim>(boundary_y_, number_of(b)))));
+        return unload<Dim>(element_.units.in_newtons(in_double(load_packed<Dim>(boundary_y_, number_of(b)))));
     }
     [[nodiscard]] Matrix<Dim> displacement_gradient(std::int32_t c) const { return unload(present_gradient(c)); }
     [[nodiscard]] Matrix<Dim> stress(std::int32_t c) const;
 
+    /// What they work on.
+    [[nodiscard]] const SweepTables<Dim, Real>& tables() const { return element_.tables; }
+
 private:
     static constexpr bool takes_finite = std::is_same_v<Real, double>;
+    using Vectors = Lanes<Dim, Real>;
+    using Tensor = LaneTensor<Dim, Real>;
 
-    class PlacedCorrections;
     enum Stage { loading, reconstruction, displacement_gradients, stresses, face_gradients, cell_gradients, n_stages };
     /// Of one body. Where it begins among the cells, faces and boundary faces.
     struct Chunk {
@@ -103,48 +102,17 @@ private:
     };
 
     // One element
-    [[nodiscard]] Lanes<Dim> displacement(std::ptrdiff_t c) const { return load_packed<Dim>(u_, c); }
-    [[nodiscard]] Lanes<Dim, Real> reconstructed(const LargeArray<double>& u, std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim, Real> reconstructed_boundary(const LargeArray<double>& u, BoundaryFace b,
-                                                          const BoundaryLoad<Dim>& boundary_load) const;
-    template <class Relative>
-    [[nodiscard]] LaneTensor<Dim, Real> gradient_of(const LargeArray<double>& u, std::ptrdiff_t c,
-                                                    const Relative& relative) const;
-    void set_traces(std::ptrdiff_t c, const LaneTensor<Dim, Real>& g);
-    void set_displacement_gradient(std::ptrdiff_t c);
-    [[nodiscard]] LaneTensor<Dim, Real> sum_jumps(std::ptrdiff_t c);
-    void set_stress(std::ptrdiff_t c);
-    [[nodiscard]] Lanes<Dim, Real> interior_gradient(std::ptrdiff_t f) const;
-    [[nodiscard]] Lanes<Dim, Real> boundary_gradient(BoundaryFace b, const BoundaryLoad<Dim>& boundary_load) const;
-    [[nodiscard]] Lanes<Dim> cell_gradient(std::ptrdiff_t c) const;
-    [[nodiscard]] Lanes<Dim> boundary_cell_gradient(std::ptrdiff_t position) const;
-    [[nodiscard]] LaneTensor<Dim, Real> present_gradient(std::ptrdiff_t c) const;
+    [[nodiscard]] Tensor present_gradient(std::ptrdiff_t c) const;
     [[nodiscard]] double energy(std::ptrdiff_t c) const;
-
-    // One element of a body of simplices
-    template <class Relative>
-    [[nodiscard]] SimplexState<Dim, Real> simplex_state(const LargeArray<double>& u, std::int32_t c,
-                                                        const Relative& relative) const;
-    [[nodiscard]] Lanes<Dim, Real> condensed_face(const CondensedCell& condensed, const LaneTensor<Dim, Real>& stress,
-                                                  const BoundaryLoad<Dim>& boundary_load) const;
-    void add_condensed_face(const CondensedCell& condensed, const BoundaryLoad<Dim>& boundary_load);
-    void set_simplex_stress(std::int32_t c);
-    void set_simplex_jumps(std::int32_t c);
-    [[nodiscard]] Lanes<Dim, Real> interior_gradient_of_simplices(std::ptrdiff_t f) const;
-    void condense(const CondensedCell& condensed, const BoundaryLoad<Dim>& boundary_load);
-
-    // One element of any body
-    [[nodiscard]] Lanes<Dim, Real> any_boundary_displacement(const LargeArray<double>& u, BoundaryFace b,
-                                                             const BoundaryLoad<Dim>& boundary_load) const;
-    void set_any_displacement_gradient(std::int32_t c, const BoundaryLoad<Dim>& boundary_load);
+    [[nodiscard]] Vectors any_boundary_displacement(const double* u, BoundaryFace b) const;
+    void set_any_displacement_gradient(std::int32_t c);
     void set_any_stress(std::int32_t c);
-    void answer_to_corrections(std::int32_t c, const BoundaryLoad<Dim>& boundary_load);
-    void set_any_face_gradient(std::int32_t f);
+    void answer_to_corrections(std::int32_t c);
 
     // One element of a finite body
-    [[nodiscard]] LaneTensor<Dim, Real> finite_stress(std::ptrdiff_t c, const LaneTensor<Dim, Real>& strain) const;
+    [[nodiscard]] Tensor finite_stress(std::ptrdiff_t c, const Tensor& strain) const;
     [[nodiscard]] CellStretch end_stretch(std::ptrdiff_t c) const;
-    [[nodiscard]] Lanes<Dim, Real> boundary_change(BoundaryFace b) const;
+    [[nodiscard]] Vectors boundary_change(BoundaryFace b) const;
     void set_finite_displacement_gradient(std::ptrdiff_t c);
     void set_finite_stress(std::ptrdiff_t c);
     void load_change(const StepEnds<Dim>& ends);
@@ -152,6 +120,9 @@ private:
     [[nodiscard]] std::pair<Vector<Dim>, Matrix<Dim>> tilted_face(BoundaryFace b) const;
     [[nodiscard]] Matrix<Dim> cauchy_stress(std::int32_t c) const;
 
+    // All
+    [[nodiscard]] PlacedCorrections<Dim, Real> placed(const FaceCorrections<Dim>& corrections);
+    void set_load(const BoundaryLoad<Dim>& load);
     template <class LoadCell>
     void run_sweeps(const LoadCell& load_cell, const BoundaryLoad<Dim>& load, const FaceCorrections<Dim>& corrections,
                     std::span<Vector<Dim>> result);
@@ -160,33 +131,24 @@ private:
     void set_chunks();
     [[nodiscard]] SweepLists lists_of(const WantedElements& wanted) const;
     void load_displacement(std::span<const Vector<Dim>> u);
-    void reconstruct_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
-    void displacement_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
-    void stresses_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
-    void face_gradients_of_chunk(std::int32_t k, const BoundaryLoad<Dim>& boundary_load);
+    void reconstruct_chunk(std::int32_t k);
+    void displacement_gradients_of_chunk(std::int32_t k);
+    void stresses_of_chunk(std::int32_t k);
+    void face_gradients_of_chunk(std::int32_t k);
     void cell_gradients_of_chunk(std::int32_t k, std::span<Vector<Dim>> result) const;
 
     // A part of the mesh
-    void run_task(const Region<Dim>& region, int stage, std::int32_t k, const BoundaryLoad<Dim>& boundary_load,
-                  std::span<Vector<Dim>> result);
+    void run_task(const Region<Dim>& region, int stage, std::int32_t k, std::span<Vector<Dim>> result);
     void evaluate_to_displacement_gradients(const Region<Dim>& region, std::span<const Vector<Dim>> u,
                                             const BoundaryLoad<Dim>& boundary_load);
 
     const CcgArrays<Dim>& arrays_;
     const CcgCoefficients<Dim, Real>& coefficients_;
     const FiniteCells<Dim>& finite_;
-    [[no_unique_address]] SweepUnits<Dim, Real> units_;
-    // Work arrays of registers.
-    LargeArray<double> u_;            // displacement, by cell
-    LargeArray<Real> of_face_;        // u_f - u_c of the first side, later y of interior faces, by face
-    LargeArray<Real> g_;              // displacement gradient, by cell
-    LargeArray<Real> trace_;          // I_c(x_f) - u_c of the first side, by half-face
-    LargeArray<Real> s_;              // S_c, by cell
-    LargeArray<Real> deviation_;      // d_c, by cell of simplices
-    LargeArray<Real> direct_;         // sum of k [u], by cell
-    LargeArray<Real> boundary_y_;     // dV/dũ_f, by boundary face
-    LargeArray<Real> correction_;     // delta_f and answers, by boundary face; zero except during a call
-    LargeArray<Real> pair_gradient_;  // by boundary face; zero but during a call
+    // Work arrays: SweepTables.
+    LargeArray<double> u_;
+    LargeArray<Real> of_face_, g_, trace_, s_, deviation_, direct_, boundary_y_, correction_, pair_gradient_;
+    SweepElements<Vectors> element_;  // of these arrays
     CellMoments<Dim> moments_;        // empty except during a call
     // Of finite bodies, changes from the start of a step to its end; empty without any.
     LargeArray<double> u_change_;

@@ -1,0 +1,58 @@
+#include "abut/base/error.hpp"
+#include "abut/solid/ccg/device_kernels.hpp"
+
+// Where Abut is built without Kokkos.
+
+namespace abut::solid {
+namespace {
+
+[[noreturn]] void refuse() {
+    throw BadInput(
+        "Abut was built without Kokkos, which steps on a device need. Take StepDevice::host (--device host), or "
+        "build Abut where CMake finds Kokkos.");
+}
+
+}  // namespace
+
+std::string kokkos_device() { refuse(); }
+
+template <int Dim>
+struct DeviceKernels<Dim>::Impl {};
+
+template <int Dim>
+DeviceKernels<Dim>::DeviceKernels(const SweepTables<Dim, double>&) {
+    refuse();
+}
+
+template <int Dim>
+DeviceKernels<Dim>::~DeviceKernels() = default;
+
+template <int Dim>
+const SweepTables<Dim, double>& DeviceKernels<Dim>::staged() const {
+    refuse();
+}
+
+template <int Dim>
+std::span<const double> DeviceKernels<Dim>::gradient(Table<const double>, Table<const double>, bool, const Moments&) {
+    refuse();
+}
+
+template <int Dim>
+void DeviceKernels<Dim>::fetch_boundary_y(std::span<double>) const {
+    refuse();
+}
+
+template <int Dim>
+void DeviceKernels<Dim>::fetch_of_face(std::span<double>) const {
+    refuse();
+}
+
+template <int Dim>
+void DeviceKernels<Dim>::fetch_g(std::span<double>) const {
+    refuse();
+}
+
+template class DeviceKernels<2>;
+template class DeviceKernels<3>;
+
+}  // namespace abut::solid
