@@ -16,7 +16,7 @@ const std::vector<std::pair<std::string, std::string>> explained = {
     {"slipping_cylinders",
      "--dim --radius --length --young --poisson --density --speed --offset --gap --size --cfl --time --steps "
      "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --corners --eta --filter --restart "
-     "--integrator --precision "
+     "--integrator --precision --device "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
      "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --quiet --json"},
     {"bouncing_strip",
