@@ -114,7 +114,8 @@ def check_refused(program, other, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
     for name, *options in (("pilot run", "--kinematics", "automatic"),
-                           ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--precision", "single")):
+                           ("memm_async", "--integrator", "memm_async"), ("a bulk in single precision", "--precision", "single"),
+                           ("a bulk on a device", "--device", "kokkos")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
         check_one_message(run, (name, not_made), options)
     for words, name in (([program, "run", scene, "--sweep", "bodies.left.density=1,2", "--out", str(folder / "sweep")], "--sweep"),
