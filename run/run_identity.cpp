@@ -12,7 +12,7 @@
 namespace abut::run {
 namespace {
 
-// What the bits of a run do not depend on: threads, and where files are.
+// What the bits of a run do not depend on: threads, the device, and where files are.
 constexpr std::array<std::string_view, 4> free_choices{"out", "scene", "threads", "device"};
 
 }  // namespace

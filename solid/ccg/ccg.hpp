@@ -78,8 +78,8 @@ public:
     /// One material per body. Throws BadInput for another number of them, and as `check(Material)`,
     /// `sort_to_faces` and `select_stencils` do. `kinematics`: one per body; all that are not `finite` are linear, as all are
     /// where none are given. `precision` and `device`: of `step_gradient`, `mean_gradient` and `gradient_of_packed`; all else is
-    /// in double on the host. Throws BadInput where either is not the default and a body is finite, where neither is, and where
-    /// there is no such device; LimitExceeded where the device has too little memory.
+    /// in double on the host. Throws BadInput for single precision or a device where a body is finite, for both at once, and
+    /// where there is no such device; LimitExceeded where the device has too little memory.
     Ccg(const mesh::Mesh<Dim>& mesh, std::span<const Material> materials, const BoundaryConditions<Dim>& conditions,
         std::span<const Kinematics> kinematics = {}, CellForm form = CellForm::automatic,
         Precision precision = Precision::double_precision, StepDevice device = StepDevice::host);

@@ -44,7 +44,7 @@ template <class LoadCell>
 void DeviceSweeps<Dim>::run(const LoadCell& load_cell, const BoundaryLoad<Dim>& load,
                             const FaceCorrections<Dim>& corrections, std::span<Vector<Dim>> result) {
     const SweepTables<Dim, double>& staged = kernels_.staged();
-    const PlacedCorrections<Dim, double> placed(arrays_, finite_, {}, staged, moments_, corrections);
+    const PlacedCorrections<Dim, double> placed(arrays_, finite_, element_.units, staged, moments_, corrections);
     moment_cells_.clear();
     moment_stresses_.clear();
     moments_.for_each(0, arrays_.n_cells(), [&](std::int32_t c, const LaneTensor<Dim>& stress, const Matrix<Dim>&) {

@@ -6,7 +6,7 @@ namespace abut::solid {
 /// Where the bulk of a step is computed. The bits are the same. docs/devices.md.
 enum class StepDevice {
     host,
-    kokkos,  ///< on the device that Kokkos was built for (CUDA, HIP; Serial of Debian's package is the host); linear elasticity,
+    kokkos,  ///< on the device that Kokkos was built for (CUDA; Serial of Debian's package is the host); linear elasticity,
              ///< double precision, one rank
 };
 
