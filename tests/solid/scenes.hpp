@@ -199,4 +199,25 @@ inline mesh::Mesh<3> two_cylinders(double offset, double size = 0.4) {
 }
 inline const std::vector<Vector<3>> cylinder_velocities{{0.05, 0.0, 0.0}, {-0.05, 0.0, 0.0}};
 
+template <int Dim>
+std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
+    const auto values = random_state(n * Dim, seed);
+    const auto view = vectors<Dim>(values);
+    return {view.begin(), view.end()};
+}
+
+/// Held all along one side, on rollers along another, pulled at a third.
+template <int Dim>
+solid::BoundaryConditions<Dim> held_and_pulled() {
+    solid::BoundaryConditions<Dim> conditions;
+    conditions.dirichlet.resize(2);
+    conditions.dirichlet[0].group = "xmin";
+    conditions.dirichlet[0].value = Vector<Dim>::Constant(0.3);
+    conditions.dirichlet[1].group = "ymin";
+    conditions.dirichlet[1].constraint = solid::Constraint::normal;
+    conditions.dirichlet[1].value = Vector<Dim>::Constant(-0.2);
+    conditions.traction.push_back({.group = "xmax", .value = Vector<Dim>::Constant(0.7)});
+    return conditions;
+}
+
 }  // namespace abut::test

@@ -74,13 +74,6 @@ Vector<Dim> answered_gradient(const solid::Ccg<Dim>& ccg, BoundaryFace face) {
     return gradient;
 }
 
-template <int Dim>
-std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
-    const auto values = random_state(n * Dim, seed);
-    const auto view = vectors<Dim>(values);
-    return {view.begin(), view.end()};
-}
-
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("rigid motions, and nothing else, cost no energy: 3 or 6 zero eigenvalues", "[solid][ccg]",

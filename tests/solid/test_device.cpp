@@ -24,27 +24,6 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> some_vectors(std::size_t n, unsigned seed) {
-    const auto values = random_state(n * Dim, seed);
-    const auto view = vectors<Dim>(values);
-    return {view.begin(), view.end()};
-}
-
-/// Held along one side, on rollers along another, pulled at a third.
-template <int Dim>
-solid::BoundaryConditions<Dim> held_and_pulled() {
-    solid::BoundaryConditions<Dim> conditions;
-    conditions.dirichlet.resize(2);
-    conditions.dirichlet[0].group = "xmin";
-    conditions.dirichlet[0].value = Vector<Dim>::Constant(0.3);
-    conditions.dirichlet[1].group = "ymin";
-    conditions.dirichlet[1].constraint = solid::Constraint::normal;
-    conditions.dirichlet[1].value = Vector<Dim>::Constant(-0.2);
-    conditions.traction.push_back({.group = "xmax", .value = Vector<Dim>::Constant(0.7)});
-    return conditions;
-}
-
-template <int Dim>
 solid::Ccg<Dim> operators(const mesh::Mesh<Dim>& mesh, const solid::BoundaryConditions<Dim>& conditions, StepDevice device) {
     return solid::Ccg<Dim>(mesh, std::vector{material}, conditions, {}, solid::CellForm::automatic,
                            Precision::double_precision, device);
@@ -86,8 +65,8 @@ TEMPLATE_TEST_CASE_SIG("steps on a device have the bits of those on the host: fo
         std::vector<BoundaryFace> faces;
         for (std::int32_t b = 1; b < host.n_boundary(); b += 3)
             if (host.prescribed()[BoundaryFace{b}].isZero(0.0)) faces.push_back(BoundaryFace{b});
-        const auto u = some_vectors<Dim>(static_cast<std::size_t>(mesh.n_cells()), 3);
-        const auto moved = some_vectors<Dim>(faces.size(), 5), pushed = some_vectors<Dim>(faces.size(), 6);
+        const auto u = random_vectors<Dim>(static_cast<std::size_t>(mesh.n_cells()), 3);
+        const auto moved = random_vectors<Dim>(faces.size(), 5), pushed = random_vectors<Dim>(faces.size(), 6);
         const std::vector<Matrix<Dim>> moments(faces.size(), Matrix<Dim>::Random());
         const auto load = host.load_at(0.0, 0.0);
         const std::vector<solid::FaceCorrections<Dim>> corrections = {

@@ -66,13 +66,6 @@ solid::BoundaryConditions<Dim> held_and_pulled(FreeFaceRule rule) {
     return conditions;
 }
 
-template <int Dim>
-std::vector<Vector<Dim>> random_vectors(std::size_t n, unsigned seed) {
-    const auto values = random_state(n * Dim, seed);
-    const auto view = vectors<Dim>(values);
-    return {view.begin(), view.end()};
-}
-
 /// What contact of both laws adds on some faces.
 template <int Dim>
 struct Corrections {

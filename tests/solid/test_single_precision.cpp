@@ -70,27 +70,6 @@ CellForm form_of(const mesh::Mesh<Dim>& mesh) {
     return CellForm::automatic;
 }
 
-template <int Dim>
-std::vector<Vector<Dim>> some_vectors(std::size_t n, unsigned seed) {
-    const auto values = random_state(n * Dim, seed);
-    const auto view = vectors<Dim>(values);
-    return {view.begin(), view.end()};
-}
-
-/// Held all along one side, on rollers along another, pulled at a third.
-template <int Dim>
-solid::BoundaryConditions<Dim> held_and_pulled() {
-    solid::BoundaryConditions<Dim> conditions;
-    conditions.dirichlet.resize(2);
-    conditions.dirichlet[0].group = "xmin";
-    conditions.dirichlet[0].value = Vector<Dim>::Constant(0.3);
-    conditions.dirichlet[1].group = "ymin";
-    conditions.dirichlet[1].constraint = solid::Constraint::normal;
-    conditions.dirichlet[1].value = Vector<Dim>::Constant(-0.2);
-    conditions.traction.push_back({.group = "xmax", .value = Vector<Dim>::Constant(0.7)});
-    return conditions;
-}
-
 }  // namespace
 
 TEMPLATE_TEST_CASE_SIG("forces and stresses in single precision are those in double but for its roundings",
@@ -109,7 +88,7 @@ TEMPLATE_TEST_CASE_SIG("forces and stresses in single precision are those in dou
         std::vector<BoundaryFace> faces;
         for (std::int32_t b = 1; b < held.ccg.n_boundary(); b += 3)
             if (held.ccg.prescribed()[BoundaryFace{b}].isZero(0.0)) faces.push_back(BoundaryFace{b});
-        const auto moved = some_vectors<Dim>(faces.size(), 5), pushed = some_vectors<Dim>(faces.size(), 6);
+        const auto moved = random_vectors<Dim>(faces.size(), 5), pushed = random_vectors<Dim>(faces.size(), 6);
         const std::vector<Matrix<Dim>> moments(faces.size(), Matrix<Dim>::Random());
         const auto load = held.ccg.load_at(0.0, 0.0);
         CHECK(held.worst(random_state(n * Dim, 5), load, {faces, moved, pushed}) < 1.0);
@@ -211,7 +190,7 @@ TEST_CASE("steps are in double where nothing is said, with the bits of a gradien
     CHECK(solid::SolidOptions<2>{}.precision == Precision::double_precision);
     const auto mesh = unit_cylinder(0.3);
     solid::Ccg<3> ccg(mesh, std::vector{material}, {});
-    const auto u = some_vectors<3>(static_cast<std::size_t>(mesh.n_cells()), 3);
+    const auto u = random_vectors<3>(static_cast<std::size_t>(mesh.n_cells()), 3);
     std::vector<Vector<3>> gradient(u.size()), of_step(u.size());
     ccg.gradient(u, {}, {}, gradient);
     ccg.step_gradient(u, {}, {}, of_step);
@@ -222,7 +201,7 @@ TEMPLATE_TEST_CASE_SIG("forces in single precision have the same bits on one thr
                        "[solid][single_precision]", ((int Dim), Dim), 2, 3) {
     const auto mesh = round_body<Dim>(Dim == 2 ? 0.018 : 0.1);  // more chunks than the threads take one by one
     solid::Ccg<Dim> ccg(mesh, std::vector{material}, {}, {}, CellForm::automatic, Precision::single_precision);
-    const auto u = some_vectors<Dim>(static_cast<std::size_t>(mesh.n_cells()), 3);
+    const auto u = random_vectors<Dim>(static_cast<std::size_t>(mesh.n_cells()), 3);
     const auto on_threads = [&](int threads) {
         const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
                                                   static_cast<std::size_t>(threads));
