@@ -1,10 +1,10 @@
 #include "abut/contact/host_checks.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdint>
 #include <string>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/contact/messages.hpp"
 
@@ -65,7 +65,7 @@ struct CouplingCheck {
         const std::int32_t own = find(f, f);
         if (own < 0) return;
         const Matrix<Dim> symmetric = 0.5 * (block(own) + block(own).transpose());
-        const double least = symmetric.template selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+        const double least = symmetric_eigenvalues(symmetric)[0];
         const double allowed = -rounding * largest_entry(own);
         if (least < allowed)
             refuse(row(f) + "has a block on the diagonal with the eigenvalue " + number(least) + " N/m, " + number(allowed) +

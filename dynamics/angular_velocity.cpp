@@ -1,6 +1,6 @@
 #include "abut/dynamics/angular_velocity.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "abut/base/decompositions.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -22,11 +22,10 @@ AngularMomentum<2> angular_velocity<2>(const Inertia<2>& inertia, const AngularM
 
 template <>
 AngularMomentum<3> angular_velocity<3>(const Inertia<3>& inertia, const AngularMomentum<3>& carried) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(inertia);
-    const double cut = no_inertia * eigen.eigenvalues().maxCoeff();
-    const Eigen::Vector3d inverse =
-        eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
-    return eigen.eigenvectors() * inverse.cwiseProduct(eigen.eigenvectors().transpose() * carried);
+    const SymmetricEigen<3> eigen = symmetric_eigen(inertia);
+    const double cut = no_inertia * eigen.values.maxCoeff();
+    const Eigen::Vector3d inverse = eigen.values.unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
+    return eigen.vectors * inverse.cwiseProduct(eigen.vectors.transpose() * carried);
 }
 
 }  // namespace abut::dynamics

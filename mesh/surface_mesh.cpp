@@ -6,6 +6,7 @@
 
 #include "abut/base/disjoint_sets.hpp"
 #include "abut/base/error.hpp"
+#include "abut/base/index.hpp"
 #include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/triangulate.hpp"
 #include "abut/mesh/quality.hpp"
@@ -14,8 +15,6 @@ namespace abut::mesh {
 namespace {
 
 using geometry::FaceFault;
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 bool is_vertex(const SurfaceMesh& mesh, std::int32_t index) { return index >= 0 && at(index) < mesh.vertices.size(); }
 

@@ -1,12 +1,11 @@
 #include "abut/solid/bodies.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
@@ -31,9 +30,8 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
 template <int Dim>
 Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
     if constexpr (Dim == 3) {
-        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
-        if (svd.singularValues()[1] <= 1e-10 * svd.singularValues()[0])
-            return Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0)).toRotationMatrix();
+        const SingularValues svd = singular_values(moment);
+        if (svd.values[1] <= 1e-10 * svd.values[0]) return rotation_between(svd.v.col(0), svd.u.col(0));
     }
     return nearest_rotation<Dim>(moment);
 }

@@ -1,25 +1,17 @@
 #include "abut/solid/body_rotation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
 
 namespace abut::solid {
 namespace {
 
-/// Of a symmetric matrix; directions in which it has next to nothing are left out: the cells lie in a line or a plane.
-template <int Dim>
-Matrix<Dim> pseudo_inverse(const Matrix<Dim>& matrix) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
-    const double cut = 1e-12 * eigen.eigenvalues().maxCoeff();
-    const Eigen::VectorXd inverse =
-        eigen.eigenvalues().unaryExpr([&](double value) { return value > cut ? 1.0 / value : 0.0; });
-    return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-}
+constexpr double no_extent = 1e-12;  // second moment over the largest: the cells lie in a line or a plane
 
 }  // namespace
 
@@ -37,7 +29,7 @@ BodyRotation<Dim>::BodyRotation(std::span<const Vector<Dim>> rest, std::span<con
             const Vector<Dim> arm = rest[c] - centre;
             return masses[c] * (arm * arm.transpose());
         });
-        bodies_.push_back({centre, pseudo_inverse<Dim>(second_moment)});
+        bodies_.push_back({centre, pseudo_inverse(second_moment, no_extent)});
     }
 }
 

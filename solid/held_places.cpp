@@ -1,10 +1,10 @@
 #include "abut/solid/held_places.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 
@@ -32,9 +32,8 @@ struct HeldPlaces<Dim>::Cloud {
         }
     }
     [[nodiscard]] bool is_wide() const {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen(
-            Eigen::Matrix<double, Dim, Dim>(second_moment), Eigen::EigenvaluesOnly);
-        return eigen.eigenvalues()[0] > least_width * eigen.eigenvalues()[Dim - 1];
+        const Vector<Dim> moments = symmetric_eigenvalues(second_moment);
+        return moments[0] > least_width * moments[Dim - 1];
     }
 
     double mass = 0.0;

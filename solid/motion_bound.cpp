@@ -1,11 +1,11 @@
 #include "abut/solid/motion_bound.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 
@@ -13,11 +13,6 @@ namespace abut::solid {
 namespace {
 
 constexpr double rounding = 1e-12;
-
-template <int Dim>
-double spectral_norm(const Matrix<Dim>& m) {
-    return Eigen::JacobiSVD<Eigen::Matrix<double, Dim, Dim>>(m).singularValues()[0];
-}
 
 /// Not below the spectral norm; it for multiples of the identity.
 template <int Dim>
@@ -44,10 +39,10 @@ MotionBound<Dim>::MotionBound(const CcgArrays<Dim>& arrays, std::span<const Boun
     for (const BoundaryFace face : faces_) {
         const std::int32_t b = number_of(face);
         own_.push_back(position(arrays.cell_of(face)));
-        kept_.push_back(spectral_norm<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b]));
+        kept_.push_back(spectral_norm(Matrix<Dim>(Matrix<Dim>::Identity() - boundary.deficit[b])));
         for (std::int32_t i = boundary.offsets[b]; i < boundary.offsets[b + 1]; ++i) {
             positions_.push_back(position(boundary.cells[i]));  // the face's own: du_c - du_c = 0
-            norms_.push_back(positions_.back() == own_.back() ? 0.0 : spectral_norm<Dim>(boundary.weights[i]));
+            norms_.push_back(positions_.back() == own_.back() ? 0.0 : spectral_norm(boundary.weights[i]));
         }
         norm_sum_.push_back(std::accumulate(norms_.begin() + offsets_.back(), norms_.end(), 0.0));
         offsets_.push_back(static_cast<std::int32_t>(norms_.size()));

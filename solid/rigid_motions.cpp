@@ -1,10 +1,11 @@
 #include "abut/solid/rigid_motions.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>  // cross()
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/messages.hpp"
 
 namespace abut::solid {
@@ -116,9 +117,9 @@ std::string describe(const mesh::Mesh<Dim>& mesh, const Eigen::VectorXd& motion)
 
 template <int Dim>
 std::optional<std::string> free_rigid_motion(Solid<Dim>& solid, std::span<const double> q) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(hold(solid, q, frames(solid.mesh())));
-    if (modes.eigenvalues()[0] > stopped * modes.eigenvalues().tail<1>()[0]) return std::nullopt;
-    return describe(solid.mesh(), modes.eigenvectors().col(0));
+    const SymmetricEigen<Eigen::Dynamic> modes = symmetric_eigen(hold(solid, q, frames(solid.mesh())));
+    if (modes.values[0] > stopped * modes.values.tail<1>()[0]) return std::nullopt;
+    return describe(solid.mesh(), modes.vectors.col(0));
 }
 
 template std::optional<std::string> free_rigid_motion<2>(Solid<2>&, std::span<const double>);

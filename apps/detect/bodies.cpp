@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "abut/base/index.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/geometry/triangulate.hpp"
@@ -21,8 +22,6 @@ namespace {
 
 using mesh::CleanSurface;
 using mesh::SurfaceMesh;
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 SurfaceMesh read_one(const std::string& input, const DetectOptions& options) {
     if (!is_shape(input))

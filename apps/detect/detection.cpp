@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "abut/base/index.hpp"
 #include "abut/base/stopwatch.hpp"
 
 namespace abut::apps {
@@ -15,8 +16,6 @@ namespace {
 constexpr double default_distance = 0.5;  // mean face sizes
 constexpr double no_skin = 1e-6;          // mean face sizes: for rounding, where a list serves one step
 constexpr double bytes_a_megabyte = 1e6;
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 contact::CandidateOptions search_options(const DetectOptions& options, const Nearness& near) {
     contact::CandidateOptions search = options.search;

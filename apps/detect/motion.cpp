@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "abut/base/index.hpp"
 #include "apps/support/command_line.hpp"
 
 namespace abut::apps {
@@ -22,8 +23,6 @@ constexpr int default_steps = 10;
 constexpr double radians = std::numbers::pi / 180.0;
 constexpr const char* script_head = "step,body,x,y,z,rx,ry,rz";
 constexpr int most_steps = 1'000'000;
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> parts;

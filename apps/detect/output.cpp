@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include "abut/base/index.hpp"
 #include "abut/mesh/io/write_vtp.hpp"
 #include "abut/run/files.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using contact::Overlap;
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 /// overlaps.vtp, surface_000012.vtp and what they are called while they are written
 bool is_picture(std::string_view name) {

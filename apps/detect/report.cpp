@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "abut/base/index.hpp"
 #include "apps/support/choices.hpp"
 
 namespace abut::apps {
@@ -13,8 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_lines = 10;  // bodies, or pairs of them, that are printed
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 /// Of this process, so far [MB].
 double peak_memory() {

@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "abut/base/index.hpp"
 #include "abut/geometry/merged_vertices.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
 #include "abut/geometry/plane_frame.hpp"
@@ -23,8 +24,6 @@ using geometry::IndexPair;
 // Pairs nearer to a limit than this are left to rounding: over the gap's limits, the cosine, and the smaller face.
 constexpr double rounding = 1e-10;
 constexpr double area_allowed = 1e-7;  // difference of areas, over the smaller face
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 /// Faces at every place where corners meet, and the faces within some steps of one.
 class Rings {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "abut/base/disjoint_sets.hpp"
+#include "abut/base/index.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/geometry/health/self_intersections.hpp"
 #include "abut/geometry/merged_vertices.hpp"
@@ -17,8 +18,6 @@ namespace abut::geometry {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 /// One face along one edge.
 struct EdgeUse {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
+#include "abut/base/index.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/geometry/health/surface_health.hpp"
 
@@ -8,8 +9,6 @@ namespace abut::geometry {
 namespace {
 
 constexpr std::size_t most_faces = 3;  // that one line names
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 /// "1 face", "12 faces"
 std::string counted(std::int64_t n, const std::string& one, const std::string& many) {

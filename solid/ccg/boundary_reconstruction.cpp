@@ -1,8 +1,9 @@
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <utility>
+
+#include "abut/base/decompositions.hpp"
 
 namespace abut::solid {
 namespace {
@@ -144,15 +145,6 @@ private:
         return stiffness(cell, mesh_face(mesh_, f), mesh_face(mesh_, g));
     }
 
-    /// Of a symmetric matrix without negative eigenvalues: what is of the null space becomes 0.
-    static Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
-        Eigen::VectorXd inverse = eigen.eigenvalues();
-        const double cut = null_space_cut * inverse.maxCoeff();
-        for (Eigen::Index i = 0; i < inverse.size(); ++i) inverse[i] = inverse[i] > cut ? 1.0 / inverse[i] : 0.0;
-        return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-    }
-
     /// The other faces of the cell that turn away from b by a right angle or so, and are free in some direction.
     std::vector<BoundaryFace> corners_with(BoundaryFace b, const std::vector<BoundaryFace>& boundary) const {
         std::vector<BoundaryFace> corners;
@@ -187,7 +179,7 @@ private:
         const std::vector<BoundaryFace> corners = corners_with(b, boundary);
         if (corners.empty()) return;
         const Condensed of_corners = stiffness_of(corners, cell, b);
-        const Eigen::MatrixXd answers = -pseudo_inverse(of_corners.among) * of_corners.with_b;
+        const Eigen::MatrixXd answers = -pseudo_inverse(of_corners.among, null_space_cut) * of_corners.with_b;
         const Matrix<Dim> relaxed = stiffness(cell, b, b) + of_corners.with_b.transpose() * answers;
         const Vector<Dim>& normal = normal_of(b);
         const double along_normal = normal.dot(relaxed * normal), measure = mesh_.face_measure[mesh_face(mesh_, b)];
@@ -213,7 +205,7 @@ private:
             for (std::size_t j = 0; j < boundary.size(); ++j)
                 block(a, i, j) = stiffness(cell, mesh_face(mesh_, boundary[i]), mesh_face(mesh_, boundary[j]));
         }
-        Eigen::MatrixXd compliance = free * pseudo_inverse(free * a * free) * free;
+        Eigen::MatrixXd compliance = free * pseudo_inverse(free * a * free, null_space_cut) * free;
         Eigen::MatrixXd undetermined = free - compliance * a * free;
         Eigen::MatrixXd from_prescribed = -compliance * a;
 

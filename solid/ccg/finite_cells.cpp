@@ -1,7 +1,8 @@
 #include "abut/solid/ccg/finite_cells.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "abut/base/decompositions.hpp"
 
 namespace abut::solid {
 namespace {
@@ -11,11 +12,11 @@ constexpr double one_direction = 1e-10;  // an eigenvalue of the sum of n n^T ov
 /// The principal axes of what these normals span, those that they do not span first; right-handed.
 template <int Dim>
 FreeCell<Dim> free_cell(std::int32_t cell, const std::vector<Vector<Dim>>& normals) {
-    Eigen::Matrix<double, Dim, Dim> sum = Eigen::Matrix<double, Dim, Dim>::Zero();
+    Matrix<Dim> sum = Matrix<Dim>::Zero();
     for (const Vector<Dim>& normal : normals) sum += normal * normal.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen(sum);  // eigenvalues increase
-    FreeCell<Dim> free{.cell = cell, .n_tangents = 0, .axes = eigen.eigenvectors(), .measure_over = 0.0};
-    while (eigen.eigenvalues()[free.n_tangents] <= one_direction * eigen.eigenvalues()[Dim - 1]) ++free.n_tangents;
+    const SymmetricEigen<Dim> eigen = symmetric_eigen(sum);
+    FreeCell<Dim> free{.cell = cell, .n_tangents = 0, .axes = eigen.vectors, .measure_over = 0.0};
+    while (eigen.values[free.n_tangents] <= one_direction * eigen.values[Dim - 1]) ++free.n_tangents;
     if (free.has_one_normal()) free.axes.col(Dim - 1) = normals.front();
     if (free.axes.determinant() < 0.0) free.axes.col(0) *= -1.0;
     return free;

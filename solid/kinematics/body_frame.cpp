@@ -1,9 +1,9 @@
 #include "abut/solid/kinematics/body_frame.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/dynamics/angular_velocity.hpp"
 
 namespace abut::solid {
@@ -31,10 +31,9 @@ Matrix<2> nearest_rotation<2>(const Matrix<2>& b) {
 
 template <>
 Matrix<3> nearest_rotation<3>(const Matrix<3>& b) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(b, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU();
-    if ((u * svd.matrixV().transpose()).determinant() < 0.0) u.col(2) *= -1.0;
-    return u * svd.matrixV().transpose();
+    auto [u, values, v] = singular_values(b);
+    if ((u * v.transpose()).determinant() < 0.0) u.col(2) *= -1.0;
+    return u * v.transpose();
 }
 
 /// omega is defined by Delta Q = hat(omega) Q_b: the change of Q^T B is symmetric in between as it is at both ends, which

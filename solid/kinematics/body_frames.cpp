@@ -1,6 +1,5 @@
 #include "abut/solid/kinematics/body_frames.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/rank_part.hpp"
@@ -22,9 +22,8 @@ constexpr double on_a_line = 1e-10;  // second moment across, over that along
 /// Points that lie on a line have no rotation about it.
 template <int Dim>
 void require_width(const Matrix<Dim>& second_moment, const std::string& name) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen(
-        Eigen::Matrix<double, Dim, Dim>(second_moment), Eigen::EigenvaluesOnly);
-    const double along = eigen.eigenvalues()[Dim - 1], across = eigen.eigenvalues()[Dim == 2 ? 1 : Dim - 2];
+    const Vector<Dim> moments = symmetric_eigenvalues(second_moment);
+    const double along = moments[Dim - 1], across = moments[Dim == 2 ? 1 : Dim - 2];
     if (along > 0.0 && across > on_a_line * along) return;
     throw BadInput("the centres of the cells of body '" + name +
                    "' lie on a line or in a point, so that how far it turns about that is not known. Refine its mesh, or "

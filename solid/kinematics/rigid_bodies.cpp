@@ -1,6 +1,5 @@
 #include "abut/solid/kinematics/rigid_bodies.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/body_cells.hpp"
@@ -82,10 +82,8 @@ RigidBodies<Dim>::RigidBodies(const mesh::Mesh<Dim>& mesh, std::span<const std::
         body.second_moment = density * second_moment_of(mesh, number, body.centre);
         body.inverse = body.second_moment.inverse();
 
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>> eigen(
-            Eigen::Matrix<double, Dim, Dim>(body.second_moment));
-        const Matrix<Dim> scale =
-            eigen.eigenvectors() * (eigen.eigenvalues() / body.mass).cwiseMax(0.0).cwiseSqrt().asDiagonal();
+        const SymmetricEigen<Dim> eigen = symmetric_eigen(body.second_moment);
+        const Matrix<Dim> scale = eigen.vectors * (eigen.values / body.mass).cwiseMax(0.0).cwiseSqrt().asDiagonal();
         for (int i = 0; i < points_per_body; ++i)
             body.rest.push_back(body.centre + scale * Vector<Dim>(simplex<Dim>().col(i)));
         bodies_.push_back(body);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<int, 2> layers{4, 3};  // of cells in the lower and in the upper block
 constexpr int cells_below = 4;              // across, in the lower block
 
-constexpr std::array<const char*, 2> names{"lower", "upper"};
+constexpr std::array<const char*, 2> block_names{"lower", "upper"};
 
 template <int Dim>
 mesh::Mesh<Dim> block(const PatchOptions& options, std::size_t body) {
@@ -26,12 +26,12 @@ mesh::Mesh<Dim> block(const PatchOptions& options, std::size_t body) {
                                .upper = upper,
                                .size = 1.0 / cells_below,
                                .variant = static_cast<int>(body),
-                               .name = names[body]});
+                               .name = block_names[body]});
     std::array<int, Dim> counts;
     counts.fill(options.mesh == PatchMesh::matching || body == 0 ? cells_below : cells_below - 1);
     counts[Dim - 1] = layers[body];
     return mesh::structured_box<Dim>(lower, upper, counts,
-                                     Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron, names[body]);
+                                     Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron, block_names[body]);
 }
 
 /// Stress and strains of a block under the pressure p from above.
@@ -62,7 +62,7 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
         if (options.sides == PatchSides::walls)
             solid.obstacles.push_back(contact::plane_obstacle<Dim>(Vector<Dim>::Ones(), -Vector<Dim>::Unit(axis), 4.0));
     }
-    for (const char* name : names)
+    for (const char* name : block_names)
         for (const std::string& side : rollers)
             solid.boundary.dirichlet.push_back(
                 {.group = std::string(name) + "." + side, .constraint = solid::Constraint::normal});

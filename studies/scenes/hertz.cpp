@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 constexpr double cap = 0.7;  // part of the radius above which a round body is kept upright, or below which it is held
 constexpr double block_half_width = 1.5;  // over the radius
-constexpr double uniform = 1.4;           // contact radii around the contact point with cells of one size
+constexpr double of_one_size = 1.4;       // contact radii around the contact point with cells of one size
 constexpr double press = 1e-3;            // of a face, how deep the bodies begin in each other
 constexpr const char* guided_group = "guided";
 constexpr const char* held_group = "held";
@@ -32,7 +32,7 @@ Vector<Dim> up() {
 template <int Dim>
 std::optional<mesh::Refinement<Dim>> refinement(const HertzOptions& options, double size) {
     const double a = hertz_solution<Dim>(options).contact_radius;
-    return mesh::Refinement<Dim>{Vector<Dim>::Zero(), size, options.radius, uniform * a};
+    return mesh::Refinement<Dim>{Vector<Dim>::Zero(), size, options.radius, of_one_size * a};
 }
 
 template <int Dim>
@@ -66,7 +66,7 @@ void add_group(mesh::Mesh<Dim>& mesh, const std::string& name, const IsIn& is_in
 
 /// Upper body first.
 template <int Dim>
-mesh::Mesh<Dim> bodies(const HertzOptions& options) {
+mesh::Mesh<Dim> touching_bodies(const HertzOptions& options) {
     const double r = options.radius;
     const double size = hertz_solution<Dim>(options).contact_radius / options.faces;
     std::vector<mesh::Mesh<Dim>> parts{round_body<Dim>(options, r, size, 0, "upper")};
@@ -235,7 +235,7 @@ HertzSolution hertz_solution(const HertzOptions& options) {
 
 template <int Dim>
 HertzResult<Dim> solve_hertz(const HertzOptions& options) {
-    const mesh::Mesh<Dim> mesh = bodies<Dim>(options);
+    const mesh::Mesh<Dim> mesh = touching_bodies<Dim>(options);
     solid::Solid<Dim> solid(mesh, solid_options<Dim>(options, mesh));
     HertzResult<Dim> result{.exact = hertz_solution<Dim>(options), .n_cells = mesh.n_cells()};
     auto solution = [&] {

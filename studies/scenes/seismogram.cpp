@@ -26,7 +26,7 @@ double correlation(const Trace& a, const Trace& b, std::ptrdiff_t lag) {
     return sum;
 }
 
-std::complex<double> amplitude(const Trace& trace, double frequency) {
+std::complex<double> amplitude_of(const Trace& trace, double frequency) {
     std::complex<double> sum = 0.0;
     for (std::size_t n = 0; n < trace.values.size(); ++n)
         sum += trace.values[n] * std::polar(1.0, -2.0 * pi * frequency * trace.dt * static_cast<double>(n));
@@ -59,7 +59,7 @@ double correlation_delay(const Trace& a, const Trace& b) {
 
 double phase_delay(const Trace& a, const Trace& b, double frequency, double expected) {
     const double period = 1.0 / frequency;
-    const double lag = std::arg(amplitude(a, frequency) / amplitude(b, frequency)) / (2.0 * pi) * period;
+    const double lag = std::arg(amplitude_of(a, frequency) / amplitude_of(b, frequency)) / (2.0 * pi) * period;
     return lag + period * std::round((expected - lag) / period);
 }
 

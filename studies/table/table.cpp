@@ -25,16 +25,6 @@ void print(const Quantity& quantity) {
     fmt::print("\n");
 }
 
-Json to_json(const Quantity& quantity) {
-    Json json{{"name", quantity.name},
-              {"unit", quantity.unit},
-              {"value", apps::json_number(quantity.value)},
-              {"reference", quantity.reference},
-              {"error", apps::json_number(quantity.error())}};
-    if (quantity.has_target()) json.update({{"allowed", quantity.allowed}, {"met", quantity.is_met()}});
-    return json;
-}
-
 Json to_json(const RowRecord& row) {
     Json json{{"name", row.scene + ", " + row.setting}, {"scene", row.scene}, {"setting", row.setting}};
     json["quantities"] = Json::array();

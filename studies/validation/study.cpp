@@ -58,16 +58,6 @@ void print_orders(const Study& study) {
     }
 }
 
-Json to_json(const Quantity& quantity) {
-    Json json{{"name", quantity.name},
-              {"unit", quantity.unit},
-              {"value", quantity.value},
-              {"reference", quantity.reference},
-              {"error", quantity.error()}};
-    if (quantity.has_target()) json.update({{"allowed", quantity.allowed}, {"met", quantity.is_met()}});
-    return json;
-}
-
 Json to_json(const EnergyFigures& energies) {
     return {{"pseudo_energy_drift", energies.drift},
             {"energy_excess_max", energies.excess},
@@ -109,6 +99,16 @@ std::string values_text(const Study& study) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json to_json(const Quantity& quantity) {
+    Json json{{"name", quantity.name},
+              {"unit", quantity.unit},
+              {"value", apps::json_number(quantity.value)},
+              {"reference", quantity.reference},
+              {"error", apps::json_number(quantity.error())}};
+    if (quantity.has_target()) json.update({{"allowed", quantity.allowed}, {"met", quantity.is_met()}});
+    return json;
+}
 
 double Quantity::error() const { return std::abs(value - reference) / (scale > 0.0 ? scale : std::abs(reference)); }
 

@@ -32,6 +32,8 @@ struct Quantity {
     [[nodiscard]] bool has_target() const { return allowed < std::numeric_limits<double>::infinity(); }
     [[nodiscard]] bool is_met() const { return error() <= allowed; }
 };
+/// Numbers that are none are null.
+[[nodiscard]] nlohmann::ordered_json to_json(const Quantity& quantity);
 
 /// What stands beside every claim about energy. docs/method.md, Time.
 struct EnergyFigures {

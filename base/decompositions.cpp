@@ -1,0 +1,57 @@
+#include "abut/base/decompositions.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+
+namespace abut {
+namespace {
+
+template <int N>
+using Square = Eigen::Matrix<double, N, N>;
+
+template <int N>
+SymmetricEigen<N> eigen_of(const Square<N>& matrix) {
+    const Eigen::SelfAdjointEigenSolver<Square<N>> solver(matrix);
+    return {.values = solver.eigenvalues(), .vectors = solver.eigenvectors()};
+}
+
+template <int N>
+Vector<N> eigenvalues_of(const Square<N>& matrix) {
+    return Eigen::SelfAdjointEigenSolver<Square<N>>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+template <int N>
+double norm_of(const Square<N>& matrix) {
+    return Eigen::JacobiSVD<Square<N>>(matrix).singularValues()[0];
+}
+
+}  // namespace
+
+SymmetricEigen<2> symmetric_eigen(const Matrix<2>& matrix) { return eigen_of<2>(matrix); }
+SymmetricEigen<3> symmetric_eigen(const Matrix<3>& matrix) { return eigen_of<3>(matrix); }
+SymmetricEigen<Eigen::Dynamic> symmetric_eigen(const Eigen::MatrixXd& matrix) { return eigen_of<Eigen::Dynamic>(matrix); }
+
+Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix) { return eigenvalues_of<2>(matrix); }
+Vector<3> symmetric_eigenvalues(const Matrix<3>& matrix) { return eigenvalues_of<3>(matrix); }
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut) {
+    const SymmetricEigen<Eigen::Dynamic> eigen = symmetric_eigen(matrix);
+    const double least = cut * eigen.values.maxCoeff();
+    const Eigen::VectorXd inverse = eigen.values.unaryExpr([&](double value) { return value > least ? 1.0 / value : 0.0; });
+    return eigen.vectors * inverse.asDiagonal() * eigen.vectors.transpose();
+}
+
+SingularValues singular_values(const Matrix<3>& matrix) {
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return {.u = svd.matrixU(), .values = svd.singularValues(), .v = svd.matrixV()};
+}
+
+Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to) {
+    return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+}
+
+double spectral_norm(const Matrix<2>& matrix) { return norm_of<2>(matrix); }
+double spectral_norm(const Matrix<3>& matrix) { return norm_of<3>(matrix); }
+
+}  // namespace abut

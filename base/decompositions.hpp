@@ -1,0 +1,41 @@
+#pragma once
+#include "abut/base/vector.hpp"
+
+/// Decompositions of Eigen, compiled once: to instantiate one takes longer than to compile most sources that use it.
+namespace abut {
+
+/// Of a symmetric matrix of N rows: its eigenvalues, the least first, and its eigenvectors as columns, orthonormal.
+template <int N>
+struct SymmetricEigen {
+    Eigen::Matrix<double, N, 1> values;
+    Eigen::Matrix<double, N, N> vectors;
+};
+
+[[nodiscard]] SymmetricEigen<2> symmetric_eigen(const Matrix<2>& matrix);
+[[nodiscard]] SymmetricEigen<3> symmetric_eigen(const Matrix<3>& matrix);
+[[nodiscard]] SymmetricEigen<Eigen::Dynamic> symmetric_eigen(const Eigen::MatrixXd& matrix);
+
+/// The eigenvalues of a symmetric matrix alone, the least first.
+[[nodiscard]] Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix);
+[[nodiscard]] Vector<3> symmetric_eigenvalues(const Matrix<3>& matrix);
+
+/// Of a symmetric matrix without negative eigenvalues. Those below `cut`, in parts of the largest, count as 0, and the pseudo-inverse
+/// is 0 in their directions.
+[[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut);
+
+/// A = u diag(values) v^T, the largest of the values first, none negative; u and v orthogonal.
+struct SingularValues {
+    Matrix<3> u;
+    Vector<3> values;
+    Matrix<3> v;
+};
+[[nodiscard]] SingularValues singular_values(const Matrix<3>& matrix);
+
+/// The rotation through the least angle that turns one unit vector into the other.
+[[nodiscard]] Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to);
+
+/// The largest singular value.
+[[nodiscard]] double spectral_norm(const Matrix<2>& matrix);
+[[nodiscard]] double spectral_norm(const Matrix<3>& matrix);
+
+}  // namespace abut
