@@ -19,8 +19,8 @@ struct SymmetricEigen {
 [[nodiscard]] Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix);
 [[nodiscard]] Vector<3> symmetric_eigenvalues(const Matrix<3>& matrix);
 
-/// Of a symmetric matrix without negative eigenvalues. Those below `cut`, in parts of the largest, count as 0, and the pseudo-inverse
-/// is 0 in their directions.
+/// Of a symmetric matrix without negative eigenvalues. Those of at most `cut` times the largest count as 0, and so does the
+/// inverse in their directions.
 [[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut);
 
 /// A = u diag(values) v^T, the largest of the values first, none negative; u and v orthogonal.

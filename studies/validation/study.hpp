@@ -32,7 +32,7 @@ struct Quantity {
     [[nodiscard]] bool has_target() const { return allowed < std::numeric_limits<double>::infinity(); }
     [[nodiscard]] bool is_met() const { return error() <= allowed; }
 };
-/// Numbers that are none are null.
+/// Value, reference, error, and whether it is met; what is not finite is null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Quantity& quantity);
 
 /// What stands beside every claim about energy. docs/method.md, Time.
