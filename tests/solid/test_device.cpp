@@ -96,6 +96,7 @@ TEST_CASE("bodies that step on a device meet and part with the bits of the host"
     };
     CHECK(same_bits(q(*device), q(*host)));
     CHECK(same_bits(p(*device), p(*host)));
+    CHECK(device->solid.contact_report().active_pairs_max > 0);
 }
 
 TEST_CASE("what is not made on a device is refused", "[solid][device]") {
