@@ -35,6 +35,15 @@ SymmetricEigen<Eigen::Dynamic> symmetric_eigen(const Eigen::MatrixXd& matrix) { 
 Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix) { return eigenvalues_of<2>(matrix); }
 Vector<3> symmetric_eigenvalues(const Matrix<3>& matrix) { return eigenvalues_of<3>(matrix); }
 
+double largest_eigenvalue(std::span<const double> diagonal, std::span<const double> beside) {
+    const auto vector_of = [](std::span<const double> values) {
+        return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    };
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(vector_of(diagonal), vector_of(beside), Eigen::EigenvaluesOnly);
+    return solver.eigenvalues().maxCoeff();
+}
+
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut) {
     const SymmetricEigen<Eigen::Dynamic> eigen = symmetric_eigen(matrix);
     const double least = cut * eigen.values.maxCoeff();

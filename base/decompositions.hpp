@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "abut/base/vector.hpp"
 
 /// Decompositions of Eigen, compiled once: to instantiate one takes longer than to compile most sources that use it.
@@ -18,6 +20,9 @@ struct SymmetricEigen {
 /// The eigenvalues of a symmetric matrix alone, the least first.
 [[nodiscard]] Vector<2> symmetric_eigenvalues(const Matrix<2>& matrix);
 [[nodiscard]] Vector<3> symmetric_eigenvalues(const Matrix<3>& matrix);
+
+/// The largest eigenvalue of a symmetric tridiagonal matrix: its diagonal (n) and what is beside it (n - 1).
+[[nodiscard]] double largest_eigenvalue(std::span<const double> diagonal, std::span<const double> beside);
 
 /// Of a symmetric matrix without negative eigenvalues. Those of at most `cut` times the largest count as 0, and so does the
 /// inverse in their directions.

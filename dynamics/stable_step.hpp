@@ -1,12 +1,12 @@
 #pragma once
 #include <limits>
 
-#include "abut/dynamics/power_iteration.hpp"
+#include "abut/dynamics/highest_mode.hpp"
 
 namespace abut::dynamics {
 
 struct StableStep {
-    double omega_max;  ///< highest frequency without contact [rad/s]: the last Rayleigh quotient, a lower bound, times 1.02
+    double omega_max;  ///< highest frequency without contact [rad/s]: that of the largest Rayleigh quotient, times 1.02
     double dt;         ///< 2 / omega_max times the margin of the system [s]
     int iterations;
     double change;  ///< relative change of the last iteration
@@ -33,9 +33,8 @@ namespace detail {
 void require_settled(const HighestMode& mode);
 }  // namespace detail
 
-/// Power iteration on M^-1 K from a fixed start: at least 50 iterations and until the Rayleigh quotient changes by less than
-/// 1e-4, at most 2,000. docs/method.md, Space. Throws BadInput if it does not settle. Infinite where
-/// nothing resists, as of free rigid bodies.
+/// From the highest mode of M^-1 K. Throws BadInput if the search for it does not settle. Infinite where nothing resists, as
+/// of free rigid bodies.
 template <StiffnessProductSystem S>
 [[nodiscard]] StableStep stable_step(S& system) {
     const HighestMode mode = highest_mode(system);

@@ -14,7 +14,7 @@
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/power_iteration.hpp"
+#include "abut/dynamics/highest_mode.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 using namespace abut;

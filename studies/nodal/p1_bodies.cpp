@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "abut/dynamics/power_iteration.hpp"
+#include "abut/dynamics/highest_mode.hpp"
 
 namespace abut::studies::nodal {
 namespace {

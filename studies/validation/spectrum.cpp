@@ -154,7 +154,7 @@ void add_stable_step(Level& level, const SpectrumOptions& options) {
     const double highest = highest_frequency(strip.solid);
     const double estimate = dynamics::stable_step(strip.solid).omega_max / margin;
     level.quantities.push_back(
-        {.name = "omega_max by power iteration", .unit = "rad/s", .value = estimate, .reference = highest, .allowed = 0.02});
+        {.name = "omega_max by Lanczos iteration", .unit = "rad/s", .value = estimate, .reference = highest, .allowed = 0.02});
     level.quantities.push_back({.name = "highest omega of the strip, of alternating cells",
                                 .unit = "rad/s",
                                 .value = highest,

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "abut/base/decompositions.hpp"
 
@@ -22,6 +23,14 @@ TEST_CASE("the eigenvalues of a symmetric matrix come in rising order, with thei
     CHECK((symmetric_eigen(space).values - Vector<3>(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
     CHECK((symmetric_eigenvalues(space) - Vector<3>(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
     CHECK((symmetric_eigen(Eigen::MatrixXd(space)).values - Eigen::Vector3d(1.0, 3.0, 4.0)).norm() <= 10.0 * rounding);
+}
+
+TEST_CASE("the largest eigenvalue of a tridiagonal matrix is that of a chain of equal springs", "[base][decompositions]") {
+    const std::size_t n = 50;
+    const double angle = std::acos(-1.0) / (2.0 * (n + 1));  // 2 - 2 cos(k pi/(n+1)), k = n
+    CHECK(largest_eigenvalue(std::vector<double>(n, 2.0), std::vector<double>(n - 1, -1.0)) ==
+          Approx(4.0 * std::pow(std::cos(angle), 2)).epsilon(rounding));
+    CHECK(largest_eigenvalue(std::vector<double>{3.0}, {}) == 3.0);
 }
 
 TEST_CASE("the pseudo-inverse leaves out directions in which a matrix has next to nothing", "[base][decompositions]") {

@@ -2,14 +2,15 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/highest_mode.hpp"
 #include "abut/dynamics/mode_search.hpp"
-#include "abut/dynamics/power_iteration.hpp"
 
 using namespace abut;
 using dynamics::ModeSearch;
@@ -51,6 +52,28 @@ void iterate(ModeSearch& search, int iterations) {
     for (int i = 0; i < iterations; ++i) search.iterate();
 }
 
+/// The random field that both searches begin from.
+std::vector<double> random_field(std::size_t n) {
+    std::minstd_rand random(1);
+    std::vector<double> field(n);
+    for (double& value : field) value = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+    return field;
+}
+
+/// Rayleigh quotient before the last of so many products with W K.
+double quotient_of_power_iteration(const EvenChain& chain, std::vector<double> x, int products) {
+    std::vector<double> k_x(chain.size());
+    double quotient = 0.0;
+    for (int i = 0; i < products; ++i) {
+        chain.product()(x, k_x);
+        double stiffness = 0.0, mass = 0.0;
+        for (std::size_t k = 0; k < x.size(); ++k) stiffness += x[k] * k_x[k], mass += x[k] * x[k] / chain.weights[k];
+        quotient = stiffness / mass;
+        for (std::size_t k = 0; k < x.size(); ++k) x[k] = chain.weights[k] * k_x[k] / quotient;
+    }
+    return quotient;
+}
+
 }  // namespace
 
 TEST_CASE("mode search: the quotient rises to the highest eigenvalue and never above it", "[dynamics][mode-search]") {
@@ -78,11 +101,67 @@ TEST_CASE("mode search: the quotient rises to the highest eigenvalue and never a
 
 TEST_CASE("mode search: a third of the products of a power iteration gives more", "[dynamics][mode-search]") {
     const EvenChain chain(3000, GENERATE(1u, 2u, 3u));
-    const auto power = dynamics::highest_mode(chain.weights, chain.product());
+    const double power = quotient_of_power_iteration(chain, random_field(chain.size()), 75);
     ModeSearch search(chain.size(), chain.product());
     search.set_weights(chain.weights);
-    iterate(search, power.iterations / 3);
-    CHECK(search.quotient() > power.quotient);
+    iterate(search, 25);
+    CHECK(search.quotient() > power);
+}
+
+TEST_CASE("highest mode: below the highest eigenvalue by less than its margin, and above a power iteration from its start",
+          "[dynamics][mode-search]") {
+    const EvenChain chain(GENERATE(30u, 300u, 1000u), GENERATE(1u, 2u, 3u));
+    const auto mode = dynamics::highest_mode(chain.weights, chain.product());
+    CHECK(mode.change <= dynamics::settled_change);
+    CHECK(mode.quotient <= chain.highest() * (1.0 + 1e-13));
+    CHECK(dynamics::bound_of(mode) > std::sqrt(chain.highest()));
+    CHECK(mode.iterations < 60);
+    // The largest quotient of all that so many products span: in that is the iterate of the power iteration.
+    std::vector<double> start = random_field(chain.size());
+    for (std::size_t i = 0; i < start.size(); ++i) start[i] *= std::sqrt(chain.weights[i]);
+    CHECK(mode.quotient > quotient_of_power_iteration(chain, start, mode.iterations) * (1.0 - 1e-13));
+}
+
+TEST_CASE("highest mode: exact where it has seen all, and 0 where nothing resists or nothing is free",
+          "[dynamics][mode-search]") {
+    EvenChain chain(5);
+    const auto mode = dynamics::highest_mode(chain.weights, chain.product());
+    CHECK(mode.quotient == Approx(chain.highest()).epsilon(1e-13));
+    CHECK(mode.change == 0.0);
+    const auto nothing = [](std::span<const double>, std::span<double> k_x) { std::ranges::fill(k_x, 0.0); };
+    CHECK(dynamics::highest_mode(chain.weights, nothing).quotient == 0.0);
+    CHECK(dynamics::highest_mode(std::vector<double>(5, 0.0), chain.product()).quotient == 0.0);
+}
+
+TEST_CASE("highest mode: one light mass in an even chain of a million is not overlooked", "[dynamics][mode-search]") {
+    const double lighter = GENERATE(0.1, 0.2, 0.25, 0.3, 0.5);  // of the mass of the others
+    EvenChain chain(1'000'000);
+    std::ranges::fill(chain.stiffness, 1.0);
+    std::ranges::fill(chain.weights, 1.0);
+    chain.weights[GENERATE(345'678u, 777'777u)] = 1.0 / (1.0 - lighter);
+    // Its mode dies away on both sides, at omega^2 = 4/(1 - lighter^2): A. A. Maradudin et al., Theory of Lattice Dynamics.
+    const double omega = 2.0 / std::sqrt(1.0 - lighter * lighter);
+    CHECK(dynamics::bound_of(dynamics::highest_mode(chain.weights, chain.product())) > omega);
+}
+
+TEST_CASE("highest mode: what has no inverse mass is held", "[dynamics][mode-search]") {
+    EvenChain chain(300);
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        if (i % 7 < 2) chain.weights[i] = 0.0;
+    const auto mode = dynamics::highest_mode(chain.weights, chain.product());
+    CHECK(mode.quotient <= chain.highest() * (1.0 + 1e-13));
+    CHECK(dynamics::bound_of(mode) > std::sqrt(chain.highest()));
+}
+
+TEST_CASE("highest mode: the same bits on any number of threads", "[dynamics][mode-search][reproducible]") {
+    const EvenChain chain(20'000);
+    std::vector<double> quotients;
+    for (const std::size_t threads : {1u, 2u, 3u}) {
+        const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+        quotients.push_back(dynamics::highest_mode(chain.weights, chain.product()).quotient);
+    }
+    CHECK(quotients[1] == quotients[0]);
+    CHECK(quotients[2] == quotients[0]);
 }
 
 TEST_CASE("mode search: what has no weight is held, and other weights are gone on with", "[dynamics][mode-search]") {

@@ -7,7 +7,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/mass.hpp"
-#include "abut/dynamics/power_iteration.hpp"
+#include "abut/dynamics/highest_mode.hpp"
 #include "abut/ranks/point_ranks.hpp"
 #include "ranks/world.hpp"
 
@@ -123,8 +123,8 @@ TEST_CASE("products and the highest mode of a system over ranks have the bits of
                 k_x[i] = (1.0 + 1.0 / (1.0 + (numbers.empty() ? static_cast<std::int32_t>(i / 3) : numbers[i / 3]))) * x[i];
         };
     };
-    const auto whole = dynamics::highest_mode(inverse_all, product({}), {});
-    const auto shared = dynamics::highest_mode(inverse_mass, product(ranks.numbers()), {.ranks = &ranks});
+    const auto whole = dynamics::highest_mode(inverse_all, product({}));
+    const auto shared = dynamics::highest_mode(inverse_mass, product(ranks.numbers()), &ranks);
     CHECK(same_bits(whole.quotient, shared.quotient));
     CHECK(whole.iterations == shared.iterations);
 }
