@@ -36,6 +36,7 @@ void start(std::span<double> x, const Ranks* ranks) {
 }  // namespace
 
 /// In y = M^1/2 x, of which A = M^-1/2 K M^-1/2 is symmetric: A v_k = side_{k-1} v_{k-1} + diagonal_k v_k + side_k v_{k+1}.
+/// M is in units of its least mass, so that another unit of mass, a power of two of this one, changes no bit of a root.
 HighestMode highest_mode(std::span<const double> inverse_mass,
                          const std::function<void(std::span<const double> x, std::span<double> product)>& stiffness,
                          const Ranks* ranks) {
@@ -45,11 +46,13 @@ HighestMode highest_mode(std::span<const double> inverse_mass,
     const auto each = [n = static_cast<std::ptrdiff_t>(inverse_mass.size())](const auto& body) { parallel_each(n, body); };
     std::vector<double> root(inverse_mass.size()), v(root.size()), before(root.size(), 0.0), x(root.size()),
         k_x(root.size());
-    each([&](std::ptrdiff_t i) { root[i] = std::sqrt(inverse_mass[i]); });
+    double unit = largest(std::ssize(inverse_mass), [&](std::ptrdiff_t i) { return inverse_mass[i]; });
+    if (ranks) unit = ranks->largest(unit);
+    if (unit == 0.0) return {.quotient = 0.0, .change = 0.0, .iterations = 0};  // nothing is free
+    each([&](std::ptrdiff_t i) { root[i] = std::sqrt(inverse_mass[i] / unit); });
     start(v, ranks);
     each([&](std::ptrdiff_t i) { v[i] = root[i] > 0.0 ? v[i] : 0.0; });
     double side = std::sqrt(product(v, v));
-    if (side == 0.0) return {.quotient = 0.0, .change = 0.0, .iterations = 0};  // nothing is free
     each([&](std::ptrdiff_t i) { v[i] /= side; });
     side = 0.0;
 
@@ -76,6 +79,7 @@ HighestMode highest_mode(std::span<const double> inverse_mass,
         each([&](std::ptrdiff_t i) { before[i] /= side; });
         v.swap(before);
     }
+    mode.quotient *= unit;
     return mode;
 }
 

@@ -144,6 +144,15 @@ TEST_CASE("highest mode: one light mass in an even chain of a million is not ove
     CHECK(dynamics::bound_of(dynamics::highest_mode(chain.weights, chain.product())) > omega);
 }
 
+TEST_CASE("highest mode: units that are powers of two change no bit", "[dynamics][mode-search]") {
+    const EvenChain chain(300);
+    EvenChain other = chain;
+    for (double& weight : other.weights) weight *= 8.0;
+    for (double& stiffness : other.stiffness) stiffness *= 32.0;
+    CHECK(dynamics::highest_mode(other.weights, other.product()).quotient ==
+          256.0 * dynamics::highest_mode(chain.weights, chain.product()).quotient);
+}
+
 TEST_CASE("highest mode: what has no inverse mass is held", "[dynamics][mode-search]") {
     EvenChain chain(300);
     for (std::size_t i = 0; i < chain.size(); ++i)
