@@ -39,9 +39,12 @@ double largest_eigenvalue(std::span<const double> diagonal, std::span<const doub
     const auto vector_of = [](std::span<const double> values) {
         return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     };
+    // What Eigen takes for 0 there depends on the unit: it compares the square of a number with another one.
+    const double unit = vector_of(diagonal).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    if (!(unit > 0.0)) return unit;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-    solver.computeFromTridiagonal(vector_of(diagonal), vector_of(beside), Eigen::EigenvaluesOnly);
-    return solver.eigenvalues().maxCoeff();
+    solver.computeFromTridiagonal(vector_of(diagonal) / unit, vector_of(beside) / unit, Eigen::EigenvaluesOnly);
+    return unit * solver.eigenvalues().maxCoeff();
 }
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut) {

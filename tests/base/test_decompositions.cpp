@@ -31,6 +31,10 @@ TEST_CASE("the largest eigenvalue of a tridiagonal matrix is that of a chain of 
     CHECK(largest_eigenvalue(std::vector<double>(n, 2.0), std::vector<double>(n - 1, -1.0)) ==
           Approx(4.0 * std::pow(std::cos(angle), 2)).epsilon(rounding));
     CHECK(largest_eigenvalue(std::vector<double>{3.0}, {}) == 3.0);
+    CHECK(largest_eigenvalue(std::vector<double>(3, 0.0), std::vector<double>(2, 0.0)) == 0.0);
+    for (const double unit : {1e-60, 1e60})
+        CHECK(largest_eigenvalue(std::vector<double>{2.0 * unit, 2.0 * unit}, std::vector<double>{unit}) ==
+              Approx(3.0 * unit).epsilon(rounding));
 }
 
 TEST_CASE("the pseudo-inverse leaves out directions in which a matrix has next to nothing", "[base][decompositions]") {
