@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "abut/contact/nodal_contact.hpp"
+#include "abut/dynamics/highest_mode.hpp"
 #include "abut/dynamics/leapfrog.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/highest_mode.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 using namespace abut;

@@ -29,6 +29,7 @@ inline constexpr int resonance_layers = 5;
 inline constexpr double resonance = std::numbers::sqrt2;
 // Of the search for modes that are not allowed: before the first of them are looked at, before what is left of them is, and
 // before it may count as settled.
+inline constexpr double settled_change = 1e-4;  // of the quotient
 inline constexpr int first_iterations = 10, further_iterations = 4, least_iterations = 20, most_iterations = 1000;
 
 /// Level of each cell.
@@ -175,7 +176,7 @@ bool is_done(const dynamics::ModeSearch& search, double enough, int least_beyond
         throw BadInput("local steps: the search for the highest mode has not settled after " +
                        std::to_string(search.iterations()) +
                        " iterations. Check the mesh for slivers and the material for extreme values.");
-    return search.iterations() >= least_iterations && search.change() <= dynamics::settled_change;
+    return search.iterations() >= least_iterations && search.change() <= settled_change;
 }
 
 /// Moves cells to finer levels until the coarser ones are stable and away from what resonates with their steps. All levels

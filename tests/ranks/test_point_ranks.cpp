@@ -6,8 +6,8 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/vector.hpp"
-#include "abut/dynamics/mass.hpp"
 #include "abut/dynamics/highest_mode.hpp"
+#include "abut/dynamics/mass.hpp"
 #include "abut/ranks/point_ranks.hpp"
 #include "ranks/world.hpp"
 
