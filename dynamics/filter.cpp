@@ -1,10 +1,10 @@
 #include "abut/dynamics/filter.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 
@@ -87,10 +87,10 @@ private:
             row << hold.direction, moment<Dim>((hold.position - centre) / radius, hold.direction);
             held += row * row.transpose();
         }
-        const Eigen::SelfAdjointEigenSolver<Square> eigen(held);  // eigenvalues increase
-        const double limit = not_held * eigen.eigenvalues()[n_motions - 1];
-        const auto n_free = std::ranges::count_if(eigen.eigenvalues(), [&](double value) { return value <= limit; });
-        return eigen.eigenvectors().leftCols(n_free);
+        const auto eigen = symmetric_eigen(Eigen::MatrixXd(held));
+        const double limit = not_held * eigen.values[n_motions - 1];
+        const auto n_free = std::ranges::count_if(eigen.values, [&](double value) { return value <= limit; });
+        return eigen.vectors.leftCols(n_free);
     }
 
     std::vector<Vector<Dim>> arm_;  // from the centre of mass, over the radius of gyration

@@ -1,11 +1,11 @@
 #include "abut/dynamics/mode_search.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 
@@ -32,10 +32,11 @@ struct ResidualProducts {
 /// What maximises the Rayleigh quotient in the span of the first N of three vectors, with u . W^-1 u = 1.
 template <int N>
 Eigen::Vector3d largest_in_span(const Eigen::Matrix3d& stiffness, const Eigen::Matrix3d& mass) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(stiffness.topLeftCorner<N, N>(),
-                                                                                       mass.topLeftCorner<N, N>());
+    const Eigen::LLT<Matrix<N>> factor(mass.topLeftCorner<N, N>());
+    const Matrix<N> half = factor.matrixL().solve(Matrix<N>(stiffness.topLeftCorner<N, N>()));
+    const Matrix<N> reduced = factor.matrixL().solve(Matrix<N>(half.transpose()));
     Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
-    coefficients.head<N>() = solver.eigenvectors().col(N - 1);
+    coefficients.head<N>() = factor.matrixU().solve(Vector<N>(symmetric_eigen(reduced).vectors.col(N - 1)));
     return coefficients;
 }
 
