@@ -1,8 +1,8 @@
 # abut_layer(<name> SOURCES ... HEADERS ... [DEPENDS layers...] [PUBLIC targets...] [PRIVATE targets...])
 #
 # One library a layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
-# relative to the layer's folder. HEADERS become a file set that is installed under include/abut/<name> and whose members
-# are compiled on their own by the target all_verify_interface_header_sets. DEPENDS are lower layers. PRIVATE are the back
+# relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them compiles
+# on its own: the source of the same name includes it first, or the target all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back
 # ends, which no user ever sees; cmake/AbutDependencies.cmake finds their packages.
 #
 # abut_install_package() once, after the layers: what find_package(abut) reads.
@@ -30,6 +30,18 @@ if(ABUT_SANITIZE)
   target_link_options(abut_compile_options INTERFACE -fsanitize=${ABUT_SANITIZE})
 endif()
 
+# Whether the first include of the source of the same name is this header.
+function(abut_is_first_include result layer header)
+  set(${result} FALSE PARENT_SCOPE)
+  cmake_path(REPLACE_EXTENSION header LAST_ONLY cpp OUTPUT_VARIABLE source)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} first_include REGEX "^#include" LIMIT_COUNT 1)
+    if(first_include STREQUAL "#include \"abut/${layer}/${header}\"")
+      set(${result} TRUE PARENT_SCOPE)
+    endif()
+  endif()
+endfunction()
+
 function(abut_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;DEPENDS;PUBLIC;PRIVATE")
   set(target abut_${name})
@@ -37,13 +49,20 @@ function(abut_layer name)
   add_library(abut::${name} ALIAS ${target})
 
   # Through the link include/abut, so that a header is found as "abut/<layer>/<name>.hpp" here and where it is installed.
-  set(headers "")
+  set(seen "")
+  set(unseen "")
   foreach(header IN LISTS layer_HEADERS)
+    abut_is_first_include(is_seen ${name} ${header})
     cmake_path(ABSOLUTE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut/${name})
-    list(APPEND headers ${header})
+    if(is_seen)
+      list(APPEND seen ${header})
+    else()
+      list(APPEND unseen ${header})
+    endif()
   endforeach()
-  target_sources(${target} PUBLIC FILE_SET HEADERS
-    BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers})
+  target_sources(${target} PUBLIC
+    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${seen}
+    FILE_SET unseen TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${unseen})
 
   list(TRANSFORM layer_DEPENDS PREPEND abut:: OUTPUT_VARIABLE lower_layers)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -60,12 +79,12 @@ function(abut_layer name)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
   endif()
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON POSITION_INDEPENDENT_CODE ON
+    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY unseen POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
 
   abut_install_layer(${name} "${layer_DEPENDS}" "${layer_PUBLIC}" "${layer_PRIVATE}")
   set_property(GLOBAL APPEND PROPERTY abut_layers ${name})
-  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${headers})
+  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${seen} ${unseen})
 endfunction()
 
 # The library, its headers, its targets and a list of what has to be found before them. A shared library brings its back
@@ -74,7 +93,8 @@ function(abut_install_layer name lower_layers public_targets private_targets)
   install(TARGETS abut_${name} EXPORT abut_${name}
     LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
     ARCHIVE COMPONENT development
-    FILE_SET HEADERS COMPONENT development)
+    FILE_SET HEADERS COMPONENT development
+    FILE_SET unseen COMPONENT development)
   install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake
     COMPONENT development)
 
