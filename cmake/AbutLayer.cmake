@@ -1,9 +1,10 @@
 # abut_layer(<name> SOURCES ... HEADERS ... [DEPENDS layers...] [PUBLIC targets...] [PRIVATE targets...])
 #
-# One library a layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
-# relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them compiles
-# on its own: the source of the same name includes it first, or the target all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back
-# ends, which no user ever sees; cmake/AbutDependencies.cmake finds their packages.
+# One library per layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
+# relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them
+# compiles on its own: the source of the same name includes it first, or the target all_verify_interface_header_sets
+# compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever sees; cmake/AbutDependencies.cmake
+# finds their packages.
 #
 # abut_install_package() once, after the layers: what find_package(abut) reads.
 
