@@ -12,6 +12,10 @@ if(Kokkos_FOUND AND TARGET trilinos_kokkoscore)
   set_target_properties(Kokkos::kokkos PROPERTIES
     INTERFACE_INCLUDE_DIRECTORIES ${Kokkos_INCLUDE_DIR} INTERFACE_LINK_LIBRARIES trilinos_kokkoscore)
 endif()
+if(Kokkos_ENABLE_CUDA AND TARGET Kokkos::kokkoscore)
+  # The host's compiler links, which knows no options of that of Kokkos: nothing is left to do for the code of the device.
+  set_target_properties(Kokkos::kokkoscore PROPERTIES INTERFACE_LINK_OPTIONS "")
+endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(Kokkos CONFIG_MODE)

@@ -41,10 +41,12 @@ public:
 private:
     Runtime() {
         if (Kokkos::is_initialized()) return;
-#if KOKKOS_VERSION >= 40300
-        if (Kokkos::num_devices() == 0)
+#ifdef KOKKOS_ENABLE_CUDA
+        // Kokkos itself ends the program where there is none.
+        int n_devices = 0;
+        if (const cudaError_t error = cudaGetDeviceCount(&n_devices); error != cudaSuccess)
             throw BadInput(std::string("this machine has no device for Kokkos, which was built for ") + Execution::name() +
-                           ". Take StepDevice::host (--device host).");
+                           " (" + cudaGetErrorString(error) + "). Take StepDevice::host (--device host).");
 #endif
         Kokkos::initialize();
         is_ours_ = true;
