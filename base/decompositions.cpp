@@ -39,7 +39,8 @@ double largest_eigenvalue(std::span<const double> diagonal, std::span<const doub
     const auto vector_of = [](std::span<const double> values) {
         return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     };
-    // What Eigen takes for 0 there depends on the unit: it compares the square of a number with another one.
+    // Eigen drops a number b beside the diagonal where (b/epsilon)^2 <= |a_i| + |a_i+1|, which depends on the unit: so the
+    // largest number on the diagonal is 1.
     const double unit = vector_of(diagonal).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!(unit > 0.0)) return unit;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;

@@ -2,8 +2,8 @@
 #
 # One library per layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
 # relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them
-# compiles on its own: the source of the same name includes it first, or the target all_verify_interface_header_sets
-# compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever sees; cmake/AbutDependencies.cmake
+# compiles on its own: the source of the same name includes it first, as CMake finds when it configures, or the target
+# all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever sees; cmake/AbutDependencies.cmake
 # finds their packages.
 #
 # abut_install_package() once, after the layers: what find_package(abut) reads.
@@ -35,7 +35,7 @@ endif()
 function(abut_is_first_include result layer header)
   set(${result} FALSE PARENT_SCOPE)
   cmake_path(REPLACE_EXTENSION header LAST_ONLY cpp OUTPUT_VARIABLE source)
-  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+  if(source IN_LIST layer_SOURCES)
     file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} first_include REGEX "^#include" LIMIT_COUNT 1)
     if(first_include STREQUAL "#include \"abut/${layer}/${header}\"")
       set(${result} TRUE PARENT_SCOPE)
@@ -50,20 +50,20 @@ function(abut_layer name)
   add_library(abut::${name} ALIAS ${target})
 
   # Through the link include/abut, so that a header is found as "abut/<layer>/<name>.hpp" here and where it is installed.
-  set(seen "")
-  set(unseen "")
+  set(headers_of_sources "")
+  set(headers_to_verify "")
   foreach(header IN LISTS layer_HEADERS)
-    abut_is_first_include(is_seen ${name} ${header})
+    abut_is_first_include(is_first_include ${name} ${header})
     cmake_path(ABSOLUTE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut/${name})
-    if(is_seen)
-      list(APPEND seen ${header})
+    if(is_first_include)
+      list(APPEND headers_of_sources ${header})
     else()
-      list(APPEND unseen ${header})
+      list(APPEND headers_to_verify ${header})
     endif()
   endforeach()
   target_sources(${target} PUBLIC
-    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${seen}
-    FILE_SET unseen TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${unseen})
+    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers_of_sources}
+    FILE_SET headers_to_verify TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers_to_verify})
 
   list(TRANSFORM layer_DEPENDS PREPEND abut:: OUTPUT_VARIABLE lower_layers)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -80,12 +80,12 @@ function(abut_layer name)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
   endif()
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY unseen POSITION_INDEPENDENT_CODE ON
+    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY headers_to_verify POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
 
   abut_install_layer(${name} "${layer_DEPENDS}" "${layer_PUBLIC}" "${layer_PRIVATE}")
   set_property(GLOBAL APPEND PROPERTY abut_layers ${name})
-  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${seen} ${unseen})
+  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${headers_of_sources} ${headers_to_verify})
 endfunction()
 
 # The library, its headers, its targets and a list of what has to be found before them. A shared library brings its back
@@ -95,7 +95,7 @@ function(abut_install_layer name lower_layers public_targets private_targets)
     LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
     ARCHIVE COMPONENT development
     FILE_SET HEADERS COMPONENT development
-    FILE_SET unseen COMPONENT development)
+    FILE_SET headers_to_verify COMPONENT development)
   install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake
     COMPONENT development)
 

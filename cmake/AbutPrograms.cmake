@@ -1,6 +1,7 @@
 # What keeps a build from scratch short where most of its time goes: programs, studies and tests, which drive the library.
 
-# Options of programs: those of the library, except in a build for tests, where only the library is optimised as it will be used.
+# Options of programs: those of the library, except in a build for tests, where only the library is optimised as it will be
+# used, without its layers run and input.
 add_library(abut_program_options INTERFACE)
 target_link_libraries(abut_program_options INTERFACE abut_compile_options)
 target_compile_options(abut_program_options INTERFACE $<$<CONFIG:RelWithDebInfo>:-O1>)

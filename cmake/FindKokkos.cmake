@@ -13,7 +13,8 @@ if(Kokkos_FOUND AND TARGET trilinos_kokkoscore)
     INTERFACE_INCLUDE_DIRECTORIES ${Kokkos_INCLUDE_DIR} INTERFACE_LINK_LIBRARIES trilinos_kokkoscore)
 endif()
 if(Kokkos_ENABLE_CUDA AND TARGET Kokkos::kokkoscore)
-  # The host's compiler links, which knows no options of that of Kokkos: nothing is left to do for the code of the device.
+  # The host's compiler links and does not know the options of that of Kokkos. Code of the device needs no link step of its
+  # own, unless Kokkos was built with relocatable device code, which its default is not.
   set_target_properties(Kokkos::kokkoscore PROPERTIES INTERFACE_LINK_OPTIONS "")
 endif()
 

@@ -12,7 +12,7 @@ namespace abut::dynamics {
 namespace {
 
 inline constexpr int least_iterations = 16, most_iterations = 1000;
-// Of the quotient: below, the products span all that the start has a part of, and what is left is rounding.
+// Side over quotient: below this the products span all that the start has a part of, and the rest is rounding.
 inline constexpr double exhausted = 1e-12;
 
 /// The same numbers for any number of ranks: each takes those of its points.
@@ -44,40 +44,41 @@ HighestMode highest_mode(std::span<const double> inverse_mass,
         return ranks ? dot_product_over(*ranks, a, b) : dot_product(a, b);
     };
     const auto each = [n = static_cast<std::ptrdiff_t>(inverse_mass.size())](const auto& body) { parallel_each(n, body); };
-    std::vector<double> root(inverse_mass.size()), v(root.size()), before(root.size(), 0.0), x(root.size()),
-        k_x(root.size());
+    // `other` holds v_{k-1}, then side_k v_{k+1}.
+    std::vector<double> root(inverse_mass.size()), v(root.size()), other(root.size(), 0.0), x(root.size()), k_x(root.size());
     double unit = largest(std::ssize(inverse_mass), [&](std::ptrdiff_t i) { return inverse_mass[i]; });
     if (ranks) unit = ranks->largest(unit);
     if (unit == 0.0) return {.quotient = 0.0, .change = 0.0, .iterations = 0};  // nothing is free
     each([&](std::ptrdiff_t i) { root[i] = std::sqrt(inverse_mass[i] / unit); });
     start(v, ranks);
     each([&](std::ptrdiff_t i) { v[i] = root[i] > 0.0 ? v[i] : 0.0; });
-    double side = std::sqrt(product(v, v));
-    each([&](std::ptrdiff_t i) { v[i] /= side; });
-    side = 0.0;
+    const double length = std::sqrt(product(v, v));
+    each([&](std::ptrdiff_t i) { v[i] /= length; });
 
+    double side = 0.0;
     std::vector<double> diagonal, sides;
     HighestMode mode{.quotient = 0.0, .change = std::numeric_limits<double>::infinity(), .iterations = 0};
     while (mode.iterations < most_iterations) {
         each([&](std::ptrdiff_t i) { x[i] = root[i] * v[i]; });
         stiffness(x, k_x);
-        each([&](std::ptrdiff_t i) { before[i] = root[i] * k_x[i] - side * before[i]; });
-        diagonal.push_back(product(before, v));
-        each([&](std::ptrdiff_t i) { before[i] -= diagonal.back() * v[i]; });
-        side = std::sqrt(product(before, before));
+        each([&](std::ptrdiff_t i) { other[i] = root[i] * k_x[i] - side * other[i]; });
+        diagonal.push_back(product(other, v));
+        each([&](std::ptrdiff_t i) { other[i] -= diagonal.back() * v[i]; });
+        side = std::sqrt(product(other, other));
 
         const double quotient = largest_eigenvalue(diagonal, sides);
         mode.change = std::abs(quotient - mode.quotient) / quotient;
         mode.quotient = quotient;
         ++mode.iterations;
-        if (!(side > exhausted * quotient)) {
+        if (side <= exhausted * quotient) {
             mode.change = 0.0;
             break;
         }
+        if (std::isnan(side)) break;  // as is the change: a product is not a number
         if (mode.iterations >= least_iterations && mode.change <= settled_change) break;
         sides.push_back(side);
-        each([&](std::ptrdiff_t i) { before[i] /= side; });
-        v.swap(before);
+        each([&](std::ptrdiff_t i) { other[i] /= side; });
+        v.swap(other);
     }
     mode.quotient *= unit;
     return mode;

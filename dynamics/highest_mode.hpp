@@ -19,8 +19,8 @@ concept StiffnessProductSystem = requires(S& system, std::span<const double> q, 
 
 /// The highest mode of M^-1 K.
 struct HighestMode {
-    double quotient;  ///< largest Rayleigh quotient omega^2 [1/s^2], a lower bound of the true one; 0 where nothing resists
-    double change;    ///< relative change of the last iteration
+    double quotient;  ///< omega^2 [1/s^2], at most the largest eigenvalue; 0 where nothing resists or nothing is free
+    double change;    ///< of it, relative, in the last iteration; 0 where the products span nothing new
     int iterations;
 };
 
@@ -30,8 +30,8 @@ inline constexpr double lower_bound_margin = 1.02;  ///< of omega: a Rayleigh qu
 /// The frequency that steps are chosen for: the estimate times its margin [rad/s].
 [[nodiscard]] inline double bound_of(const HighestMode& mode) { return lower_bound_margin * std::sqrt(mode.quotient); }
 
-/// The iteration of Lanczos from a fixed start, without reorthogonalization, which the largest quotient does not need: at
-/// least 16 products and until the quotient has settled, at most 1,000. `stiffness` sets product = K x; M is diagonal, 1/m in
+/// The iteration of Lanczos from a fixed start, without reorthogonalization: at least 16 products and until the quotient has
+/// settled, fewer where they span nothing new before, at most 1,000. `stiffness` sets product = K x; M is diagonal, 1/m in
 /// `inverse_mass` (n) [1/kg], 0 for a degree of freedom that is held. `ranks`: whose values these are a part of; null: all
 /// are here. C. Lanczos, J. Res. Natl. Bur. Stand. 45 (1950) 255-282; docs/method.md, Space, says how near it comes.
 [[nodiscard]] HighestMode highest_mode(

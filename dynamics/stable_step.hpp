@@ -33,8 +33,8 @@ namespace detail {
 void require_settled(const HighestMode& mode);
 }  // namespace detail
 
-/// From the highest mode of M^-1 K. Throws BadInput if the search for it does not settle. Infinite where nothing resists, as
-/// of free rigid bodies.
+/// From the highest mode of M^-1 K. Throws BadInput if the search for it does not settle. Infinite where nothing resists or
+/// is free, as of free rigid bodies.
 template <StiffnessProductSystem S>
 [[nodiscard]] StableStep stable_step(S& system) {
     const HighestMode mode = highest_mode(system);

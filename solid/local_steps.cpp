@@ -27,10 +27,10 @@ inline constexpr int stable_layers = 2;
 // grows from rounding with one layer above and three here, and does not within 10,000 steps with two and five.
 inline constexpr int resonance_layers = 5;
 inline constexpr double resonance = std::numbers::sqrt2;
-// Of the search for modes that are not allowed: before the first of them are looked at, before what is left of them is, and
-// before it may count as settled.
-inline constexpr double settled_change = 1e-4;  // of the quotient
+// Of the search for modes that are not allowed, iterations: before the first of them are looked at, before what is left of
+// them is, and before it may count as settled.
 inline constexpr int first_iterations = 10, further_iterations = 4, least_iterations = 20, most_iterations = 1000;
+inline constexpr double settled_search_change = 1e-4;  // of its quotient
 
 /// Level of each cell.
 using Levels = std::vector<std::int32_t>;
@@ -176,7 +176,7 @@ bool is_done(const dynamics::ModeSearch& search, double enough, int least_beyond
         throw BadInput("local steps: the search for the highest mode has not settled after " +
                        std::to_string(search.iterations()) +
                        " iterations. Check the mesh for slivers and the material for extreme values.");
-    return search.iterations() >= least_iterations && search.change() <= settled_change;
+    return search.iterations() >= least_iterations && search.change() <= settled_search_change;
 }
 
 /// Moves cells to finer levels until the coarser ones are stable and away from what resonates with their steps. All levels

@@ -42,9 +42,9 @@ private:
     Runtime() {
         if (Kokkos::is_initialized()) return;
 #ifdef KOKKOS_ENABLE_CUDA
-        // Kokkos itself ends the program where there is none.
+        // Kokkos itself ends the program where there is none; of its other devices nobody has tried what they do.
         int n_devices = 0;
-        if (const cudaError_t error = cudaGetDeviceCount(&n_devices); error != cudaSuccess)
+        if (const cudaError_t error = cudaGetDeviceCount(&n_devices); error != cudaSuccess || n_devices == 0)
             throw BadInput(std::string("this machine has no device for Kokkos, which was built for ") + Execution::name() +
                            " (" + cudaGetErrorString(error) + "). Take StepDevice::host (--device host).");
 #endif

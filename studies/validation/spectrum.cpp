@@ -4,8 +4,8 @@
 // rho h^d omega^2 times the wave, with rho h^2 omega^2 = M sin^2 theta + 4 eta sin^6(theta/2), theta = k h,
 // M = lambda + 2 mu (P) or mu (S). Expect 1e-12 of the highest in the interior of a strip held as plane_wave.hpp says.
 // For nu = 0, eta = E the highest of these is 2 c/h, c = sqrt(E/rho): dt < h/c in one dimension. Cells that alternate in all
-// directions go beyond it, by sqrt(d) on a large mesh: dt < h/(c sqrt d). The stable step of the library, from a power
-// iteration times 1.02, has to enclose the highest frequency of the strip.
+// directions go beyond it, by sqrt(d) on a large mesh: dt < h/(c sqrt d). The stable step of the library, from a Lanczos
+// iteration, times 1.02, has to enclose the highest frequency of the strip.
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
