@@ -3,8 +3,8 @@
 # One library per layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
 # relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them
 # compiles on its own: the source of the same name includes it first, as CMake finds when it configures, or the target
-# all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever sees; cmake/AbutDependencies.cmake
-# finds their packages.
+# all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever
+# sees; cmake/AbutDependencies.cmake finds their packages.
 #
 # abut_install_package() once, after the layers: what find_package(abut) reads.
 
@@ -80,7 +80,8 @@ function(abut_layer name)
     set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
   endif()
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY headers_to_verify POSITION_INDEPENDENT_CODE ON
+    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+    VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY headers_to_verify
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
 
   abut_install_layer(${name} "${layer_DEPENDS}" "${layer_PUBLIC}" "${layer_PRIVATE}")

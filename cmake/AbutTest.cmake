@@ -10,7 +10,8 @@ function(abut_test name)
   add_executable(test_${name} ${test_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${test_LINK} abut_test_main abut_compile_options)
-  # What is under test is optimised as it will be used, except run and input; its tests compile in two thirds of the time without.
+  # What is under test is optimised as it will be used, except run and input; its tests compile in two thirds of the time
+  # without.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
   abut_join_sources(test_${name})
   # Catch2 2.13 asks the finished program for its test cases right after linking it; it has no DISCOVERY_MODE.

@@ -205,6 +205,16 @@ TEST_CASE("a step above the stable one is refused, whether dt or cfl asks for it
     CHECK_NOTHROW(static_cast<void>(run::simulate<2>(scene, {.steps = 1, .cfl = 1.2, .allow_unstable = true})));
 }
 
+TEST_CASE("a rigid body that touches nothing has no longest step: a run asks for one by dt", "[run]") {
+    run::Scene<2> scene = test::block_on_plane(0.01);
+    scene.contact = false;
+    scene.solid.obstacles.clear();
+    scene.solid.kinematics = {solid::Kinematics::rigid};
+    CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, {.steps = 1})),
+                      Catch::Matchers::StartsWith("--cfl: ") && Catch::Matchers::Contains("Give one by --dt"));
+    CHECK(run::simulate<2>(scene, {.steps = 1, .dt = 100.0}).steps == 1);
+}
+
 TEST_CASE("a run takes as many steps as reach its end, rounding aside", "[run]") {
     CHECK(run::steps_until(0.07, 0.01) == 7);  // 0.07 / 0.01 is 7.000000000000001 in doubles
     CHECK(run::steps_until(0.0701, 0.01) == 8);
