@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 
+#include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/simd.hpp"
+#include "abut/contact/messages.hpp"
 #include "abut/contact/overlap_checks.hpp"
 #include "abut/contact/pair.hpp"
 #include "abut/geometry/overlap/batch.hpp"
@@ -57,11 +59,20 @@ struct ProjectedPair {
 
     ProjectedPair(const Scene<Dim>& scene, IndexPair pair)
         : frame(pair_normal(scene.surface, pair.first, pair.second)),
-          size_1(scene.n_corners(pair.first)),
-          size_2(scene.n_corners(pair.second)) {
+          size_1(checked_size(scene, pair.first)),
+          size_2(checked_size(scene, pair.second)) {
         const Vector<Dim>& origin = scene.corner(pair.first, 0);
         project_face<Dim>(scene.surface, pair.first, origin, Vector<Dim>::Zero(), frame, corners_1.begin());
         project_face<Dim>(scene.surface, pair.second, origin, scene.motion(pair), frame, corners_2.begin());
+    }
+    static int checked_size(const Scene<Dim>& scene, std::int32_t face) {
+        const int n = scene.n_corners(face);
+        if (n > geometry::max_polygon_vertices)
+            throw BadInput("overlaps: " + face_name(scene.surface, face) + " has " + std::to_string(n) +
+                               " corners, at most " + std::to_string(geometry::max_polygon_vertices) +
+                               " are allowed. Cut it into triangles.",
+                           {.face_1 = face, .value = static_cast<double>(n), .allowed = geometry::max_polygon_vertices});
+        return n;
     }
     [[nodiscard]] geometry::ProjectedFace<Dim> face_1() const {
         return {corners_1.data(), static_cast<std::size_t>(size_1)};

@@ -3,8 +3,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cassert>
+#include <string>
 
+#include "abut/base/error.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
 
 namespace abut::geometry {
@@ -57,7 +58,10 @@ private:
 }  // namespace
 
 std::vector<LocalTriangle> cut_into_triangles(FaceVertices<3> polygon) {
-    assert(polygon.size() <= static_cast<std::size_t>(max_polygon_vertices));
+    if (polygon.size() > static_cast<std::size_t>(max_polygon_vertices))
+        throw BadInput("a polygon has " + std::to_string(polygon.size()) + " corners, at most " +
+                           std::to_string(max_polygon_vertices) + " are allowed. Cut it into smaller ones.",
+                       {.value = static_cast<double>(polygon.size()), .allowed = static_cast<double>(max_polygon_vertices)});
     if (polygon.size() < 3) return {};
     if (polygon.size() == 3) return {{0, 1, 2}};
     std::vector<LocalTriangle> triangles;

@@ -149,6 +149,9 @@ struct Polygon {
 
     Polygon(ProjectedFace<3> face, const PlaneVector<3>& origin, const PlaneVector<3>& shift)
         : size(static_cast<int>(face.size())) {
+        if (face.size() > vertices.size())
+            throw BadInput("overlap: a face has " + std::to_string(face.size()) + " corners, at most " +
+                           std::to_string(max_polygon_vertices) + " are allowed. Cut it into smaller ones.");
         for (int i = 0; i < size; ++i) vertices[i] = (face[i] - origin) + shift;
     }
     const PlaneVector<3>& end(int i) const { return vertices[i + 1 == size ? 0 : i + 1]; }

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "abut/geometry/pair_potential/kernel.hpp"
 #include "abut/geometry/pair_potential/pair_frame.hpp"
@@ -54,12 +55,17 @@ struct PairPath {
     double distance;          ///< largest |Delta z|
 };
 
+constexpr std::size_t most_cuts = 8;  // of the event functions in 2D
+
 /// Ends of the pieces of a step, ascending from 0 to 1.
 struct Cuts {
-    std::array<double, 10> at{0.0, 1.0};
+    std::array<double, most_cuts + 2> at{0.0, 1.0};
     int pieces = 1;
 
+    /// 0 <= s <= 1; anything else cuts nothing.
     void insert(double s) {
+        if (!(s >= 0.0 && s <= 1.0)) return;
+        if (pieces == static_cast<int>(most_cuts) + 1) throw std::logic_error("pair potential: more cuts than events");
         int i = ++pieces;
         for (; at[i - 1] > s; --i) at[i] = at[i - 1];
         at[i] = s;
@@ -72,7 +78,7 @@ void cut_at_root(double a, double b, Cuts& cuts) {
 }
 
 /// Distance of the corners of each face from the line of the other, times its length, and of ends along the pair.
-std::array<double, 8> event_functions(const PairCorners<2>& z) {
+std::array<double, most_cuts> event_functions(const PairCorners<2>& z) {
     const auto beside = [&](int corner, int face) {
         const Vector<2>&start = z[2 * face], edge = z[2 * face + 1] - start, from = z[corner] - start;
         return edge[0] * from[1] - edge[1] * from[0];

@@ -1,7 +1,9 @@
 #include "abut/geometry/pair_potential/plane_overlap.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <stdexcept>
 
 namespace abut::geometry {
 namespace {
@@ -11,9 +13,32 @@ constexpr double no_area = 1e-15;  // of the product of the lengths of two edges
 
 double cross(const Vector<2>& a, const Vector<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Cuts a polygon by the line on which `value` is 0, and keeps what has less. A new corner is on `line`, and on all that the
-/// corner is on whose place it takes, up to rounding.
-void cut(PlanePolygon& polygon, const std::array<double, 8>& value, LineSet line) {
+using CornerValues = std::array<double, PlanePolygon::capacity>;
+
+/// How often the sign changes around the polygon.
+int sign_changes(const CornerValues& value, int size) {
+    unsigned negative = 0;
+    for (int i = 0; i < size; ++i) negative |= static_cast<unsigned>(value[i] < 0.0) << i;
+    const unsigned of_next = negative >> 1 | (negative & 1u) << (size - 1);
+    return std::popcount(negative ^ of_next);
+}
+
+/// A line enters and leaves a convex polygon once. Corners that rounding puts below 0 apart from the run around the lowest one
+/// are on the line.
+void keep_one_run(CornerValues& value, int size) {
+    const int lowest = static_cast<int>(std::min_element(value.begin(), value.begin() + size) - value.begin());
+    std::array<bool, PlanePolygon::capacity> is_kept{};
+    for (int i = lowest; value[i] < 0.0 && !is_kept[i]; i = i + 1 < size ? i + 1 : 0) is_kept[i] = true;
+    is_kept[lowest] = false;
+    for (int i = lowest; value[i] < 0.0 && !is_kept[i]; i = i > 0 ? i - 1 : size - 1) is_kept[i] = true;
+    for (int i = 0; i < size; ++i)
+        if (!is_kept[i]) value[i] = std::max(value[i], 0.0);
+}
+
+/// Cuts a polygon by the line on which `value` is 0, and keeps what has less: one corner more at most, whatever rounding has
+/// done to it. A new corner is on `line`, and on all that the corner is on whose place it takes, up to rounding.
+void cut(PlanePolygon& polygon, CornerValues& value, LineSet line) {
+    if (sign_changes(value, polygon.size) > 2) keep_one_run(value, polygon.size);
     PlanePolygon kept;
     for (int i = 0; i < polygon.size; ++i) {
         const int next = i + 1 < polygon.size ? i + 1 : 0;
@@ -32,7 +57,7 @@ void cut(PlanePolygon& polygon, const std::array<double, 8>& value, LineSet line
 void cut_by_edge(PlanePolygon& polygon, const Vector<2>& start, const Vector<2>& end, LineSet line) {
     const Vector<2> along = end - start;
     const double tolerance = tie * along.squaredNorm();
-    std::array<double, 8> outside;
+    CornerValues outside;
     for (int i = 0; i < polygon.size; ++i) {
         // face 2 runs clockwise: its inside is on the right
         outside[i] = cross(along, polygon.corner[i].at - start);
@@ -49,6 +74,10 @@ Vector<2> nearest_on(const Vector<2>& a, const Vector<2>& b, const Vector<2>& po
 
 }  // namespace
 
+void refuse_corner() {
+    throw std::logic_error("pair potential: a polygon with more corners than a cut of triangles can have");
+}
+
 PlanePolygon overlap_in_plane(const std::array<Vector<2>, 6>& corners) {
     PlanePolygon polygon;
     constexpr std::array<LineSet, 3> lines_at_corner{0b101, 0b011, 0b110};  // those of the edges that meet there
@@ -59,7 +88,7 @@ PlanePolygon overlap_in_plane(const std::array<Vector<2>, 6>& corners) {
 }
 
 void keep_negative_gap(PlanePolygon& polygon) {
-    std::array<double, 8> gap;
+    CornerValues gap;
     bool all_negative = true;
     for (int i = 0; i < polygon.size; ++i) {
         gap[i] = polygon.corner[i].gap;

@@ -23,12 +23,21 @@ struct PlaneCorner {
     double gap;
 };
 
-/// A convex polygon, counter-clockwise. Two triangles share at most six corners; cutting by g = 0 adds one.
+/// Throws std::logic_error.
+[[noreturn]] void refuse_corner();
+
+/// A polygon that is convex up to rounding, counter-clockwise. It begins as a triangle; each of at most four cuts adds one
+/// corner at most.
 struct PlanePolygon {
-    std::array<PlaneCorner, 8> corner;
+    static constexpr int capacity = 8;
+
+    std::array<PlaneCorner, capacity> corner;
     int size = 0;
 
-    void append(const PlaneCorner& added) { corner[static_cast<std::size_t>(size++)] = added; }
+    void append(const PlaneCorner& added) {
+        if (size == capacity) refuse_corner();
+        corner[static_cast<std::size_t>(size++)] = added;
+    }
 };
 
 /// What two triangles share: corners 0 to 2 counter-clockwise, 3 to 5 clockwise. Gaps are not set. An edge of the overlap

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "abut/geometry/pair_potential/plane_overlap.hpp"
 #include "geometry/random_pairs.hpp"
 #include "support/worst.hpp"
 
@@ -390,4 +391,51 @@ TEMPLATE_TEST_CASE_SIG("an outlook holds wherever the corners go within reach", 
     CHECK(kept > 500);
     CHECK(apart > 1000);
     CHECK(beside > 1000);
+}
+
+TEST_CASE("each cut adds at most one corner to an overlap, whatever rounding does to its corners", "[pair_potential]") {
+    // Triangles on both sides of a shared edge, slivers and corners on each other's edges: all that lies on lines except for
+    // rounding, in a plane turned freely.
+    std::mt19937 random(19);
+    int degenerate = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const auto any = [&] { return Vector<2>(uniform(random, -1.0, 1.0), uniform(random, -1.0, 1.0)); };
+        const Vector<2> a = any(), b = any();
+        const auto on_edge = [&] { return Vector<2>(a + uniform(random, -0.5, 1.5) * (b - a)); };
+        std::array<Vector<2>, 6> corners{a, b, i % 3 == 0 ? on_edge() : any(), i % 2 == 0 ? any() : on_edge(), b, a};
+        if (i % 5 == 0) corners[4] = on_edge();
+        if (i % 7 == 0) corners[5] = on_edge();
+        PlanePolygon polygon = overlap_in_plane(corners);
+        REQUIRE(polygon.size <= 6);
+        if (polygon.size > 0 && !has_area(polygon, corners)) ++degenerate;
+        for (int k = 0; k < polygon.size; ++k)
+            polygon.corner[k].gap = uniform(random, -1.0, 1.0);  // as far from linear as any
+        keep_negative_gap(polygon);
+        REQUIRE(polygon.size <= 7);
+        for (int k = 0; k < polygon.size; ++k) REQUIRE(polygon.corner[k].at.allFinite());
+    }
+    CHECK(degenerate > 1000);
+}
+
+TEST_CASE("two triangles on both sides of a shared edge have no energy, wherever they are turned to", "[pair_potential]") {
+    std::mt19937 random(20);
+    double energy = 0.0, force = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+        const Matrix<3> turn = random_turn<3>(random, 3.0);
+        const Vector<3> by = random_vector<3>(random, 1.0);
+        const Vector<3> a = turn * Vector<3>(0, 0, 0) + by, b = turn * Vector<3>(0.3, 0.2, 0) + by,
+                        c = turn * Vector<3>(-0.1, 0.25, 0) + by, d = turn * Vector<3>(0.2, -0.2, 0) + by;
+        // face 1 is (a, b, c), face 2 looks against it on the other side of the edge from a to b
+        const PairCorners<3> x_0{a, b, c, d, b, a};
+        PairCorners<3> x_1 = x_0;
+        for (const auto& [one, other] : {std::pair(0, 5), std::pair(1, 4), std::pair(2, 2), std::pair(3, 3)})
+            x_1[one] = x_1[other] = x_0[one] + random_vector<3>(random, i % 2 == 0 ? 1e-10 : 1e-3);
+        const auto found = pair_mean_gradient<3>(x_0, x_1, {.stiffness = 20.0});
+        raise(energy, std::abs(found.energy_0));
+        raise(energy, std::abs(found.energy_1));
+        raise(force, norm_of<3>(found.gradient));
+        (void)pair_state<3>(x_1, {.stiffness = 20.0});
+    }
+    CHECK(energy < 1e-12);
+    CHECK(force < 1e-8);
 }
