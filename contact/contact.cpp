@@ -9,6 +9,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/contact/admission.hpp"
+#include "abut/contact/finite_forces.hpp"
 #include "abut/contact/host_checks.hpp"
 #include "abut/contact/law/reconstruction.hpp"
 #include "abut/contact/messages.hpp"
@@ -240,6 +241,7 @@ private:
             pieces_.find(surface_, list_, store_.memory(), path.displacement_0, path.displacement_1);
         measures_.fill(surface_, list_, active, step_);
         law_.apply(surface_, list_, active, coupling_, path, step_);
+        check_forces<Dim>(surface_, step_);
     }
 
     void report_step() {

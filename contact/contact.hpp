@@ -71,8 +71,8 @@ public:
     [[nodiscard]] std::span<const SurfaceFace> faces() const;
 
     /// Decides admission at the start of the step, then integrates along it. Throws TooDeep naming the faces when a pair is
-    /// pressed in deeper than `compression_limit`, Diverged when the path is not finite, BadInput for a wrong size, Misuse
-    /// without a list.
+    /// pressed in deeper than `compression_limit`, Diverged when the path or a force is not finite, BadInput for a wrong
+    /// size, Misuse without a list.
     const ContactStep<Dim>& integrate(const FacePath<Dim>& path);
 
     /// For schemes that take the force at the end of a step alone: decides admission at its start as `integrate` does, then

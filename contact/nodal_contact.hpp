@@ -62,8 +62,8 @@ public:
 
     /// Contact along one step in which the nodes move from x_0 to x_1 (n_nodes) [m] on straight lines. Searches first where
     /// the candidate list does not hold. Throws BadInput for a wrong number of nodes, Diverged for a node that is not finite
-    /// or moves too far, TooDeep naming the faces for a pair that is pressed in deeper than `compression_limit`,
-    /// LimitExceeded for a search that takes more than its limits allow.
+    /// or moves too far, and for a force that is not finite (a face loses its area within the step), TooDeep for a pair that
+    /// is deeper than `compression_limit`, both naming the faces, LimitExceeded for a search that takes more than it may.
     const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
 
     /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, at

@@ -16,6 +16,15 @@ namespace {
 
 constexpr double rigid = std::numeric_limits<double>::infinity();
 
+/// Lengths and stiffnesses, in any unit, whose products in the law of contact are numbers with all their digits.
+constexpr double least_length = 1e-75, largest_length = 1e75;
+constexpr double least_stiffness = 1e-150, largest_stiffness = 1e150;
+
+bool is_stiffness(double k) { return k >= least_stiffness && k <= largest_stiffness; }
+std::string stiffness_range() { return number(least_stiffness) + " to " + number(largest_stiffness) + " Pa/m"; }
+bool is_length(double length) { return length >= least_length && length <= largest_length; }
+std::string length_range() { return number(least_length) + " to " + number(largest_length) + " m"; }
+
 [[noreturn]] void refuse(const std::string& what, const ErrorFacts& facts = {}) {
     throw BadInput("nodal surface: " + what, facts);
 }
@@ -80,10 +89,10 @@ public:
         const double of_body = faces_.stiffness[body(face)];
         if (of_body == rigid || faces_.face_stiffness.empty()) return of_body;
         const double stiffness = faces_.face_stiffness[face];
-        if (!(stiffness > 0.0 && stiffness <= of_body))
+        if (!(stiffness >= least_stiffness && stiffness <= of_body))
             refuse_face(face,
-                        "has the stiffness " + number(stiffness) + " Pa/m; it must be > 0 and at most that of its body, " +
-                            number(of_body) + " Pa/m.",
+                        "has the stiffness " + number(stiffness) + " Pa/m; it must be > 0, at least " +
+                            number(least_stiffness) + " Pa/m, and at most that of its body, " + number(of_body) + " Pa/m.",
                         {.value = stiffness, .allowed = of_body});
         return stiffness;
     }
@@ -91,10 +100,10 @@ public:
     [[nodiscard]] double depth(std::int32_t face) const {
         const double depth = faces_.depth[face];
         const bool is_rigid = faces_.stiffness[body(face)] == rigid;
-        if (!(depth >= 0.0) || !std::isfinite(depth) || (depth == 0.0 && !is_rigid))
+        if (!is_length(depth) && !(is_rigid && depth == 0.0))
             refuse_face(face,
-                        "has the depth " + number(depth) +
-                            " m; it must be finite and > 0 (>= 0 if rigid). Give half the height of the element behind it.",
+                        "has the depth " + number(depth) + " m; it must be > 0, from " + length_range() +
+                            " (or 0 if rigid). Give half the height of the element behind it.",
                         {.value = depth});
         return depth;
     }
@@ -106,6 +115,9 @@ private:
                                   " nodes. Correct `nodes`.");
         if (!rest_[node].allFinite())
             refuse_face(face, "has a corner (node " + std::to_string(node) + ") that is not finite. Correct it.");
+        if (const double farthest = rest_[node].cwiseAbs().maxCoeff(); farthest > largest_length)
+            refuse_face(face, "has a corner (node " + std::to_string(node) + ") at " + number(farthest) + " m; up to " +
+                                  number(largest_length) + " m can be computed with. Correct it, or take another unit.");
     }
 
     PointsView<Dim> rest_;
@@ -164,9 +176,10 @@ template <int Dim>
 NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& faces)
     : stiffness_(faces.stiffness.begin(), faces.stiffness.end()), facet_offsets_{0} {
     for (std::size_t body = 0; body < stiffness_.size(); ++body)
-        if (!(stiffness_[body] > 0.0))
+        if (!is_stiffness(stiffness_[body]) && stiffness_[body] != rigid)
             refuse("body " + std::to_string(body) + " has the stiffness " + number(stiffness_[body]) +
-                       " Pa/m; it must be > 0. Take contact::skin_stiffness, or infinity for a rigid body.",
+                       " Pa/m; it must be > 0, from " + stiffness_range() +
+                       ". Take contact::skin_stiffness, or infinity for a rigid body.",
                    {.value = stiffness_[body]});
     for (std::int32_t node = 0; node < rest.size(); ++node) facets_.vertices.push_back(rest[node]);
 
@@ -199,7 +212,11 @@ void NodalSurface<Dim>::append_facet(std::int32_t face, std::span<const std::int
         points[i] = facets_.vertices[static_cast<std::size_t>(corners[facet[i]])];
     }
     const double area = geometry::face_measure<Dim>(points);
+    const double size = Dim == 2 ? area : std::sqrt(area);
     if (!(area > 0.0)) refuse_face(face, "has no area: its corners lie on a line or in a point. Leave it out.");
+    if (!is_length(size))
+        refuse_face(face, "has an area of " + number(area) + "; faces of a size from " + length_range() +
+                              " can be computed with. Leave it out, or take another unit.");
     facets_.face_offsets.push_back(static_cast<std::int32_t>(facets_.face_vertices.size()));
     facets_.centroid.push_back(geometry::face_centroid<Dim>(points));
     facets_.normal.push_back(geometry::face_normal<Dim>(points));

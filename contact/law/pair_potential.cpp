@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "abut/base/parallel.hpp"
+#include "abut/contact/finite_forces.hpp"
 
 namespace abut::contact {
 namespace {
@@ -114,7 +115,8 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
         found.area = at_end.area;
         found.active_share = at_end.energy > 0.0 ? 1.0 : 0.0;
     }
-    outcome.active = found.active_share > 0.0 || found.energy_0 > 0.0 || found.energy_1 > 0.0;
+    const auto is_none = [](double energy) { return energy <= 0.0; };  // false for what is no number
+    outcome.active = found.active_share > 0.0 || !is_none(found.energy_0) || !is_none(found.energy_1);
 }
 
 template <int Dim>
@@ -210,6 +212,7 @@ void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPai
         if (!outcomes_[p].active) continue;
         const NodalPair<Dim>& pair = pairs[p];
         const auto& found = outcomes_[p].found;
+        if (!is_usable(magnitudes<Dim>(found))) refuse_pair<Dim>(surface, pair, found, x_0, x_1);
         for (std::size_t v = 0; v < pair.listed.size(); ++v) step.gradient[pair.listed[v]] += found.gradient[v];
         step.energy_0 += found.energy_0;
         step.energy += found.energy_1;
@@ -219,6 +222,7 @@ void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPai
         forces += step.pairs.back().force.norm();
     }
     if (forces > 0.0) step.report.correction /= forces;
+    check_bodies(step);
     for (const BodyStep<Dim>& body : step.bodies)
         if (surface.is_rigid(body.body)) step.work += body.work;
 }

@@ -91,7 +91,8 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
     const double gap_low = strip.gap(low), gap_high = strip.gap(high);
     if (gap_low >= 0.0 && gap_high >= 0.0) return result;
 
-    const double root = low + (high - low) * gap_low / (gap_low - gap_high);  // used where the signs differ
+    // used where the signs differ; rounding may take it past an end
+    const double root = std::clamp(low + (high - low) * gap_low / (gap_low - gap_high), low, high);
     const double p = gap_low < 0.0 ? low : root, q = gap_high < 0.0 ? high : root, m = 0.5 * (p + q);
     const double g_p = std::min(gap_low, 0.0), g_q = std::min(gap_high, 0.0), g_m = 0.5 * (g_p + g_q);
     const double energy = law.stiffness * (q - p) / 12.0 * (g_p * g_p + 4.0 * g_m * g_m + g_q * g_q);

@@ -174,7 +174,7 @@ PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z
     if (!has_area(polygon, seen.plane)) return result;
 
     const Moments moments = moments_of(polygon, normals.slope[1] - normals.slope[0]);
-    const double energy = 0.5 * law.stiffness * moments.gap_squared();
+    const double energy = std::max(0.5 * law.stiffness * moments.gap_squared(), 0.0);  // rounding may take it below
     const FacingWeight weight = facing_weight(normals.facing, law.facing);
     result.energy = weight.chi * energy;
     result.area = moments.area;
