@@ -22,15 +22,29 @@ template <int Dim>
     return (surface.centroid[face_2] - surface.centroid[face_1]) + (u_2 - u_1);
 }
 
-/// Which face gives n_12. `both`: it is the mean, along n_1 - n_2. A rigid face gives its own normal: an obstacle's face may
-/// be far larger than its partner, and a gap read at its centroid along a tilted normal would mean nothing. Else the face
-/// that is farther from a sharp edge of its body gives its own: a corner on a flat side would be pushed along it.
+/// One face is much larger than another whose |f| is that many times smaller: 1.23 in length. That is between meshes of one
+/// kind, and near to no ratio that people choose, so that rounding has no say.
+template <int Dim>
+inline constexpr double much_larger_area = Dim == 2 ? 1.23 : 1.23 * 1.23;
+
+template <int Dim>
+[[nodiscard]] bool is_much_larger(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
+    return surface.area[face_1] > much_larger_area<Dim> * surface.area[face_2];
+}
+
+/// Which face gives n_12. `both`: it is the mean, along n_1 - n_2. A rigid face gives its own normal. Of two elastic ones the
+/// larger does: with any other normal the distance of the centroids along it, times the sine of its tilt, would count as
+/// gap, and bodies that are apart would be in contact; so the gap is the height of the smaller face's centroid over it. Of
+/// faces of one size that which is farther from a sharp edge of its body gives its own: a corner on a flat side would be
+/// pushed along it.
 enum class NormalOf { both, face_1, face_2 };
 
 template <int Dim>
 [[nodiscard]] NormalOf normal_of(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {
     if (surface.is_rigid(face_2)) return NormalOf::face_2;
     if (surface.is_rigid(face_1)) return NormalOf::face_1;
+    if (is_much_larger(surface, face_1, face_2)) return NormalOf::face_1;
+    if (is_much_larger(surface, face_2, face_1)) return NormalOf::face_2;
     const std::uint8_t steps_1 = surface.steps_to_edge(face_1), steps_2 = surface.steps_to_edge(face_2);
     if (steps_1 == steps_2) return NormalOf::both;
     return steps_1 < steps_2 ? NormalOf::face_2 : NormalOf::face_1;

@@ -1,5 +1,6 @@
 #include "abut/contact/search/face_boxes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,12 +23,21 @@ bool any_rigid(const SurfaceView<Dim>& surface) {
     return false;
 }
 
+template <int Dim>
+double largest_elastic_face(const SurfaceView<Dim>& surface) {
+    double area = 0.0;
+    for (std::int32_t face = 0; face < surface.size(); ++face)
+        if (!surface.is_rigid(face)) area = std::max(area, surface.area[face]);
+    return area;
+}
+
 }  // namespace
 
 template <int Dim>
 FaceTilt<Dim>::FaceTilt(const SurfaceView<Dim>& surface, const CandidateOptions& options)
     : elsewhere_(largest_tilt_sine(options.facing_cosine, any_rigid(surface))),
-      near_sharp_edge_(largest_tilt_sine(options.facing_cosine, true)) {}
+      of_whole_angle_(largest_tilt_sine(options.facing_cosine, true)),
+      much_larger_exist_below_((1.0 + 1e-12) * largest_elastic_face(surface) / much_larger_area<Dim>) {}
 
 template <int Dim>
 RestFaceMaker<Dim>::RestFaceMaker(const SurfaceView<Dim>& surface, const CandidateOptions& options)

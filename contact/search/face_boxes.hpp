@@ -17,16 +17,19 @@ template <int Dim>
 class FaceTilt {
 public:
     FaceTilt(const SurfaceView<Dim>& surface, const CandidateOptions& options);
-    /// Largest sine of the angle between a face and the plane of a pair it takes part in.
+    /// Largest sine of the angle between a face and the plane of a pair it takes part in: of faces as they are at rest.
     [[nodiscard]] double sine(const SurfaceView<Dim>& surface, std::int32_t face) const {
         if (surface.is_rigid(face)) return 0.0;  // it gives the normal
-        return surface.steps_to_edge(face) < far_from_sharp_edge ? near_sharp_edge_ : elsewhere_;
+        const bool whole =
+            surface.steps_to_edge(face) < far_from_sharp_edge || surface.area[face] < much_larger_exist_below_;
+        return whole ? of_whole_angle_ : elsewhere_;
     }
-    [[nodiscard]] double largest_sine() const { return near_sharp_edge_; }
+    [[nodiscard]] double largest_sine() const { return of_whole_angle_; }
 
 private:
     double elsewhere_;
-    double near_sharp_edge_;
+    double of_whole_angle_;           // where the other face gives the normal
+    double much_larger_exist_below_;  // |f| of which a partner may be that much larger [m^(Dim-1)]
 };
 
 /// The data of a face at rest that a search reads again and again.

@@ -25,8 +25,7 @@ MovedFaces<Dim>::MovedFaces(const SurfaceView<Dim>& surface, const CandidateOpti
       options_(options),
       x_0_(x_0),
       x_1_(x_1),
-      tilt_(surface, options),
-      skin_tilt_(reads_tilt(options, gap) ? tilt_.largest_sine() : 0.0) {
+      skin_tilt_(reads_tilt(options, gap) ? FaceTilt<Dim>(surface, options).largest_sine() : 0.0) {
     const auto n = static_cast<std::int32_t>(surface.vertices.size());
     for (const std::int32_t size : {x_0.size(), x_1.size()})
         if (size != n)
@@ -104,8 +103,10 @@ geometry::Box<Dim> MovedFaces<Dim>::box(std::ptrdiff_t i, double skin) const {
     }
     double growth = 0.5 * (options_.distance + skin);
     if (!by_distance_alone(options_) && !surface_.is_rigid(face)) growth += 2.0 * surface_.cell_depth[face];
-    if (skin_tilt_ > 0.0)
-        growth += tilt_.sine(surface_, face) * std::max(radius(face, x_0_), radius(face, x_1_)) + skin_tilt_ * skin;
+    if (skin_tilt_ > 0.0) {  // which face gives the normal depends on areas, and they change
+        const double sine = surface_.is_rigid(face) ? 0.0 : skin_tilt_;
+        growth += sine * std::max(radius(face, x_0_), radius(face, x_1_)) + skin_tilt_ * skin;
+    }
     return box.grown(growth);
 }
 

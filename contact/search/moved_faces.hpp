@@ -53,7 +53,6 @@ private:
     const SurfaceView<Dim>& surface_;
     const CandidateOptions& options_;
     PointsView<Dim> x_0_, x_1_;
-    FaceTilt<Dim> tilt_;
     double skin_tilt_;  // sine, or 0 where the tilt plays no part
     const FaceOrder* order_ = nullptr;
 };

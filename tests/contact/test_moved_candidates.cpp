@@ -154,14 +154,13 @@ TEMPLATE_TEST_CASE_SIG(
 
 TEST_CASE("tilted faces without a gap between centroids can be farther apart than all their depth",
           "[contact][candidates]") {
-    // Two segments, n_1 = (0, 1), n_2 = (-cos a, -sin a) with sin a = 0.25: n_1 . n_2 = -0.25. The small one lies on the
-    // line through the middle of the large one across the mean normal, and over its left end along it.
+    // Two segments, n_1 = (0, 1), n_2 = (-cos a, -sin a) with sin a = 0.25: n_1 . n_2 = -0.25. The second, a little smaller,
+    // has its middle on the line through that of the first across the mean normal, and its near end over its left end.
     const double sine = 0.25, cosine = std::sqrt(1.0 - sine * sine);
     const Vector<2> n_1(0.0, 1.0), n_2(-cosine, -sine), n = (n_1 - n_2).normalized(), t(-n[1], n[0]);
-    const Vector<2> end(-0.99, 0.0);
     contact::Surface<2> surface;
     surface.append(std::vector<Vector<2>>{{1.0, 0.0}, {-1.0, 0.0}}, 1e-3, 1.0, 0);
-    const Vector<2> middle = end.dot(t) * t, along = 1e-3 * Vector<2>(-n_2[1], n_2[0]);
+    const Vector<2> middle = 1.49 * t, along = 0.9 * Vector<2>(-n_2[1], n_2[0]);
     surface.append(std::vector<Vector<2>>{middle - along, middle + along}, 1e-3, 1.0, 1);
     const Points<2> none(2, Vector<2>::Zero());
     const auto overlaps = contact::find_overlaps<2>(surface.view(), none, all_pairs(surface));
