@@ -80,6 +80,7 @@ private:
             report_.verification += verified(bodies_, options_, report_.near, detection_, result);
         }
         const bool at_end = step == motion_.steps(), last = at_end || noted_signal() != 0;
+        if (last || (!options_.no_files && output_.writes_pairs(step))) detection_.measure_distances();
         write(result, last);
         if (!last) return false;
         report_.last = result;

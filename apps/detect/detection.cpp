@@ -9,6 +9,7 @@
 
 #include "abut/base/index.hpp"
 #include "abut/base/stopwatch.hpp"
+#include "abut/contact/face_distance.hpp"
 
 namespace abut::apps {
 namespace {
@@ -60,6 +61,11 @@ const StepResult& Detection::find(int step) {
     contact::find_overlaps_moved<3>(start_.view(), bodies_.surface.vertices, search_.candidates(), area_, found_);
     keep_near_ones();
     return result_;
+}
+
+void Detection::measure_distances() {
+    const Stopwatch watch(seconds_narrow_);
+    result_.distances = contact::face_distances<3>(start_.view(), bodies_.surface.vertices, result_.overlaps);
 }
 
 void Detection::search() {

@@ -30,6 +30,8 @@ struct StepResult {
     std::int64_t too_steep = 0;              ///< left out because n_1 . n_2 is not below --facing
     contact::OverlapReport narrow;
     std::vector<contact::Overlap<3>> overlaps;  ///< -depth < gap <= distance, n_1 . n_2 < --facing
+    /// Of the faces of each in space [m]: by `Detection::measure_distances` alone, empty before
+    std::vector<double> distances;
 };
 
 /// Finds candidates and overlaps step by step. Keeps a reference to the bodies, which are at the start when it is made.
@@ -40,6 +42,8 @@ public:
 
     /// Where the bodies are now. The candidate list is rebuilt where it is not valid for the motion since.
     [[nodiscard]] const StepResult& find(int step);
+    /// Fills `distances` of what `find` has given last.
+    void measure_distances();
 
     [[nodiscard]] std::span<const geometry::IndexPair> candidates() const { return search_.candidates(); }
     [[nodiscard]] double skin() const { return search_.skin(); }

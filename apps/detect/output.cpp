@@ -162,13 +162,13 @@ void Output::open() {
     for (run::PartialFile* file : {&steps_, &candidates_, &overlaps_}) file->open();
     steps_.write("step,searched,box_pairs,candidates,overlaps,area,gap_min,gap_max\n");
     candidates_.write("step,body_1,face_1,body_2,face_2\n");
-    overlaps_.write("step,body_1,face_1,body_2,face_2,area,gap,nx,ny,nz,x,y,z\n");
+    overlaps_.write("step,body_1,face_1,body_2,face_2,area,gap,nx,ny,nz,x,y,z,distance\n");
 }
 
 void Output::add(const StepResult& result, std::span<const geometry::IndexPair> candidates, bool last) {
     if (!steps_.is_open()) open();
     add_row(result);
-    if (last || (every_ > 0 && result.step % every_ == 0)) add_pairs(result, candidates);
+    if (last || writes_pairs(result.step)) add_pairs(result, candidates);
     for (run::PartialFile* file : {&steps_, &candidates_, &overlaps_}) file->flush();
 }
 
@@ -204,10 +204,10 @@ void Output::add_overlaps(const StepResult& result, const Patches& patches) {
         const std::int32_t face_1 = overlap.face_1, face_2 = overlap.face_2;
         const Vector<3> x = middle(patches[i]);
         fmt::format_to(std::back_inserter(rows),
-                       "{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", result.step,
-                       bodies_.surface.body[at(face_1)], bodies_.face_label[at(face_1)], bodies_.surface.body[at(face_2)],
-                       bodies_.face_label[at(face_2)], overlap.area, overlap.gap, overlap.normal[0], overlap.normal[1],
-                       overlap.normal[2], x[0], x[1], x[2]);
+                       "{},{},{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
+                       result.step, bodies_.surface.body[at(face_1)], bodies_.face_label[at(face_1)],
+                       bodies_.surface.body[at(face_2)], bodies_.face_label[at(face_2)], overlap.area, overlap.gap,
+                       overlap.normal[0], overlap.normal[1], overlap.normal[2], x[0], x[1], x[2], result.distances[i]);
     }
     overlaps_.write({rows.data(), rows.size()});
 }
@@ -220,9 +220,10 @@ void Output::write_overlaps(const StepResult& result, const Patches& patches) co
     Polygons polygons;
     for (const auto& patch : patches) polygons.append(patch);
     const OverlapFields fields = fields_of(bodies_, result.overlaps);
-    const std::vector<mesh::Field<3>> of_faces = {
-        {"area [m^2]", fields.area}, {"gap [m]", fields.gap},   {"normal", fields.normal}, {"body_1", fields.body_1},
-        {"face_1", fields.face_1},   {"body_2", fields.body_2}, {"face_2", fields.face_2}};
+    const std::vector<mesh::Field<3>> of_faces = {{"area [m^2]", fields.area},        {"gap [m]", fields.gap},
+                                                  {"distance [m]", result.distances}, {"normal", fields.normal},
+                                                  {"body_1", fields.body_1},          {"face_1", fields.face_1},
+                                                  {"body_2", fields.body_2},          {"face_2", fields.face_2}};
     mesh::write_vtp({polygons.vertices, polygons.offsets, polygons.corners}, path("overlaps", result.step),
                     {.of_faces = of_faces});
 }

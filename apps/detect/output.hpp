@@ -20,8 +20,10 @@ public:
     /// `every` > 0: also each so many-th step, and all .vtp files with the number of their step.
     Output(const Bodies& bodies, const std::filesystem::path& out, int every);
 
+    /// Whether pairs of this step are wanted, the last one or not.
+    [[nodiscard]] bool writes_pairs(int step) const { return every_ > 0 && step % every_ == 0; }
     /// A row of steps.csv; of a step whose pairs are wanted, the last one among them, also its rows of the other two and its
-    /// .vtp files. The first call makes the files.
+    /// .vtp files; `distances` must have been measured then. The first call makes the files.
     void add(const StepResult& result, std::span<const geometry::IndexPair> candidates, bool last);
     /// The run is at its end: gives the files of rows their names.
     void finish();

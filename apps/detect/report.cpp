@@ -1,8 +1,10 @@
 #include "apps/detect/report.hpp"
 
 #include <fmt/format.h>
+
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <map>
 
 #include "abut/base/index.hpp"
@@ -27,14 +29,18 @@ struct BodyContact {
     std::int64_t overlaps = 0;
     double area = 0.0;
     double gap_min = 0.0;
+    double distance_min = 0.0;  // of its faces
 };
 using BodyContacts = std::map<std::pair<std::int32_t, std::int32_t>, BodyContact>;
 
 BodyContacts contacts_of(const DetectReport& report) {
     BodyContacts contacts;
     const auto& body = report.bodies.surface.body;
-    for (const contact::Overlap<3>& overlap : report.last.overlaps) {
+    for (std::size_t i = 0; i < report.last.overlaps.size(); ++i) {
+        const contact::Overlap<3>& overlap = report.last.overlaps[i];
+        const double distance = report.last.distances[i];
         BodyContact& contact = contacts[std::minmax(body[at(overlap.face_1)], body[at(overlap.face_2)])];
+        contact.distance_min = contact.overlaps == 0 ? distance : std::min(contact.distance_min, distance);
         contact.gap_min = contact.overlaps == 0 ? overlap.gap : std::min(contact.gap_min, overlap.gap);
         contact.area += overlap.area;
         ++contact.overlaps;
@@ -94,7 +100,8 @@ Json contacts_json(const DetectReport& report) {
                             {"body_2", pair.second},
                             {"overlaps", contact.overlaps},
                             {"area", contact.area},
-                            {"gap_min", contact.gap_min}});
+                            {"gap_min", contact.gap_min},
+                            {"distance_min", contact.distance_min}});
     return contacts;
 }
 
@@ -122,7 +129,8 @@ Json last_json(const DetectReport& report) {
             {"too_steep", last.too_steep},
             {"area", last.area},
             {"gap_min", gap_or_null(report, last.gap_min)},
-            {"gap_max", gap_or_null(report, last.gap_max)}};
+            {"gap_max", gap_or_null(report, last.gap_max)},
+            {"distance_min", last.distances.empty() ? Json() : Json(*std::ranges::min_element(last.distances))}};
 }
 
 Json verification_json(const Verification& verification) {
@@ -176,13 +184,14 @@ void print_last(const DetectReport& report) {
     if (last.overlaps.empty()) return;
     print_line("area in contact", fmt::format("{:.9g} m^2", last.area));
     print_line("gap, least and largest", fmt::format("{:.9g} to {:.9g} m", last.gap_min, last.gap_max));
+    print_line("distance of faces in space, least", fmt::format("{:.6g} m", *std::ranges::min_element(last.distances)));
     std::size_t line = 0;
     const BodyContacts contacts = contacts_of(report);
     for (const auto& [pair, contact] : contacts) {
         if (++line > most_lines) break;
-        print_line(
-            fmt::format("  {} - {}", report.bodies.names[at(pair.first)], report.bodies.names[at(pair.second)]),
-            fmt::format("{} overlaps, {:.6g} m^2, least gap {:.6g} m", contact.overlaps, contact.area, contact.gap_min));
+        print_line(fmt::format("  {} - {}", report.bodies.names[at(pair.first)], report.bodies.names[at(pair.second)]),
+                   fmt::format("{} overlaps, {:.6g} m^2, least gap {:.6g} m, faces {:.6g} m apart", contact.overlaps,
+                               contact.area, contact.gap_min, contact.distance_min));
     }
     if (contacts.size() > most_lines)
         print_line("", fmt::format("and {} more pairs of bodies", contacts.size() - most_lines));
