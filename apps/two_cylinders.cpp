@@ -210,6 +210,7 @@ template <int Dim>
 run::Scene<Dim> two_cylinders(const CylinderOptions& options) {
     run::Scene<Dim> scene{.mesh = both_bodies<Dim>(options), .options = named_values(options)};
     scene.mesh.name = "scene";
+    scene.solid.law = solid::ContactLaw::reconstruction;  // that of the talk
     for (std::size_t body = 0; body < 2; ++body) {
         scene.solid.materials.push_back(
             {options.young[body], options.poisson[body], options.density[body], options.eta[body]});

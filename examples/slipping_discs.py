@@ -17,7 +17,8 @@ def look(state):  # after each step
         shots.append((state.time, mesh.points + mesh.at_points(state.displacement), state.von_mises))
 
 
-result = solid.simulate(mesh, [solid.Material()] * 2, [(0.05, 0.0), (-0.05, 0.0)], time=12.2, look=look)
+result = solid.simulate(mesh, [solid.Material()] * 2, [(0.05, 0.0), (-0.05, 0.0)], time=12.2, law="reconstruction",
+                        look=look)
 ledger, v = result["ledger"], result["end"][0]["velocity"]
 drift = np.ptp(ledger["pseudo_energy"]) / result["energy_scale"]
 excess = np.max(ledger["energy"] - ledger["pseudo_energy"]) / result["energy_scale"]

@@ -32,6 +32,7 @@ solid::SolidOptions<2> pressed_together() {
         options.boundary.dirichlet.push_back({.group = side, .constraint = solid::Constraint::normal});
     options.boundary.traction = {{.group = "upper.ymax", .value = Vector<2>(0.0, -pressure)}};
     options.contact = contact::ContactOptions{};
+    options.law = solid::ContactLaw::reconstruction;  // whose pressure of contact is that of the cells behind the faces
     return options;
 }
 

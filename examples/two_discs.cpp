@@ -24,6 +24,7 @@ run::Scene<2> two_discs() {
     scene.mesh = mesh::combine<2>(std::vector{
         mesh::disc({.centre = -half, .radius = radius, .size = 0.25, .name = "left"}),
         mesh::disc({.centre = half, .radius = radius, .size = 0.25, .variant = 1, .name = "right"})});  // not the same mesh
+    scene.solid.law = solid::ContactLaw::reconstruction;
     scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.3, .density = 1.0});
     scene.velocity = {Vector<2>(speed, 0.0), Vector<2>(-speed, 0.0)};
     scene.time = 12.2;  // approach, impact, slip and release [s]

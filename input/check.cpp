@@ -68,6 +68,8 @@ Estimate estimate(const run::Scene<Dim>& scene, const run::RunOptions& given) {
     Estimate estimate{.bodies = scene.mesh.n_bodies(),
                       .cells = scene.mesh.n_cells(),
                       .boundary_faces = static_cast<std::int64_t>(scene.mesh.boundary_faces.size())};
+    if (solid.contact()) estimate.law = "reconstruction";
+    if (solid.nodal_contact()) estimate.law = "pair_potential";
     estimate.stable_dt = dynamics::stable_step(solid).dt;
     estimate.dt = run::choose_step(options, estimate.stable_dt);
     estimate.steps = std::isnan(options.time) ? options.steps : run::steps_until(options.time, estimate.dt);
@@ -112,6 +114,7 @@ std::string text_of(const Estimate& estimate) {
     line("bodies", fmt::format("{}", estimate.bodies));
     line("cells", fmt::format("{}", estimate.cells));
     line("boundary faces", fmt::format("{}", estimate.boundary_faces));
+    if (!estimate.law.empty()) line("law of contact", estimate.law);
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
     line("step", fmt::format("{:.4g} s", estimate.dt));
     line("steps", fmt::format("{}", estimate.steps));

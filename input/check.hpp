@@ -18,6 +18,7 @@ struct Estimate {
     double stable_dt = 0.0;  ///< [s]
     double dt = 0.0;         ///< [s], of memm_async before its levels
     std::int64_t steps = 0;
+    std::string law;       ///< of contact, that which acts: "pair_potential"; empty without contact
     double end = 0.0;      ///< of the run [s]
     double seconds = 0.0;  ///< that it takes about: steps and records as long as the state at the start takes to evaluate
     double bytes = 0.0;    ///< that this process has taken at most, once the solid was made; the run takes about as much

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <span>
 
 #include "abut/base/error.hpp"
@@ -46,6 +47,16 @@ std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::M
     return added;
 }
 
+/// Such a scheme knows the modified reconstruction alone.
+bool takes_local_steps(SolidIntegrator integrator) { return integrator == SolidIntegrator::memm_async; }
+
+/// Whether a body or an obstacle may.
+template <int Dim>
+bool turns(const solid::SolidOptions<Dim>& solid) {
+    return std::ranges::any_of(solid.kinematics, [](auto kinematics) { return kinematics != solid::Kinematics::small; }) ||
+           std::ranges::any_of(solid.obstacles, [](const auto& obstacle) { return bool(obstacle.placement); });
+}
+
 }  // namespace
 
 template <int Dim>
@@ -61,7 +72,13 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
     solid.device = options.device;
     if (const auto kinematics = kinematics_of_all(options.kinematics))
         solid.kinematics.assign(scene.mesh.body_names.size(), *kinematics);
-    if (options.law != solid::ContactLaw::automatic) solid.law = options.law;
+    // What a scene prefers yields to kinematics that are chosen for all of its bodies.
+    if (options.law != solid::ContactLaw::automatic)
+        solid.law = options.law;
+    else if (kinematics_of_all(options.kinematics) && turns(solid))
+        solid.law = solid::ContactLaw::automatic;
+    if (solid.law == solid::ContactLaw::automatic && takes_local_steps(options.integrator) && !turns(solid))
+        solid.law = solid::ContactLaw::reconstruction;
     solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
     return solid;
 }

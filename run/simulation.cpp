@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -28,6 +29,7 @@
 #include "abut/run/rank_balance.hpp"
 #include "abut/run/run_identity.hpp"
 #include "abut/run/start.hpp"
+#include "abut/run/start_contact.hpp"
 #include "abut/run/wanted.hpp"
 
 namespace abut::run {
@@ -101,11 +103,26 @@ private:
             integrator_->step();
         } catch (const Error& error) {
             fail_at(error);
-            throw_again(error, at_this_step(error.what()));
+            throw_again(error, at_this_step((error.what() + advice_on_law(error)).c_str()));
         } catch (const std::exception& error) {
             throw std::runtime_error(at_this_step(error.what()));
         }
         if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+    }
+
+    /// The modified reconstruction reads the depth of tilted faces between their centroids: there the other law is the cure.
+    [[nodiscard]] std::string advice_on_law(const Error& error) const {
+        constexpr double flat = 0.94;  // of 20 degrees
+        const contact::Contact<Dim>* by_faces = solid_.contact();
+        const auto [face_1, face_2] = std::pair(error.facts().face_1, error.facts().face_2);
+        if (error.kind() != ErrorKind::too_deep || !by_faces || face_1 < 0 || face_2 < 0) return "";
+        const auto normal = [&](std::int64_t face) { return by_faces->surface().normal[static_cast<std::size_t>(face)]; };
+        const double cosine = -normal(face_1).dot(normal(face_2));
+        if (cosine > flat) return "";
+        return fmt::format(
+            " These faces are tilted by {:.0f} degrees against each other, and law = \"reconstruction\" reads their depth "
+            "between their centres: take law = \"pair_potential\" (contact.law) first, which reads it where they overlap.",
+            std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
     }
 
     // Observers are those of rank 0: the others take part where the whole is brought together.
@@ -322,11 +339,19 @@ private:
         }
         const auto& entries = result_.ledger.entries();
         if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
+        if (entries.size() == 1 && scene_.contact) check_contact(entries.front());
         on_first([&] { observer_.record(entries.back(), result_); });
         const double scale = std::max(entries.front().energy, result_.scale.value);
         check_alive(entries.back(), scale);
         if (entries.size() == 1 || entries.back().energy <= sound_factor * std::max(scale, entries.back().pseudo_energy))
             keep_sound();
+    }
+
+    void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
+        const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
+        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            check_start_contact<Dim>(scene_, solid, run.q, scale);
+        });
     }
 
     void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) {
@@ -407,6 +432,8 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
         }
         RunResult<Dim>& result = start->result;
         result.options = options;
+        if (start->solid->contact()) result.options.law = solid::ContactLaw::reconstruction;
+        if (start->solid->nodal_contact()) result.options.law = solid::ContactLaw::pair_potential;
         result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));
         result.seconds.setup = seconds.setup;
         simulate(*start, observer, from);

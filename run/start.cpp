@@ -27,6 +27,9 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions optio
     options.kinematics = BodyKinematics::scene;
     solid::SolidOptions<Dim> solid = run::solid_options(scene, options);
     solid.kinematics = pilot->kinematics();
+    const bool any_turns =
+        std::ranges::any_of(solid.kinematics, [](auto of_body) { return of_body != solid::Kinematics::small; });
+    if (any_turns && options.law == solid::ContactLaw::automatic) solid.law = solid::ContactLaw::automatic;
     return solid;
 }
 

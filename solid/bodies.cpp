@@ -26,6 +26,15 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
     return result;
 }
 
+/// Whether a choice is made that the modified reconstruction alone has: `ContactLaw::automatic` takes it then.
+template <int Dim>
+bool asks_for_reconstruction(const contact::ContactOptions& given) {
+    const contact::ContactOptions plain;
+    return given.overlap != plain.overlap || given.weighting != plain.weighting || given.area != plain.area ||
+           (given.quadrature != plain.quadrature && given.quadrature != Dim) || given.search.self_contact ||
+           given.search.facing_cosine != plain.search.facing_cosine;
+}
+
 /// The rotation that fits sum m x' X'^T best; of points on a line, about which it is not known, the least one.
 template <int Dim>
 Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
@@ -202,7 +211,8 @@ ContactLaw Bodies<Dim>::law() const {
             ": a body or an obstacle may turn, and the modified reconstruction knows normals at rest alone. Choose "
             "ContactLaw::pair_potential or ContactLaw::automatic.");
     if (options_.law != ContactLaw::automatic) return options_.law;
-    return any_turns ? ContactLaw::pair_potential : ContactLaw::reconstruction;
+    return !any_turns && options_.contact && asks_for_reconstruction<Dim>(*options_.contact) ? ContactLaw::reconstruction
+                                                                                             : ContactLaw::pair_potential;
 }
 
 // Cells and points ---------------------------------------------------------------------------------------------------

@@ -53,7 +53,7 @@ cfl = 0.9                # step over the stable step
 # filter = "neutral"
 
 # [contact]
-# law = "pair_potential" # automatic: that for bodies that turn, "reconstruction" for all others
+# law = "reconstruction" # automatic: "pair_potential"; this one for bodies that do not turn alone
 
 [output]
 frames = 21              # for ParaView

@@ -53,9 +53,10 @@ const Topic contact{"contact", "Contact",
                     R"(Bodies touch each other and obstacles without friction. Forces derive from one potential, so that a
 pseudo-energy is conserved to round-off through impact, slip and release.
 
-  law = "reconstruction"   faces move to where their tractions balance; for bodies that do not turn
   law = "pair_potential"   half the cells behind both faces are springs in series; for all bodies
-  law = "automatic"        the first where no body may turn, else the second
+  law = "reconstruction"   faces move to where their tractions balance; for bodies that do not turn
+  law = "automatic"        the first, except where a choice is made that the second alone has: overlap, weights,
+                           area, quadrature, facing_cosine, contact of a body with itself, memm_async
 
 A run reports the deepest contact |g|/D over the depth D of cells, and warns above 0.3; it stops at
 compression_limit. Contacts missed must be 0. `--events off` and `--overlap frozen` are cheaper and let the

@@ -106,9 +106,10 @@ void add_contact_options(CLI::App& app, run::RunOptions& options) {
                        "of all bodies: small for those that do not turn, floating frames, finite (they bend), rigid, as the "
                        "scene says, or automatic: small, floating or rigid by what a run with rigid bodies shows",
                        kinematics));
-    grouped(add_choice(app, "--law", options.law,
-                       "of contact: the modified reconstruction for bodies that do not turn, the pair potential for all",
-                       laws));
+    grouped(add_choice(
+        app, "--law", options.law,
+        "of contact: the modified reconstruction for bodies that do not turn; the pair potential for all, and by default",
+        laws));
     grouped(add_choice(app, "--broad-phase", contact.search.broad_phase,
                        "what finds faces that are near; all give the same bits", broad_phases));
     grouped(add_choice(app, "--overlap", contact.overlap,

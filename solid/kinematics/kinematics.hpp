@@ -13,7 +13,7 @@ enum class Kinematics {
 
 /// What acts between faces in contact.
 enum class ContactLaw {
-    automatic,       ///< `reconstruction` where all bodies are small and no obstacle turns, else `pair_potential`
+    automatic,       ///< `pair_potential`, except where a choice is made that `reconstruction` alone has: docs/method.md
     reconstruction,  ///< faces that are moved as a whole, normals at rest. docs/method.md, Contact
     pair_potential,  ///< the potential of pairs of faces that tilt and turn. docs/method.md, The potential of a pair
 };

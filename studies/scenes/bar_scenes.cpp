@@ -61,6 +61,7 @@ run::Scene<Dim> bar_strip(const BarOnWall& scene, int cells) {
     const double width = strip_width(bar, cells), eta = scene.eta == 0.0 ? bar.young : scene.eta;
     run::Scene<Dim> result;
     result.mesh = strip<Dim>(scene.gap, scene.gap + bar.length, width, 2, cells, "bar");
+    result.solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md
     result.solid.materials = {{.young = bar.young, .poisson = 0.0, .density = bar.density, .eta = eta}};
     if (scene.gravity != 0.0) result.solid.acceleration = {Vector<Dim>(-scene.gravity * up)};
     add_rollers(result.solid);
@@ -89,6 +90,7 @@ run::Scene<Dim> two_bar_strips(const TwoBars& scene, std::array<int, 2> cells) {
         strip<Dim>(near, near + bar.length, width, across(cells[1]), cells[1], "upper")};
     result.mesh = mesh::combine<Dim>(strips);
     result.mesh.name = "bars";
+    result.solid.law = solid::ContactLaw::reconstruction;
     const Vector<Dim> up = Vector<Dim>::Unit(bar_axis<Dim>);
     for (std::size_t body = 0; body < 2; ++body) {
         result.solid.materials.push_back({.young = bar.young, .poisson = 0.0, .density = bar.density, .eta = bar.young});

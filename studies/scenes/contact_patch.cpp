@@ -30,8 +30,8 @@ mesh::Mesh<Dim> block(const PatchOptions& options, std::size_t body) {
     std::array<int, Dim> counts;
     counts.fill(options.mesh == PatchMesh::matching || body == 0 ? cells_below : cells_below - 1);
     counts[Dim - 1] = layers[body];
-    return mesh::structured_box<Dim>(lower, upper, counts,
-                                     Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron, block_names[body]);
+    return mesh::structured_box<Dim>(
+        lower, upper, counts, Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron, block_names[body]);
 }
 
 /// Stress and strains of a block under the pressure p from above.
@@ -72,6 +72,7 @@ solid::SolidOptions<Dim> solid_options(const PatchOptions& options) {
     solid.boundary.free_face_rule = options.neumann;
     solid.boundary.corner_rule = options.corners;
     solid.contact = options.contact;
+    solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md
     return solid;
 }
 

@@ -70,6 +70,7 @@ run::Scene<2> dropped_disc(const DroppedDisc& options) {
     run::Scene<2> scene;
     scene.mesh =
         mesh::disc({.centre = {0.0, options.radius + options.height}, .radius = options.radius, .size = options.size});
+    scene.solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md
     scene.solid.materials = {{.young = options.young, .poisson = options.poisson, .density = options.density}};
     scene.solid.acceleration = {Vector<2>(0.0, -options.gravity)};
     scene.solid.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 4.0 * options.radius)};
@@ -91,6 +92,7 @@ run::Scene<2> two_discs(const TwoDiscs& options) {
     };
     run::Scene<2> scene;
     scene.mesh = mesh::combine<2>(std::vector{disc(-half, 0, "left"), disc(half, 1, "right")});
+    scene.solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md
     scene.solid.materials.assign(2, {.young = options.young, .poisson = options.poisson, .density = options.density});
     scene.velocity = {options.speed * Vector<2>::UnitX(), -options.speed * Vector<2>::UnitX()};
     scene.time =
@@ -126,6 +128,7 @@ run::Scene<3> two_spheres(const TwoSpheres& options) {
     };
     run::Scene<3> scene;
     scene.mesh = mesh::combine<3>(std::vector{sphere(-1.0, 0, "left"), sphere(1.0, 1, "right")});
+    scene.solid.law = solid::ContactLaw::reconstruction;  // figures of docs/validation.md
     scene.solid.materials.assign(2, {.young = options.young, .poisson = options.poisson, .density = options.density});
     const double speed = 0.5 * options.speed;
     scene.velocity = {speed * Vector<3>::UnitX(), -speed * Vector<3>::UnitX()};

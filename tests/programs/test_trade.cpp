@@ -160,7 +160,7 @@ TEST_CASE("a preset says nothing of kinematics, and goes with each of them", "[p
         INFO(name);
         const auto alone = options_used("--preset " + name);
         CHECK(alone["kinematics"] == "scene");
-        CHECK(alone["law"] == "automatic");
+        CHECK(alone["law"] == "reconstruction");
         for (const std::string kinematics : {"floating", "rigid"})
             CHECK(options_used("--kinematics " + kinematics + " --preset " + name)["kinematics"] == kinematics);
     }

@@ -119,6 +119,54 @@ TEST_CASE("a block that is pressed in deeper than allowed ends the run as too de
     CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(test::block_on_plane(0.1), options)), TooDeep);
 }
 
+TEST_CASE("energy of contact between bodies that are apart at the start is refused by their names", "[run]") {
+    // The lowest corner of an octagon, 3 mm above a block, near the end of a face that is 1.18 times as large as its own: along
+    // the mean of both normals their centroids have passed each other.
+    run::Scene<2> scene;
+    scene.mesh = mesh::combine<2>(
+        std::vector{mesh::structured_box<2>({-3.6, -1.8}, {3.6, 0.0}, {8, 2}, mesh::CellShape::triangle, "block"),
+                    mesh::disc({.centre = {0.88, 1.003}, .radius = 1.0, .size = 0.8, .name = "round"})});
+    scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
+    scene.velocity = {Vector<2>(0.0, 0.0), Vector<2>(0.0, -0.01)};
+    run::RunOptions options{.steps = 1, .law = solid::ContactLaw::reconstruction};
+    try {
+        static_cast<void>(run::simulate<2>(scene, options));
+        FAIL("there is energy in a contact that is none");
+    } catch (const BadInput& error) {
+        const std::string text = error.what();
+        for (const char* part : {"'block'", "'round'", "0.003 m apart", "pair_potential"})
+            CHECK_THAT(text, Catch::Contains(part));
+        CHECK(error.facts().value > error.facts().allowed);
+    }
+    options.law = solid::ContactLaw::automatic;
+    const auto result = run::simulate<2>(scene, options);
+    CHECK(result.options.law == solid::ContactLaw::pair_potential);
+    CHECK(result.ledger.entries().front().energy == result.ledger.entries().front().kinetic);
+}
+
+TEST_CASE("contact is by the pair potential, except where a choice is made that the reconstruction alone has", "[run]") {
+    const auto law_of = [](const run::RunOptions& options) {
+        return run::simulate<2>(test::block_on_plane(0.01), options).options.law;
+    };
+    using solid::ContactLaw;
+    run::RunOptions options{.steps = 1};
+    CHECK(law_of(options) == ContactLaw::pair_potential);
+    const run::RunOptions plain = options;
+    const auto check_reconstruction = [&] {
+        CHECK(law_of(options) == ContactLaw::reconstruction);
+        options = plain;
+    };
+    options.contact.overlap = contact::OverlapMode::frozen, check_reconstruction();
+    options.contact.weighting = contact::InterfaceWeighting::half, check_reconstruction();
+    options.contact.quadrature = 1, check_reconstruction();
+    options.contact.search.self_contact = true, check_reconstruction();
+    options.contact.search.facing_cosine = -0.5, check_reconstruction();
+    options.integrator = run::SolidIntegrator::memm_async, check_reconstruction();
+    options.law = ContactLaw::reconstruction, check_reconstruction();
+    options.kinematics = run::BodyKinematics::rigid;
+    CHECK(law_of(options) == ContactLaw::pair_potential);
+}
+
 TEST_CASE("an error thrown again has its type, kind and facts, and another text", "[run]") {
     const ErrorFacts facts{.face_1 = 1, .face_2 = 2, .cell = 3, .value = 4.0, .allowed = 5.0};
     const auto check_kept = [&](const auto& error) {

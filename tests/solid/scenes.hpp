@@ -176,6 +176,14 @@ solid::SolidOptions<Dim> bodies(int n, const contact::ContactOptions& contact = 
     return options;
 }
 
+/// The same under the law of reconstruction.
+template <int Dim>
+solid::SolidOptions<Dim> reconstructed_bodies(int n, const contact::ContactOptions& contact = {}) {
+    solid::SolidOptions<Dim> options = bodies<Dim>(n, contact);
+    options.law = solid::ContactLaw::reconstruction;
+    return options;
+}
+
 /// Two discs: R = 1, v = +-0.05, gap 0.02, meshes that do not match.
 inline mesh::Mesh<2> two_discs(double offset, double size = 0.25, double gap = 0.02) {
     const double x = std::sqrt(4.0 - offset * offset);  // centres at the distance 2

@@ -15,7 +15,7 @@ const double infinite = std::numeric_limits<double>::infinity();
 
 TEST_CASE("a material out of bounds is refused with the body, the quantity, its value and its limit", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     solid::Material& material = options.materials[1];
     std::string quantity, limit;
     SECTION("poisson") {
@@ -40,14 +40,14 @@ TEST_CASE("a material out of bounds is refused with the body, the quantity, its 
 
 TEST_CASE("materials at the edge of what is allowed are taken", "[solid][errors]") {
     const auto mesh = unit_disc(0.6);
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     options.materials[0].poisson = GENERATE(-0.99, 0.0, 0.49);
     CHECK_NOTHROW(solid::Solid<2>(mesh, options));
 }
 
 TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothing feels, are refused", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     SECTION("materials") {
         options.materials.pop_back();
         CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Contains("1 materials") && Contains("2 bodies"));
@@ -67,7 +67,7 @@ TEST_CASE("a wrong number of materials or accelerations, or obstacles that nothi
 TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their group", "[solid][errors]", ((int Dim), Dim),
                        2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
-    auto options = bodies<Dim>(1);
+    auto options = reconstructed_bodies<Dim>(1);
     solid::DirichletCondition<Dim> condition;
     condition.group = "xmin";
     options.boundary.dirichlet = {condition};
@@ -95,7 +95,7 @@ TEMPLATE_TEST_CASE_SIG("bad boundary conditions are refused by the name of their
 TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act on, when they are", "[solid][errors]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = mesh::box<Dim>({.size = 0.5, .name = "block"});
-    auto options = bodies<Dim>(1);
+    auto options = reconstructed_bodies<Dim>(1);
     const Vector<Dim> bad = Vector<Dim>::Constant(GENERATE(not_a_number, infinite));
     const solid::Field<Dim> later = [bad](double t, const Vector<Dim>&) {
         return t > 0.0 ? bad : Vector<Dim>(Vector<Dim>::Zero());
@@ -142,14 +142,14 @@ TEMPLATE_TEST_CASE_SIG("loads that are not finite are refused with what they act
 
 TEST_CASE("velocities for another number of bodies are refused", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
-    const solid::Solid<2> solid(mesh, bodies<2>(2));
+    const solid::Solid<2> solid(mesh, reconstructed_bodies<2>(2));
     const std::vector<Vector<2>> one{{0.05, 0.0}};
     CHECK_THROWS_WITH(solid::uniform_momentum<2>(solid, one), Contains("1 velocities") && Contains("2 bodies"));
 }
 
 TEST_CASE("an unknown group is answered with the names that exist", "[solid][errors]") {
     const auto mesh = mesh::box<2>({.size = 0.5});
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     solid::DirichletCondition<2> condition;
     condition.group = "left";
     options.boundary.dirichlet = {condition};
@@ -163,19 +163,19 @@ TEMPLATE_TEST_CASE_SIG("a body one cell thick is refused when the solid is made"
     counts[0] = 1;
     const auto mesh = mesh::structured_box<Dim>(Vector<Dim>::Zero(), Vector<Dim>::Ones(), counts,
                                                 Dim == 2 ? CellShape::quadrangle : CellShape::hexahedron, "plate");
-    const auto options = bodies<Dim>(1);
+    const auto options = reconstructed_bodies<Dim>(1);
     CHECK_THROWS_WITH(solid::Solid<Dim>(mesh, options), Contains("plate: face") && Contains("one cell thick"));
 }
 
 TEST_CASE("bad contact options are refused when the solid is made", "[solid][errors]") {
     const auto mesh = two_discs(0.0, 0.6);
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     options.contact->quadrature = 9;
     CHECK_THROWS_WITH(solid::Solid<2>(mesh, options), Contains("quadrature is 9"));
 }
 
 TEST_CASE("a run that has diverged ends with an error that says so", "[solid][errors]") {
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     Scene<2> scene(two_discs(0.0, 0.5), options, disc_velocities, -3.0);
     CHECK_THROWS_WITH(scene.run(5000, 5000), Contains("not finite") || Contains("pressed") || Contains("within a step"));
 }

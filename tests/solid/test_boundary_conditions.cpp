@@ -38,7 +38,7 @@ double relative_drift(Scene<Dim>& scene, int steps) {
 template <int Dim>
 struct DrivenBlocks {
     mesh::Mesh<Dim> mesh;
-    solid::SolidOptions<Dim> options = bodies<Dim>(2);
+    solid::SolidOptions<Dim> options = reconstructed_bodies<Dim>(2);
 
     DrivenBlocks() : mesh(blocks()) {
         solid::DirichletCondition<Dim> fixed, driven;

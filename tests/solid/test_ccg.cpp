@@ -301,7 +301,7 @@ TEMPLATE_TEST_CASE_SIG("the bound on the motion of boundary faces is the motion 
           Approx(translation.norm()).epsilon(1e-12));
 
     const auto mesh = round_body<Dim>(0.5);
-    auto options = bodies<Dim>(1);
+    auto options = reconstructed_bodies<Dim>(1);
     options.boundary.dirichlet.push_back(
         {.group = mesh.groups.front().name,
          .history = [](double t, const Vector<Dim>&) -> Vector<Dim> { return Vector<Dim>::Unit(0) * t; }});

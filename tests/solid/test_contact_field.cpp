@@ -15,10 +15,10 @@ std::unique_ptr<Scene<Dim>> impact() {
     if constexpr (Dim == 2) {
         const auto lower = mesh::structured_box<2>({-1.0, -1.0}, {1.0, 0.0}, {9, 5}, CellShape::triangle, "lower");
         const auto upper = mesh::structured_box<2>({-0.5, 0.01}, {0.7, 1.0}, {5, 4}, CellShape::triangle, "upper");
-        return std::make_unique<Scene<2>>(together(lower, upper), bodies<2>(2),
+        return std::make_unique<Scene<2>>(together(lower, upper), reconstructed_bodies<2>(2),
                                           std::vector<Vector<2>>{{0.02, 0.05}, {-0.02, -0.05}});
     } else {
-        return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities);
+        return std::make_unique<Scene<3>>(two_boxes(4), reconstructed_bodies<3>(2), box_velocities);
     }
 }
 
@@ -55,7 +55,7 @@ TEMPLATE_TEST_CASE_SIG("the pressures of two flat bodies on each other add up to
 }
 
 TEST_CASE("H~ is exact for steps that change slowly through an impact, with lists rebuilt on the way", "[solid][contact]") {
-    Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
+    Scene<2> scene(two_discs(0.8), reconstructed_bodies<2>(2), disc_velocities);
     const double dt = scene.memm.dt();
     for (int i = 0; i < 600; ++i) {
         scene.memm.step((0.8 + 0.2 * std::sin(0.05 * i)) * dt, dynamics::StepChange::keep);
@@ -68,7 +68,7 @@ TEST_CASE("H~ is exact for steps that change slowly through an impact, with list
 }
 
 TEST_CASE("restarts in the middle of an impact change H~ by what they report", "[solid][contact]") {
-    Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
+    Scene<2> scene(two_discs(0.8), reconstructed_bodies<2>(2), disc_velocities);
     const double dt = scene.memm.dt();
     for (int i = 0; i < 300; ++i) {
         scene.memm.step(i % 60 < 30 ? dt : 0.6 * dt, dynamics::StepChange::restart);
@@ -79,7 +79,7 @@ TEST_CASE("restarts in the middle of an impact change H~ by what they report", "
 }
 
 TEST_CASE("a state that is not finite is refused, never taken for one that has not moved", "[solid][errors]") {
-    Scene<2> scene(two_discs(0.8), bodies<2>(2), disc_velocities);
+    Scene<2> scene(two_discs(0.8), reconstructed_bodies<2>(2), disc_velocities);
     scene.run(20);
     const std::vector<double> q(scene.memm.q().begin(), scene.memm.q().end());
     std::vector<double> broken = q, force(q.size());
@@ -110,7 +110,7 @@ mesh::Mesh<Dim> flat_bodies() {
 TEMPLATE_TEST_CASE_SIG("a run starts from its own state, whatever state was looked at before", "[solid][contact]",
                        ((int Dim), Dim), 2, 3) {
     const auto mesh = flat_bodies<Dim>();
-    auto options = bodies<Dim>(2);
+    auto options = reconstructed_bodies<Dim>(2);
     options.contact->search.skin = 0.2;
     const auto pressed = upper_moved(mesh, -0.03);
     solid::Solid<Dim> fresh(mesh, options);
@@ -154,7 +154,7 @@ TEMPLATE_TEST_CASE_SIG("in the middle of a run a state beyond the candidate list
 }
 
 TEST_CASE("a state that a long step has reached is within the list, however thin the skin", "[solid][contact]") {
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     options.contact->search.skin = 1e-6;
     Scene<2> scene(two_discs(0.8, 0.3), options, disc_velocities);
     scene.run(80);  // a record after every step asks for the potential

@@ -198,7 +198,7 @@ TEMPLATE_TEST_CASE_SIG(
     "[solid][corners]", ((int Dim), Dim), 2, 3) {
     const solid::Material material{.young = 2.0, .poisson = 0.25, .density = 1.0};  // lambda = mu = 0.8
     const auto mesh = round_body<Dim>(0.5);
-    auto options = bodies<Dim>(1);
+    auto options = reconstructed_bodies<Dim>(1);
     options.materials = {material};
     options.boundary.corner_rule = solid::CornerRule::fixed;
     solid::Solid<Dim> solid(mesh, options);

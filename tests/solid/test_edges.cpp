@@ -22,7 +22,7 @@ TEST_CASE("a box that slides off the edge or the corner of another loses no ener
     const bool corner = GENERATE(false, true);
     const double part = GENERATE(0.9, 0.3);  // of the stable step
     const double gravity = 0.03, speed = 0.25, time = 6.0;
-    auto options = bodies<3>(2);
+    auto options = reconstructed_bodies<3>(2);
     options.acceleration = {Vector<3>::Zero(), {0.0, 0.0, -gravity}};
     solid::DirichletCondition<3> held;
     held.group = "table.zmin";

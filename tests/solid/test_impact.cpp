@@ -72,7 +72,7 @@ TEMPLATE_TEST_CASE_SIG("over impact, slip and release H~ drifts by less than 1e-
     const double part = GENERATE(0.9, 0.2);  // of the stable step
     INFO(name << " at " << part << " of the stable step");
     const auto [mesh, velocity, time] = impact<Dim>(name);
-    Scene<Dim> scene(mesh, bodies<Dim>(2), velocity, -part);
+    Scene<Dim> scene(mesh, reconstructed_bodies<Dim>(2), velocity, -part);
     scene.run_until(time, 5);
     const auto report = scene.solid.contact_report();
     const auto motion = solid::body_motions<Dim>(scene.memm, scene.solid);
@@ -97,10 +97,10 @@ TEMPLATE_TEST_CASE_SIG("without events the drift of H~ is more than a thousand t
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     INFO(name);
     const auto [mesh, velocity, time] = impact<Dim>(name);
-    Scene<Dim> exact(mesh, bodies<Dim>(2), velocity);
+    Scene<Dim> exact(mesh, reconstructed_bodies<Dim>(2), velocity);
     contact::ContactOptions no_events;
     no_events.events = false;
-    Scene<Dim> rough(mesh, bodies<Dim>(2, no_events), velocity);
+    Scene<Dim> rough(mesh, reconstructed_bodies<Dim>(2, no_events), velocity);
     exact.run_until(time, 5);
     rough.run_until(time, 5);
     CHECK(rough.ledger.pseudo_energy_drift() > 1e3 * exact.ledger.pseudo_energy_drift());
@@ -112,7 +112,8 @@ TEMPLATE_TEST_CASE_SIG("with one point too few the drift of H~ is more than a th
     const auto [mesh, velocity, time] = impact<Dim>("off-centre");
     contact::ContactOptions few_points;
     few_points.quadrature = Dim - 1;
-    Scene<Dim> exact(mesh, bodies<Dim>(2), velocity), rough(mesh, bodies<Dim>(2, few_points), velocity);
+    Scene<Dim> exact(mesh, reconstructed_bodies<Dim>(2), velocity),
+        rough(mesh, reconstructed_bodies<Dim>(2, few_points), velocity);
     exact.run_until(time, 5);
     rough.run_until(time, 5);
     CHECK(rough.ledger.pseudo_energy_drift() > 1e3 * exact.ledger.pseudo_energy_drift());
@@ -124,7 +125,7 @@ TEST_CASE("two discs leave each other with the speeds of the reference runs, hea
     // digit.
     const double offset = GENERATE(0.0, 0.8);
     const Vector<2> expected = offset == 0.0 ? Vector<2>(-0.0477, 0.0) : Vector<2>(-0.0278, -0.0394);
-    Scene<2> scene(two_discs(offset), bodies<2>(2), disc_velocities);
+    Scene<2> scene(two_discs(offset), reconstructed_bodies<2>(2), disc_velocities);
     scene.run_until(12.0, 1000);
     const auto motion = solid::body_motions<2>(scene.memm, scene.solid);
     CHECK((motion[0].velocity - expected).norm() < 0.003);
@@ -138,7 +139,7 @@ TEMPLATE_TEST_CASE_SIG(
     const std::string name = GENERATE(from_range(impact_names<Dim>()));
     INFO(name);
     const auto [mesh, velocity, time] = impact<Dim>(name);
-    Scene<Dim> scene(mesh, bodies<Dim>(2), velocity);
+    Scene<Dim> scene(mesh, reconstructed_bodies<Dim>(2), velocity);
     std::size_t found = 0;
     const int every = Dim == 2 ? 1 : 5;
     while (scene.memm.time() < time) {
@@ -166,7 +167,7 @@ TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for 
                 mesh::structured_box<3>({-1.0, -1.0, -1.0}, {1.0, 1.0, 0.0}, {4, 3, 2}, CellShape::tetrahedron, "lower"),
                 mesh::structured_box<3>({-0.5, -0.6, 50.0}, {0.7, 0.65, 51.0}, {3, 2, 2}, CellShape::tetrahedron, "upper"));
     }();
-    auto options = bodies<Dim>(2);
+    auto options = reconstructed_bodies<Dim>(2);
     solid::Solid<Dim> with(mesh, options);
     options.contact.reset();
     solid::Solid<Dim> without(mesh, options);
@@ -189,7 +190,7 @@ TEMPLATE_TEST_CASE_SIG("bodies that never meet move as without contact, bit for 
 
 TEST_CASE("where contacts were looked at before a run begins does not matter to it", "[solid][impact]") {
     const auto mesh = two_discs(0.0, 0.25, 0.15);
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     options.contact->search.skin = 0.2;
     solid::Solid<2> fresh(mesh, options), used(mesh, options);
     const std::vector<double> start(used.size(), 0.0);
@@ -220,8 +221,9 @@ TEST_CASE("a scene turned by a right angle gives the result turned by a right an
     for (auto* points : {&turned.vertices, &turned.cell_centroid, &turned.face_centroid})
         for (Vector<2>& x : *points) x = turn(x);
     for (Vector<2>& n : turned.face_normal) n = turn(n);
-    Scene<2> scene(original, bodies<2>(2), disc_velocities);
-    Scene<2> other(turned, bodies<2>(2), {turn(disc_velocities[0]), turn(disc_velocities[1])}, scene.memm.dt());
+    Scene<2> scene(original, reconstructed_bodies<2>(2), disc_velocities);
+    Scene<2> other(turned, reconstructed_bodies<2>(2), {turn(disc_velocities[0]), turn(disc_velocities[1])},
+                   scene.memm.dt());
     scene.run_until(6.0, 1000);
     other.run_until(6.0, 1000);
     double worst = 0.0;

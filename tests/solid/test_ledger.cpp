@@ -27,7 +27,7 @@ TEMPLATE_TEST_CASE_SIG("the ledger measures the energies and momenta of a unifor
     Vector<Dim> lower = Vector<Dim>::Zero();
     lower[0] = 2.0;
     const Vector<Dim> upper = lower + Vector<Dim>::Ones();
-    auto options = bodies<Dim>(1);
+    auto options = reconstructed_bodies<Dim>(1);
     options.materials[0].density = 3.0;
     Scene<Dim> scene(mesh::box<Dim>({.lower = lower, .upper = upper, .size = 0.5}), options, {velocity}, 0.01);
     scene.run(10);

@@ -45,7 +45,7 @@ double distance(std::span<const Vector<Dim>> a, std::span<const Vector<Dim>> b) 
 TEMPLATE_TEST_CASE_SIG(
     "the local path integral is the one over the union of all events of the scene, on meshes with coupled faces",
     "[solid][contact]", ((int Dim), Dim), 2, 3) {
-    Scene<Dim> scene(coupled_bodies<Dim>(), bodies<Dim>(2), fast_velocities<Dim>());
+    Scene<Dim> scene(coupled_bodies<Dim>(), reconstructed_bodies<Dim>(2), fast_velocities<Dim>());
     const auto& contact = *scene.solid.contact();
     auto& ccg = scene.solid.ccg();
     LawOnList<Dim> local({}), global({});

@@ -54,7 +54,7 @@ TEST_CASE(
 TEST_CASE("local steps refuse conditions with a history, cells whose components are apart, and options out of range",
           "[solid][async][errors]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 2}, CellShape::quadrangle);
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     Solid<2> solid(mesh, options);
     std::vector<std::int32_t> level(solid.size(), 0);
     level[1] = 1;
@@ -94,14 +94,14 @@ TEST_CASE("local steps with constant tractions and prescribed displacements keep
 
 TEST_CASE("local steps: the bulk force of all levels together is that of one level", "[solid][async]") {
     const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
+    Solid<2> solid(mesh, reconstructed_bodies<2>(2));
     const auto q = random_state(solid.size(), 3, 1e-3), v = random_state(solid.size(), 4, 1e-3);
     const auto local = solid::local_steps(solid, dynamics::stable_step(solid));
     REQUIRE(local.steps.parts.size() >= 3);
     const auto n_levels = static_cast<std::int32_t>(local.steps.parts.size());
     std::vector<double> together(solid.size(), 0.0), expected(solid.size(), 0.0), middle(solid.size()), f(solid.size());
     const double dt = 1e-3;
-    auto free = bodies<2>(2);
+    auto free = reconstructed_bodies<2>(2);
     free.contact.reset();
     Solid<2> bulk(mesh, free);
     bulk.set_levels(n_levels, local.steps.level);
@@ -143,7 +143,7 @@ double highest_frequency(const Solid<2>& solid, const Eigen::MatrixXd& k, const 
 TEST_CASE("local steps: levels are stable by themselves, away from resonances, and fine where cells are fine",
           "[solid][async]") {
     const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
+    Solid<2> solid(mesh, reconstructed_bodies<2>(2));
     const auto stable = dynamics::stable_step(solid);
     const auto local = solid::local_steps(solid, stable);
     REQUIRE(local.cells.size() >= 3);
@@ -181,7 +181,7 @@ TEST_CASE("local steps: levels are stable by themselves, away from resonances, a
 template <int Dim>
 double parasitic_of_flight(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, int steps,
                            bool one_level) {
-    auto flying = bodies<Dim>(mesh.n_bodies());
+    auto flying = reconstructed_bodies<Dim>(mesh.n_bodies());
     flying.contact.reset();
     Solid<Dim> solid(mesh, flying);
     const auto local = solid::local_steps(solid, dynamics::stable_step(solid));
@@ -206,7 +206,7 @@ TEST_CASE("local steps: tetrahedra of one size have one level, since longer step
 
 TEST_CASE("local steps: one level is asked for, or no cell can have more", "[solid][async]") {
     const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
+    Solid<2> solid(mesh, reconstructed_bodies<2>(2));
     const auto stable = dynamics::stable_step(solid);
     const auto one = solid::local_steps(solid, stable, {.most_levels = 1});
     CHECK(one.cells == std::vector<std::int64_t>{mesh.n_cells()});
@@ -214,7 +214,7 @@ TEST_CASE("local steps: one level is asked for, or no cell can have more", "[sol
     CHECK(one.omega_max == std::vector<double>{stable.omega_max});
     // All cells of so coarse a disc are within reach of contact: what is finer than all others is all there is.
     const auto coarse_mesh = two_discs(0.8);
-    Solid<2> coarse(coarse_mesh, bodies<2>(2));
+    Solid<2> coarse(coarse_mesh, reconstructed_bodies<2>(2));
     const auto coarse_stable = dynamics::stable_step(coarse);
     const auto finer = solid::local_steps(coarse, coarse_stable, {.contact_levels = 2});
     CHECK(finer.cells.size() == finer.omega_max.size());
@@ -226,8 +226,8 @@ TEST_CASE("local steps: one level is asked for, or no cell can have more", "[sol
 TEST_CASE("local steps: cells that contact may reach are a level finer than the same cells without contact, or finest",
           "[solid][async]") {
     const auto mesh = refined_discs(0.4, 8.0);
-    Solid<2> solid(mesh, bodies<2>(2));
-    auto without = bodies<2>(2);
+    Solid<2> solid(mesh, reconstructed_bodies<2>(2));
+    auto without = reconstructed_bodies<2>(2);
     without.contact.reset();
     Solid<2> alone(mesh, without);
     // the same steps for both: the margin of contact is in the stable step

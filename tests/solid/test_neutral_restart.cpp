@@ -13,9 +13,9 @@ namespace {
 template <int Dim>
 std::unique_ptr<Scene<Dim>> impact() {
     if constexpr (Dim == 2)
-        return std::make_unique<Scene<2>>(two_discs(0.8), bodies<2>(2), disc_velocities, -0.9);
+        return std::make_unique<Scene<2>>(two_discs(0.8), reconstructed_bodies<2>(2), disc_velocities, -0.9);
     else
-        return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities, -0.9);
+        return std::make_unique<Scene<3>>(two_boxes(4), reconstructed_bodies<3>(2), box_velocities, -0.9);
 }
 
 /// What a body has of momentum and, about the positions at rest, angular momentum, at the node; and the kinetic part of its
@@ -80,7 +80,7 @@ TEMPLATE_TEST_CASE_SIG(
 }
 
 TEST_CASE("a restart keeps the momentum of a body that a face drives: only its vibration pays", "[solid][restart]") {
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     const Vector<2> velocity(0.3, 0.1);
     options.boundary.dirichlet = {
         {.group = "xmin", .history = [&](double t, const Vector<2>&) -> Vector<2> { return t * velocity; }}};

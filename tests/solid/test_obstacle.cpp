@@ -22,6 +22,7 @@ solid::SolidOptions<2> bar_and_wall(std::function<Vector<2>(double)> path = {}) 
     solid::SolidOptions<2> options;
     options.materials = {{.young = young, .poisson = 0.0, .density = 1.0}};
     options.contact = contact::ContactOptions{};
+    options.law = solid::ContactLaw::reconstruction;
     options.obstacles = {contact::plane_obstacle<2>({0.0, 0.1}, {1.0, 0.0}, 3.0, std::move(path))};
     return options;
 }
@@ -105,7 +106,7 @@ TEST_CASE("H~ gains the work of a moving wall exactly, and a bar at rest is thro
 TEMPLATE_TEST_CASE_SIG(
     "H~ gains the work of a tilted wall that turns back and of one behind, in contact with an unstructured body",
     "[solid][obstacle]", ((int Dim), Dim), 2, 3) {
-    auto options = bodies<Dim>(1);
+    auto options = reconstructed_bodies<Dim>(1);
     Vector<Dim> tilted = Vector<Dim>::Unit(0), origin = Vector<Dim>::Zero();
     tilted[1] = 0.2;
     origin[0] = -1.05;
@@ -124,7 +125,7 @@ TEMPLATE_TEST_CASE_SIG(
 
 TEST_CASE("the momentum that a body loses is the mean force on the obstacle times twice the step, step by step",
           "[solid][obstacle]") {
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
     Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
     const auto total = [](std::span<const double> p) {
@@ -147,7 +148,7 @@ TEMPLATE_TEST_CASE_SIG("H~ gains the work of a rigid box that strikes a body wit
                        "[solid][obstacle]", ((int Dim), Dim), 2, 3) {
     contact::ContactOptions narrow;
     narrow.search.facing_cosine = -0.9;  // the sides of the box are no partners of the round face in front of it
-    auto options = bodies<Dim>(1, narrow);
+    auto options = reconstructed_bodies<Dim>(1, narrow);
     const mesh::CellShape shape = Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron;
     // Of two cells each way, left of the body; shifted across so that an edge or a corner comes first on some of its faces.
     Vector<Dim> lower = Vector<Dim>::Constant(GENERATE(-0.37, 0.05, 0.2)), upper = lower + Vector<Dim>::Constant(0.7);

@@ -13,9 +13,9 @@ namespace {
 template <int Dim>
 std::unique_ptr<Scene<Dim>> impact(double cfl) {
     if constexpr (Dim == 2)
-        return std::make_unique<Scene<2>>(two_discs(0.8), bodies<2>(2), disc_velocities, -cfl);
+        return std::make_unique<Scene<2>>(two_discs(0.8), reconstructed_bodies<2>(2), disc_velocities, -cfl);
     else
-        return std::make_unique<Scene<3>>(two_boxes(4), bodies<3>(2), box_velocities, -cfl);
+        return std::make_unique<Scene<3>>(two_boxes(4), reconstructed_bodies<3>(2), box_velocities, -cfl);
 }
 
 /// What the filter must not change: the kinetic part of H~ (it does not touch q), momentum, and the angular momentum about
@@ -89,7 +89,7 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter makes the parasitic mode of an impact
 }
 
 TEST_CASE("the neutral filter keeps H~ of a body on a wall, and its momentum along the wall", "[solid][filter]") {
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>({-1.02, 0.0}, {1.0, 0.1}, 4.0)};
     Scene<2> scene(unit_disc(0.25), options, {Vector<2>(-0.1, 0.02)});
     dynamics::NeutralFilter filter(scene.solid);
@@ -120,7 +120,7 @@ TEMPLATE_TEST_CASE_SIG("the neutral filter leaves momentum along rollers alone, 
     Vector<Dim> gap = Vector<Dim>::Zero();
     gap[0] = 1.01;
     gap[Dim - 1] = 0.0;
-    auto options = bodies<Dim>(2);
+    auto options = reconstructed_bodies<Dim>(2);
     const std::string lower = Dim == 2 ? ".ymin" : ".zmin";
     for (const std::string body : {"left", "right"}) {
         solid::DirichletCondition<Dim> rollers;
@@ -156,7 +156,7 @@ TEST_CASE("a strength of zero filters nothing", "[solid][filter]") {
 TEMPLATE_TEST_CASE_SIG(
     "the neutral filter keeps H~ and momentum whatever the boundary reconstruction, down to patches of one or two cells",
     "[solid][filter]", ((int Dim), Dim), 2, 3) {
-    auto options = bodies<Dim>(2);
+    auto options = reconstructed_bodies<Dim>(2);
     options.boundary.free_face_rule =
         GENERATE(solid::FreeFaceRule::local_equilibrium, solid::FreeFaceRule::extrapolate, solid::FreeFaceRule::adjacent);
     const auto scene = [&] {

@@ -42,7 +42,7 @@ State after_impact(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& 
                    int steps) {
     contact::ContactOptions options;
     options.search.broad_phase = broad_phase;
-    Scene<Dim> scene(mesh, bodies<Dim>(2, options), velocity);
+    Scene<Dim> scene(mesh, reconstructed_bodies<Dim>(2, options), velocity);
     dynamics::NeutralFilter filter(scene.solid);
     scene.memm.set_after_step([&](auto q, double dt, auto p_before, auto p_after) { filter(q, dt, p_before, p_after); });
     dynamics::NeutralRestart restart(scene.solid, {.period = 25});

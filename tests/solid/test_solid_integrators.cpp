@@ -62,7 +62,7 @@ TEST_CASE("leapfrog takes the work of conditions with a history by the trapezoid
           "[solid][integrators][obstacle]") {
     const auto imbalance = [](double cfl) {
         const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {8, 4}, CellShape::quadrangle);
-        auto options = bodies<2>(1);
+        auto options = reconstructed_bodies<2>(1);
         options.boundary.dirichlet.push_back(
             {.group = "ymin", .constraint = solid::Constraint::full, .history = [](double t, const Vector<2>&) {
                  return Vector<2>(0.0, 0.01 * std::pow(std::sin(t), 2));
@@ -100,7 +100,7 @@ TEST_CASE("leapfrog takes the work of a moving wall by the trapezoidal rule: the
 TEST_CASE("Bilbao refuses a potential that changes with time, and a gauge that is too small",
           "[solid][integrators][errors]") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 0.5}, {4, 2}, CellShape::quadrangle);
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     options.obstacles = {contact::plane_obstacle<2>(Vector<2>(0.0, -1.0), Vector<2>::UnitY(), 10.0)};
     options.obstacles[0].path = [](double t) { return Vector<2>(0.0, 0.1 * t); };
     Solid<2> moving(mesh, options);
@@ -117,7 +117,7 @@ TEST_CASE(
     "[solid][integrators][contact]") {
     const auto mesh = two_discs(0.8);
     const auto dictated = [&](dynamics::StepChange change, const std::function<double(int)>& part) {
-        Solid<2> solid(mesh, bodies<2>(2));
+        Solid<2> solid(mesh, reconstructed_bodies<2>(2));
         const auto p = solid::uniform_momentum<2>(solid, disc_velocities);
         const double stable = dynamics::stable_step(solid).dt;
         dynamics::Memm memm(solid, std::vector<double>(solid.size(), 0.0), p, part(0) * stable);
@@ -140,7 +140,7 @@ TEST_CASE(
 
 TEST_CASE("a solid takes no quadrature but its own", "[solid][integrators][errors]") {
     const auto mesh = two_discs(0.0, 0.5);
-    Solid<2> solid(mesh, bodies<2>(2));
+    Solid<2> solid(mesh, reconstructed_bodies<2>(2));
     const std::vector<double> zero(solid.size(), 0.0);
     CHECK_THROWS_WITH(dynamics::Memm(solid, zero, zero, 0.01, dynamics::PathMean::gauss_2),
                       Catch::Matchers::Contains("PathMean::system"));

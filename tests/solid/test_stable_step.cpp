@@ -24,7 +24,7 @@ TEMPLATE_TEST_CASE_SIG("the stable step lies below 2/omega_max of the dense eige
 
 TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[solid][stable_step]") {
     const auto mesh = unit_disc(0.4);
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     solid::Solid<2> touching(mesh, options);
     options.contact.reset();
     solid::Solid<2> free(mesh, options);
@@ -34,7 +34,7 @@ TEST_CASE("with contact the stable step is 0.85 of that of the free body", "[sol
 TEST_CASE("the stable step is the same however often it is asked for, and scales with h sqrt(rho/E)",
           "[solid][stable_step]") {
     const auto mesh = unit_disc(0.4);
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     solid::Solid<2> solid(mesh, options);
     const double dt = dynamics::stable_step(solid).dt;
     CHECK(dynamics::stable_step(solid).dt == dt);

@@ -1,5 +1,6 @@
 // A run that is saved and goes on elsewhere has the bits of the run that was not stopped.
 #include <catch2/catch.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -33,6 +34,7 @@ template <int Dim>
 solid::SolidOptions<Dim> falling(const std::vector<Kinematics>& kinematics) {
     solid::SolidOptions<Dim> options = bodies<Dim>(2);
     options.kinematics = kinematics;
+    if (std::ranges::count(kinematics, Kinematics::small) == 2) options.law = solid::ContactLaw::reconstruction;
     const Vector<Dim> up = Vector<Dim>::Unit(Dim - 1);
     options.acceleration.assign(2, -0.01 * up);
     options.obstacles = {contact::plane_obstacle<Dim>(-0.005 * up, up, 6.0)};

@@ -91,7 +91,7 @@ TEST_CASE("the static solution is that of a decomposition of the dense stiffness
 /// A box on rollers at its sides, on a rigid plane at z = -0.3 (y in 2D), with its weight and a traction from above.
 template <int Dim>
 SolidOptions<Dim> resting_box(double weight_density, double pressure) {
-    SolidOptions<Dim> options = bodies<Dim>(1);
+    SolidOptions<Dim> options = reconstructed_bodies<Dim>(1);
     options.acceleration = {-weight_density * Vector<Dim>::Unit(Dim - 1)};
     options.obstacles = {contact::plane_obstacle<Dim>(-0.3 * Vector<Dim>::Unit(Dim - 1), Vector<Dim>::Unit(Dim - 1), 5.0)};
     options.boundary.dirichlet = {{.group = "xmin", .constraint = Constraint::normal},
@@ -129,7 +129,7 @@ TEST_CASE("a plane carries what rests on it: reaction equals weight and load to 
 TEST_CASE("two matching blocks pressed onto each other carry one uniform stress, to 1e-9") {
     const auto mesh = together(mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, CellShape::quadrangle, "lower"),
                                mesh::structured_box<2>({0.0, 1.0}, {1.0, 2.0}, {4, 3}, CellShape::quadrangle, "upper"));
-    auto options = bodies<2>(2);
+    auto options = reconstructed_bodies<2>(2);
     options.materials[1] = {.young = 7.0, .poisson = 0.2, .density = 1.0};
     for (const char* side : {"lower.xmin", "lower.xmax", "upper.xmin", "upper.xmax", "lower.ymin"})
         options.boundary.dirichlet.push_back({.group = side, .constraint = Constraint::normal});
@@ -177,7 +177,7 @@ TEST_CASE("a second body is held by contact alone: where it touches, and not whe
         const auto mesh =
             together(mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, CellShape::quadrangle, "lower"),
                      mesh::structured_box<2>({0.1, 1.0 + gap}, {0.9, 1.5}, {3, 2}, CellShape::quadrangle, "upper"));
-        auto options = bodies<2>(2);
+        auto options = reconstructed_bodies<2>(2);
         options.acceleration = {Vector<2>::Zero(), Vector<2>(0.0, -0.001)};
         options.boundary.dirichlet = {{.group = "lower.ymin"}, {.group = "upper.xmin", .constraint = Constraint::normal}};
         if (gap == 0.0)
@@ -199,7 +199,7 @@ TEST_CASE("where V has an edge at its minimum no state near it is lower, and all
     mesh.groups.push_back({"top", {}});
     for (const std::int32_t face : mesh.boundary_faces)
         if (mesh.face_centroid[face].y() > 0.8) mesh.groups.back().faces.push_back(face);
-    auto options = bodies<2>(1);
+    auto options = reconstructed_bodies<2>(1);
     options.acceleration = {{0.0, -0.02}};
     options.obstacles = {contact::plane_obstacle<2>({0.0, -1.0}, {0.0, 1.0}, 3.0)};
     options.boundary.dirichlet = {{.group = "top", .constraint = Constraint::components, .components = {true, false}}};
