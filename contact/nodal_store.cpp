@@ -46,8 +46,8 @@ std::vector<std::int32_t> new_facets(const NodalSurface<Dim>& before, const Noda
 /// Bodies may have become one, or rigid.
 template <int Dim>
 bool may_touch(const NodalSurface<Dim>& surface, std::int32_t facet_1, std::int32_t facet_2) {
-    const std::int32_t body_1 = surface.facets().body[facet_1], body_2 = surface.facets().body[facet_2];
-    return body_1 != body_2 && !(surface.is_rigid(body_1) && surface.is_rigid(body_2));
+    const SurfaceView<Dim> facets = surface.facets().view();
+    return facets.body[facet_1] != facets.body[facet_2] && !(facets.is_rigid(facet_1) && facets.is_rigid(facet_2));
 }
 
 }  // namespace

@@ -89,17 +89,18 @@ public:
         const double of_body = faces_.stiffness[body(face)];
         if (of_body == rigid || faces_.face_stiffness.empty()) return of_body;
         const double stiffness = faces_.face_stiffness[face];
-        if (!(stiffness >= least_stiffness && stiffness <= of_body))
+        if (!(stiffness >= least_stiffness && stiffness <= of_body) && stiffness != rigid)
             refuse_face(face,
                         "has the stiffness " + number(stiffness) + " Pa/m; it must be > 0, at least " +
-                            number(least_stiffness) + " Pa/m, and at most that of its body, " + number(of_body) + " Pa/m.",
+                            number(least_stiffness) + " Pa/m, and at most that of its body, " + number(of_body) +
+                            " Pa/m, or infinity.",
                         {.value = stiffness, .allowed = of_body});
         return stiffness;
     }
 
     [[nodiscard]] double depth(std::int32_t face) const {
         const double depth = faces_.depth[face];
-        const bool is_rigid = faces_.stiffness[body(face)] == rigid;
+        const bool is_rigid = stiffness(face) == rigid;
         if (!is_length(depth) && !(is_rigid && depth == 0.0))
             refuse_face(face,
                         "has the depth " + number(depth) + " m; it must be > 0, from " + length_range() +

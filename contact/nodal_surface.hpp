@@ -25,7 +25,8 @@ struct NodalFaces {
     /// half elements behind both faces in series, no penalty: a larger k costs time steps and gains nothing
     std::span<const double> stiffness;
     /// (n_faces) k [Pa/m] of each face, for hosts whose faces give way by sigma/k each by itself, as cell-centred solids; that
-    /// of its body then bounds it. Empty: that of its body. Not read for rigid bodies
+    /// of its body then bounds it, or infinity of one that the host holds or moves on a path. Empty: that of its body. Not
+    /// read for rigid bodies
     std::span<const double> face_stiffness = {};
 };
 

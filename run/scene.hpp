@@ -78,7 +78,6 @@ struct RunResult {
     std::optional<contact::EdgePair<Dim>> unseen_edges;  ///< that would cross without contact
     std::optional<PilotReport> pilot;                    ///< under BodyKinematics::automatic
     bool all_may_turn = false;                           ///< no body is of Kinematics::small
-    std::int64_t contact_faces_left_out = 0;             ///< their displacement is prescribed
     solid::StencilReport stencils;                       ///< of the faces between cells
     solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;

@@ -76,7 +76,6 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     const solid::Solid<Dim>& seen = whole ? *whole : *solid;
     result.stencils = seen.ccg().stencil_report();
     result.boundary_stencils = seen.ccg().boundary().report;
-    result.contact_faces_left_out = solid->contact_faces_left_out();
     const auto& kinematics = solid->options().kinematics;
     result.all_may_turn = !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
     result.blind_corners = solid->blind_corners();

@@ -149,7 +149,6 @@ Json counts_json(const RunResult<Dim>& result) {
             {"not_admitted_max", result.inadmissible_overlaps_max},
             {"candidates", contact.candidates_max},
             {"rebuilds", contact.rebuilds},
-            {"contact_faces_left_out", result.contact_faces_left_out},
             {"blind_corners", result.blind_corners.size()},
             {"compression_max", contact.compression_max},
             {"sliding_ratio_max", contact.sliding_ratio_max},

@@ -79,9 +79,6 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "
                            "shorter",
                            stencils.extrapolated, stencils.faces, stencils.worst_weight));
-    counts.add(
-        WarningKind::faces_out_of_contact, Severity::note, result.contact_faces_left_out,
-        fmt::format("{} faces with a prescribed displacement take no part in contact", result.contact_faces_left_out));
     add_corners<Dim>(counts, result.blind_corners);
     add_edges<Dim>(counts, result.unseen_edges, result.options.contact.search.facing_cosine);
     if (const auto& options = result.options; options.restart > 0 && options.interval % options.restart == 0)

@@ -32,7 +32,6 @@ enum class WarningKind {
     cut_cells,             ///< note: cells that were cut because of faces that are not planar
     coincident_vertices,   ///< vertices at the place of one of another body
     extrapolated_faces,    ///< faces that extrapolate from the cells around them: the stable step is shorter
-    faces_out_of_contact,  ///< note: faces with a prescribed displacement
     blind_corners,         ///< corners too sharp for contact to see
     unseen_edges,    ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
     hidden_mode,     ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart

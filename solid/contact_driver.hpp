@@ -93,7 +93,6 @@ public:
 
     [[nodiscard]] virtual contact::ContactReport report() const = 0;
     [[nodiscard]] virtual double skin() const = 0;  ///< of the candidate list [m]
-    [[nodiscard]] virtual std::int64_t faces_left_out() const = 0;
     [[nodiscard]] virtual std::vector<Vector<Dim>> blind_corners() const = 0;
     [[nodiscard]] virtual std::optional<contact::EdgePair<Dim>> unseen_edges() const = 0;
 

@@ -1,6 +1,7 @@
 #include "abut/solid/corner_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -29,7 +30,7 @@ CornerSurface<Dim>::CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, cons
         append_deformable();
     append_rigid();
     for (double& of_body : faces_.stiffness)
-        if (of_body == 0.0) of_body = 1.0;  // all faces are prescribed: nothing touches it
+        if (of_body == 0.0) of_body = 1.0;  // all faces are held
     append_obstacles();
 }
 
@@ -44,6 +45,7 @@ void CornerSurface<Dim>::add_face(std::span<const Vector<Dim>> corners, double d
     faces_.append_face(nodes, depth, body);
     corner_offsets_.push_back(static_cast<std::int32_t>(rest_.size()));
     stiffness_.push_back(stiffness);
+    if (!std::isfinite(stiffness)) return;  // it alone is rigid, not its body
     double& of_body = faces_.stiffness[static_cast<std::size_t>(body)];
     of_body = std::max(of_body, stiffness);
 }
@@ -59,6 +61,7 @@ void CornerSurface<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t f
 template <int Dim>
 double CornerSurface<Dim>::amplification_of(BoundaryFace b) const {
     const std::int32_t face = mesh_face(mesh_, b);
+    if (ccg_.prescribed()[b].isIdentity(0.0)) return 0.0;
     double largest = 0.0;
     for (const std::int32_t v : mesh_.face_vertices[face])
         largest =
@@ -77,13 +80,8 @@ std::vector<BoundaryFace> CornerSurface<Dim>::deformable_in_mesh() const {
 
 template <int Dim>
 void CornerSurface<Dim>::append_deformable() {
-    const auto prescribed = ccg_.prescribed();
     const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
     for (const BoundaryFace b : ccg_.boundary_faces()) {
-        if (!prescribed[b].isZero(0.0)) {
-            ++faces_left_out_;
-            continue;
-        }
         amplification_.push_back(amplification_of(b));
         append_face(mesh_, mesh_face(mesh_, b), mesh_.cell_body[cell_of(mesh_, b)], ccg_.normal_stiffness(b));
         boundary_.push_back(b);
@@ -94,7 +92,6 @@ void CornerSurface<Dim>::append_deformable() {
 template <int Dim>
 void CornerSurface<Dim>::append_deformable_of_ranks() {
     const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
-    faces_left_out_ = ranks_->n_left_out();
     std::vector<double> own;
     for (std::size_t i = 0; i < ranks_->faces().size(); ++i) {
         const auto& face = ranks_->faces()[i];
@@ -145,7 +142,7 @@ contact::NodalSurface<Dim> CornerSurface<Dim>::for_contact() const {
 template <int Dim>
 std::span<const std::int32_t> CornerSurface<Dim>::points_of(contact::SurfaceFace face) const {
     const auto i = static_cast<std::size_t>(face);
-    if (is_obstacle(i)) return {};
+    if (is_obstacle(i) || std::isinf(stiffness_[i])) return {};
     if (!is_deformable(i)) return rigid_points_[rigid_of(i)];
     if (ranks_) return ranks_->faces()[i].cells;
     return ccg_.cells_of(boundary_[i]);
@@ -235,7 +232,7 @@ void CornerSurface<Dim>::place(const Listed& listed, std::span<const Vector<Dim>
             const std::size_t body = body_of(static_cast<std::size_t>(face));
             const Vector<Dim> arm = displacement_[i] - frames_.rest_centre(body), centroid = ccg_.centroid(boundary_[face]);
             for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
-                x[n] = frames[body](rest_[n] + arm + tilt_[i] * (rest_[n] - centroid));
+                x[n] = frames[body](rest_[n] + arm + free_part(boundary_[face], tilt_[i] * (rest_[n] - centroid)));
         },
         256);
     if (ranks_) gather_nodes(listed, x);

@@ -17,8 +17,9 @@ namespace abut::solid {
 /// The corners of all faces that may touch, each belonging to its face alone: nodes for contact. A corner at X of face f moves
 /// with the face and tilts with its cell c, in the frame of its body:
 ///
-///     x = centre + Q (X - mean of X + û_f + G_c (X - x_f))
+///     x = centre + Q (X - mean of X + û_f + (I - P_f) G_c (X - x_f))
 ///
+/// where P_f projects onto the directions that a support prescribes: in these it moves as the support says.
 /// Faces of rigid bodies move with these; they have the stiffness and depth of the cell behind them, as a skin. Faces, and
 /// with them nodes, come in the order: bodies that deform, rigid bodies, obstacles.
 template <int Dim>
@@ -39,13 +40,11 @@ public:
         Region<Dim> region;
     };
 
-    /// All must outlive it. Faces with a prescribed displacement are left out. `part` is null on one rank; on several each has all
-    /// faces, and `place` is a call of all ranks.
+    /// All must outlive it. `part` is null on one rank; on several each has all faces, and `place` is a call of all ranks.
     CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const Obstacles<Dim>& obstacles,
                   const RankPart<Dim>* part);
 
     [[nodiscard]] contact::NodalSurface<Dim> for_contact() const;
-    [[nodiscard]] std::int64_t faces_left_out() const { return faces_left_out_; }
     /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.
     [[nodiscard]] double amplification(const Listed& listed) const;
 
@@ -69,8 +68,12 @@ public:
     [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const {
         return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
     }
-    /// Points of the system that move a face; none of an obstacle. On several ranks, by their numbers among those of all.
+    /// Points of the system that move a face; none of an obstacle or of a face that a support holds. On several ranks, by their numbers among those of all.
     [[nodiscard]] std::span<const std::int32_t> points_of(contact::SurfaceFace face) const;
+    /// The part of a displacement or a force of a corner, in the frame, that its cell has a say in.
+    [[nodiscard]] Vector<Dim> free_part(BoundaryFace face, const Vector<Dim>& of_corner) const {
+        return of_corner - ccg_.prescribed()[face] * of_corner;
+    }
     /// What holds such a point; nothing does one of a rigid body.
     [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const;
     /// Of a body that deforms.
@@ -117,7 +120,6 @@ private:
     std::vector<std::size_t> rigid_of_;            // rigid body of each face that follows
     std::vector<BoundaryFace> mesh_boundary_;      // of all these, in the whole mesh
     std::vector<std::vector<std::int32_t>> rigid_points_;
-    std::int64_t faces_left_out_ = 0;
     std::vector<double> amplification_;  // of each face of a body that deforms
     std::vector<RigidPlace<Dim>> places_;
     std::vector<Vector<Dim>> u_;  // work arrays: of all cells, and of listed faces

@@ -222,7 +222,7 @@ template <int Dim>
 std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
     std::vector<std::int32_t> cells;
     for (const BoundaryFace b : solid.ccg().boundary_faces()) {
-        if (!solid.ccg().prescribed()[b].isZero(0.0)) continue;
+        if (solid.ccg().prescribed()[b].isIdentity(1e-12)) continue;
         cells.push_back(cell_of(solid.mesh(), b));
         cells.insert(cells.end(), solid.ccg().cells_of(b).begin(), solid.ccg().cells_of(b).end());
     }

@@ -42,6 +42,12 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
         throw BadInput(
             "contact: overlap, weighting, area and quadrature are choices of the modified reconstruction, and bodies that "
             "turn need the pair potential. Leave them at their defaults, or choose Kinematics::small for all bodies.");
+    if (contact.search.self_contact)
+        throw BadInput(
+            "contact: contact.self = true (self_contact) is of law = \"reconstruction\", for bodies that are small; this "
+            "run "
+            "takes the pair potential, which does not look within a body. Leave it out, or make the parts that may touch "
+            "bodies of their own.");
     contact::CandidateOptions search = contact.search;
     search.ignored_bodies = ignored_pairs(bodies);
     return {.search = std::move(search),
@@ -223,8 +229,9 @@ void PairPotentialDriver<Dim>::collect(const Points& x_0, const Points& x_1) {
         while (at < listed_.here.size() && static_cast<std::size_t>(listed_.here[at]) < face) ++at;
         if (at == listed_.here.size() || static_cast<std::size_t>(listed_.here[at]) != face) continue;  // of other ranks
         const Vector<Dim> in_frame = frames_.step(body).force_turn().transpose() * p;
+        const BoundaryFace b = listed_.boundary[at];
         face_gradient_[at] += in_frame;
-        cell_moment_[at] += in_frame * (rest - ccg_.centroid(listed_.boundary[at])).transpose();
+        cell_moment_[at] += corners_.free_part(b, in_frame) * (rest - ccg_.centroid(b)).transpose();
     }
 }
 

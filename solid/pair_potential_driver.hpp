@@ -58,7 +58,6 @@ public:
     [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const override {
         return corners_.mesh_boundary(face);
     }
-    [[nodiscard]] std::int64_t faces_left_out() const override { return corners_.faces_left_out(); }
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override { return {}; }
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override { return contact_.unseen_edges(); }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
@@ -44,13 +45,9 @@ void append(std::vector<double>& values, const Array& array) {
 
 template <int Dim>
 RankFaces<Dim>::RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg) : part_(part) {
-    std::vector<double> mine{0.0, 0.0};  // faces left out, faces; then the faces
-    for (std::size_t i = 0; i < part.own_faces().size(); ++i) {
-        const BoundaryFace face = part.own_faces()[i];
-        const bool is_prescribed = !ccg.prescribed()[face].isZero(0.0);
-        ++mine[is_prescribed ? 0 : 1];
-        if (!is_prescribed) append_own(mesh, ccg, face, part.face_keys()[i], mine);
-    }
+    std::vector<double> mine{static_cast<double>(part.own_faces().size())};  // then the faces
+    for (std::size_t i = 0; i < part.own_faces().size(); ++i)
+        append_own(mesh, ccg, part.own_faces()[i], part.face_keys()[i], mine);
     take_all(part.ranks().gather(mine));
     gather_holds(mesh, ccg);
     find_here(mesh);
@@ -62,8 +59,8 @@ void RankFaces<Dim>::append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg
     const std::int32_t in_mesh = mesh_face(mesh, face);
     const auto corners = mesh.face_vertices[in_mesh];
     values.insert(values.end(), {static_cast<double>(key), static_cast<double>(mesh.cell_body[cell_of(mesh, face)]),
-                                 cell_depth(mesh, in_mesh), ccg.normal_stiffness(face), static_cast<double>(corners.size()),
-                                 static_cast<double>(ccg.cells_of(face).size())});
+                                 contact_depth(mesh, ccg, face), ccg.normal_stiffness(face),
+                                 static_cast<double>(corners.size()), static_cast<double>(ccg.cells_of(face).size())});
     append(values, mesh.face_centroid[in_mesh]);
     for (const std::int32_t v : corners) append(values, mesh.vertices[v]);
     for (const std::int32_t c : ccg.cells_of(face)) values.push_back(part_.cell_numbers()[static_cast<std::size_t>(c)]);
@@ -72,8 +69,7 @@ void RankFaces<Dim>::append_own(const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg
 template <int Dim>
 void RankFaces<Dim>::take_all(std::span<const double> values) {
     Reader reader(values);
-    for (int rank = 0; !reader.is_done(); ++rank) {
-        n_left_out_ += reader.next_as<std::int64_t>();
+    for (int rank = 0; !reader.is_done(); ++rank)
         for (auto left = reader.next_as<std::int64_t>(); left > 0; --left) {
             Face& face = faces_.emplace_back();
             face.key = reader.next_as<std::int64_t>();
@@ -87,7 +83,6 @@ void RankFaces<Dim>::take_all(std::span<const double> values) {
             for (Vector<Dim>& corner : face.corners) corner = reader.next_array<Vector<Dim>>();
             for (std::int32_t& cell : face.cells) cell = reader.next_as<std::int32_t>();
         }
-    }
     std::ranges::sort(faces_, {}, &Face::key);
     std::vector<std::size_t> all(faces_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});

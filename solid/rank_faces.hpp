@@ -30,10 +30,9 @@ public:
         std::vector<std::int32_t> cells;   // that move it, by their numbers in the whole mesh
     };
 
-    /// All arguments must outlive it. Faces with a prescribed displacement are left out.
+    /// All arguments must outlive it.
     RankFaces(const RankPart<Dim>& part, const mesh::Mesh<Dim>& mesh, const Ccg<Dim>& ccg);
 
-    [[nodiscard]] std::int64_t n_left_out() const { return n_left_out_; }  ///< of all ranks
     /// Appends all faces in the order of the whole mesh; and of each the boundary face here, `no_face` if there is none.
     void append_to(contact::Surface<Dim>& surface, std::vector<BoundaryFace>& boundary) const;
 
@@ -69,7 +68,6 @@ private:
     void find_here(const mesh::Mesh<Dim>& mesh);
 
     const RankPart<Dim>& part_;
-    std::int64_t n_left_out_ = 0;
     std::vector<Face> faces_;                                          // in the order of the whole mesh
     std::vector<std::pair<std::int32_t, dynamics::Hold<Dim>>> holds_;  // of cells, by their numbers in the whole mesh
     std::vector<BoundaryFace> here_;                                   // of each; none: it is on other ranks alone

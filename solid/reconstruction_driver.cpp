@@ -10,6 +10,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/sharp_edges.hpp"
+#include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
@@ -45,7 +46,6 @@ template <int Dim>
 void ReconstructionDriver<Dim>::build_surface() {
     if (ranks_) {
         ranks_->append_to(surface_, boundary_of_surface_);
-        faces_left_out_ = ranks_->n_left_out();
     } else {
         append_faces();
     }
@@ -55,16 +55,12 @@ void ReconstructionDriver<Dim>::build_surface() {
 
 template <int Dim>
 void ReconstructionDriver<Dim>::append_faces() {
-    const auto prescribed = ccg_.prescribed();
     for (const BoundaryFace b : ccg_.boundary_faces()) {
-        if (!prescribed[b].isZero(0.0)) {
-            ++faces_left_out_;
-            continue;
-        }
         const std::int32_t face = mesh_face(mesh_, b);
         std::vector<Vector<Dim>> corners;
         for (const std::int32_t v : mesh_.face_vertices[face]) corners.push_back(mesh_.vertices[v]);
-        surface_.append(corners, cell_depth(mesh_, face), ccg_.normal_stiffness(b), mesh_.cell_body[cell_of(mesh_, b)]);
+        surface_.append(corners, contact_depth(mesh_, ccg_, b), ccg_.normal_stiffness(b),
+                        mesh_.cell_body[cell_of(mesh_, b)]);
         boundary_of_surface_.push_back(b);
     }
 }
@@ -208,12 +204,12 @@ template <int Dim>
 void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
     const auto points = [&](contact::SurfaceFace face) {
-        if (is_of_obstacle(face)) return std::span<const std::int32_t>{};
+        if (is_rigid(face)) return std::span<const std::int32_t>{};
         if (ranks_) return std::span<const std::int32_t>(ranks_->faces()[static_cast<std::size_t>(face)].cells);
         return ccg_.cells_of(mesh_boundary(face));
     };
     for (const contact::PairStep<Dim>& pair : step.pairs) {
-        const contact::SurfaceFace of_body = is_of_obstacle(pair.face_1) ? pair.face_2 : pair.face_1;
+        const contact::SurfaceFace of_body = is_rigid(pair.face_1) ? pair.face_2 : pair.face_1;
         touching_.push_back(
             {points(pair.face_1), points(pair.face_2),
              ranks_ ? ranks_->faces()[static_cast<std::size_t>(of_body)].centroid : ccg_.centroid(mesh_boundary(of_body)),

@@ -82,7 +82,6 @@ public:
         return i < boundary_of_surface_.size() ? boundary_of_surface_[i] : no_face;
     }
     [[nodiscard]] double skin() const override { return contact_->skin(); }
-    [[nodiscard]] std::int64_t faces_left_out() const override { return faces_left_out_; }
     [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override;
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override;
 
@@ -93,6 +92,10 @@ private:
     [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::SurfaceFace> faces);
     [[nodiscard]] bool is_of_obstacle(contact::SurfaceFace face) const {
         return static_cast<std::size_t>(face) >= boundary_of_surface_.size();
+    }
+    /// Whether it is one of an obstacle or held by a support: nothing that touches it moves it.
+    [[nodiscard]] bool is_rigid(contact::SurfaceFace face) const {
+        return surface_.view().is_rigid(static_cast<std::int32_t>(face));
     }
     [[nodiscard]] std::span<const Vector<Dim>> values_here(std::span<const Vector<Dim>> of_listed,
                                                            std::vector<Vector<Dim>>& work) const;
@@ -117,7 +120,6 @@ private:
     std::vector<BoundaryFace> boundary_of_surface_;  // of each deformable surface face; `no_face`: it is on other ranks
     std::unique_ptr<RankFaces<Dim>> ranks_;          // null on one rank
     std::optional<RankSharing> sharing_;             // likewise
-    std::int64_t faces_left_out_ = 0;
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
     bool has_stepped_ = false;

@@ -54,7 +54,7 @@ class ReconstructionDriver;
 /// Its points are the cells of the bodies that deform, in their order, then Dim + 1 points of each body of Kinematics::rigid,
 /// which stay at their distances (ConstrainedSystem): displacements q, forces and momenta have shape (n_points, Dim).
 ///
-/// Faces with a prescribed displacement (whole or in part) take no part in contact; `contact_faces_left_out` counts them.
+/// A face whose displacement is prescribed along its normal is a rigid one to what touches it, on the path of the support.
 ///
 /// `force`, `potential`, `contact_field`, `touching_pairs` and `acting_pairs` take any state before the first step, and later
 /// the last state or one that no face has left by more than half the skin since the last search; they throw Misuse for others.
@@ -190,8 +190,6 @@ public:
     [[nodiscard]] const contact::Contact<Dim>* contact() const;
     [[nodiscard]] const contact::NodalContact<Dim>* nodal_contact() const;
     [[nodiscard]] double skin() const;  ///< of the last candidate list; 0 without contact [m]
-    /// Boundary faces that take no part in contact, since their displacement is prescribed; 0 without contact.
-    [[nodiscard]] std::int64_t contact_faces_left_out() const;
     /// Cell of the mesh that has a face which an error of contact names (ErrorFacts::face_1, face_2); -1: none has.
     [[nodiscard]] std::int32_t cell_of_contact_face(std::int64_t face) const;
     /// Corners that are too sharp for contact to see them coming, their positions at rest [m]; empty without contact.

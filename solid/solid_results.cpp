@@ -121,11 +121,6 @@ dynamics::ContactCounts Solid<Dim>::contact_counts() const {
 }
 
 template <int Dim>
-std::int64_t Solid<Dim>::contact_faces_left_out() const {
-    return contact_ ? contact_->faces_left_out() : 0;
-}
-
-template <int Dim>
 std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t face) const {
     if (!contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return -1;
     const BoundaryFace boundary = contact_->mesh_boundary(contact::SurfaceFace{static_cast<std::int32_t>(face)});
@@ -324,7 +319,6 @@ double Solid<Dim>::step_margin() const {
     template contact::ContactReport Solid<Dim>::contact_report() const;                                               \
     template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                              \
     template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                       \
-    template std::int64_t Solid<Dim>::contact_faces_left_out() const;                                                 \
     template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                              \
     template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                                  \
     template std::span<const double> Solid<Dim>::inverse_mass() const;                                                \

@@ -1,6 +1,7 @@
 #include "abut/solid/ccg/boundary_reconstruction.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "abut/base/decompositions.hpp"
@@ -14,6 +15,7 @@ inline constexpr double null_space_cut = 1e-10;  // of the largest eigenvalue
 // together, and a plate of one cell would give way altogether.
 inline constexpr double largest_corner_cosine = 0.6;  // |n_f . n_g|: between 53 and 127 degrees
 inline constexpr double rounding = 1e-9;              // of cosines
+inline constexpr double least_free_part = 1e-12;      // of a unit normal: below it a face cannot move along its normal
 inline constexpr double least_stiffness = 0.5;        // that must be left to the face, of Young's modulus |f|/|c|
 
 /// One boundary face's displacement as a sum over cells, prescribed displacements and tractions.
@@ -84,6 +86,19 @@ private:
     static Eigen::Index first_row(std::size_t face) { return static_cast<Eigen::Index>(face) * Dim; }
 
     bool is_free(BoundaryFace b) const { return !conditions_.prescribed[b].isIdentity(1e-12); }
+    /// The part of a unit displacement along the normal that is not prescribed, in the direction of the normal.
+    double free_along_normal(BoundaryFace b) const { return normal_of(b).dot(free_part(b) * normal_of(b)); }
+
+    /// k of a face that `among` resists [Pa/m]: where directions are prescribed that with which it gives way along its normal
+    /// in the others.
+    double normal_stiffness(BoundaryFace b, const Matrix<Dim>& among) const {
+        const Vector<Dim>& normal = normal_of(b);
+        const double measure = mesh_.face_measure[mesh_face(mesh_, b)];
+        if (conditions_.prescribed[b].isZero(0.0)) return normal.dot(among * normal) / measure;
+        const Vector<Dim> moved = free_part(b) * normal;
+        const double along_normal = moved.dot(normal);
+        return moved.dot(among * moved) / (along_normal * along_normal * measure);
+    }
 
     FreeFaceRule rule_of(std::int32_t cell) const {
         const bool finite = !kinematics_.empty() && kinematics_[mesh_.cell_body[cell]] == Kinematics::finite;
@@ -115,6 +130,7 @@ private:
             Row<Dim>::add(rows_[b].displacement, b, conditions_.prescribed[b]);
             rows_[b].normal_stiffness = materials_[mesh_.cell_body[cell]].wave_modulus() *
                                         mesh_.face_measure[mesh_face(mesh_, b)] / mesh_.cell_measure[cell];
+            if (!conditions_.prescribed[b].isZero(0.0)) hold(cell, b);
         }
         const FreeFaceRule rule = rule_of(cell);
         if (rule == FreeFaceRule::local_equilibrium) {
@@ -131,6 +147,16 @@ private:
             else
                 Row<Dim>::add(rows_[b].cells, cell, free);
         }
+    }
+
+    /// Of a correction of contact the directions that are prescribed take nothing: the face answers to it itself.
+    void hold(std::int32_t cell, BoundaryFace b) {
+        if (free_along_normal(b) <= least_free_part) {
+            rows_[b].normal_stiffness = std::numeric_limits<double>::infinity();
+            return;
+        }
+        rows_[b].normal_stiffness = normal_stiffness(b, stiffness(cell, b, b));
+        Row<Dim>::add(rows_[b].answers, b, -conditions_.prescribed[b]);
     }
 
     Matrix<Dim> stiffness(std::int32_t cell, std::int32_t f, std::int32_t g) const {
@@ -173,21 +199,21 @@ private:
     }
 
     /// Static condensation: the minimum of the cell's energy over its corner faces when b is displaced by delta,
-    /// N A N z = -N A_b delta.
+    /// N A N z = -N A_b delta, delta in the free directions of b.
     void relax_corners(std::int32_t cell, BoundaryFace b, const std::vector<BoundaryFace>& boundary) {
-        if (!conditions_.prescribed[b].isZero(0.0)) return;  // contact leaves it alone
+        if (free_along_normal(b) <= least_free_part) return;  // no correction moves it
         const std::vector<BoundaryFace> corners = corners_with(b, boundary);
         if (corners.empty()) return;
-        const Condensed of_corners = stiffness_of(corners, cell, b);
+        Condensed of_corners = stiffness_of(corners, cell, b);
+        if (!conditions_.prescribed[b].isZero(0.0)) of_corners.with_b = of_corners.with_b * free_part(b);
         const Eigen::MatrixXd answers = -pseudo_inverse(of_corners.among, null_space_cut) * of_corners.with_b;
         const Matrix<Dim> relaxed = stiffness(cell, b, b) + of_corners.with_b.transpose() * answers;
-        const Vector<Dim>& normal = normal_of(b);
-        const double along_normal = normal.dot(relaxed * normal), measure = mesh_.face_measure[mesh_face(mesh_, b)];
+        const double left = normal_stiffness(b, relaxed), measure = mesh_.face_measure[mesh_face(mesh_, b)];
         const double young = materials_[mesh_.cell_body[cell]].young;
-        if (along_normal < least_stiffness * young * measure * measure / mesh_.cell_measure[cell]) return;
+        if (left < least_stiffness * young * measure / mesh_.cell_measure[cell]) return;
         for (std::size_t i = 0; i < corners.size(); ++i)
             Row<Dim>::add(rows_[b].answers, corners[i], answers.block<Dim, Dim>(first_row(i), 0));
-        rows_[b].normal_stiffness = along_normal / measure;
+        rows_[b].normal_stiffness = left;
     }
 
     /// Minimum of the cell's energy over what is free of its boundary faces:

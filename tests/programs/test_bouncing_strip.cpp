@@ -46,8 +46,6 @@ TEST_CASE("the bouncing strip leaves the files of all programs that run a scene 
     CHECK(summary["kinetic_initial"] == 0.0);
     CHECK(summary["energy_scale"]["name"] == "H0");
     CHECK(summary["energy_scale"]["value"].get<double>() == Approx(1.0 * 10.0 * 0.2 * 10.0 * 5.0));
-    CHECK(summary["contact_faces_left_out"] == 200);  // both sides, on rollers
-    CHECK(outcome.out.find("200 faces with a prescribed displacement") != std::string::npos);
     CHECK(summary["compression_max"].get<double>() > 0.3);
     CHECK(summary["compressed_steps"] > 0);
     CHECK(outcome.out.find("max |g|/D") != std::string::npos);

@@ -215,7 +215,6 @@ TEST_CASE("summary.json holds all that a reader is promised", "[programs]") {
                              "candidates",
                              "rebuilds",
                              "not_admitted_max",
-                             "contact_faces_left_out",
                              "stencil_faces",
                              "stencil_extrapolations",
                              "stencil_worst_weight",

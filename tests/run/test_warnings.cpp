@@ -107,13 +107,11 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     report.n_cut_cells = 3;
     report.n_coincident_vertices = 4;
     result.stencils.extrapolated = 5;
-    result.contact_faces_left_out = 6;
-    result.blind_corners.assign(7, Vector<2>(0.5, 0.25));
+    result.blind_corners.assign(6, Vector<2>(0.5, 0.25));
     const auto warnings = run::warnings_before(scene, result);
     CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
                                          WarningKind::cut_cells, WarningKind::coincident_vertices,
-                                         WarningKind::extrapolated_faces, WarningKind::faces_out_of_contact,
-                                         WarningKind::blind_corners});
+                                         WarningKind::extrapolated_faces, WarningKind::blind_corners});
     CHECK(warnings.front().text == "Gmsh: node 3 is lonely");
     for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
     CHECK(warnings.back().text.find("0.5, 0.25") != std::string::npos);
