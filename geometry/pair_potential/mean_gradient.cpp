@@ -189,6 +189,7 @@ PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const Pair
     result.events = cuts.pieces - 1;
     result.correction = close_balance<Dim>(path, result.energy_0, result.energy_1, phi);
     result.gradient = in_mean_frame<Dim>(start, end, law, phi);
+    if (turns_over<Dim>(start, end)) result.gradient.fill(Vector<Dim>::Constant(std::numeric_limits<double>::quiet_NaN()));
     return result;
 }
 

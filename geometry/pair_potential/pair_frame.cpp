@@ -24,6 +24,9 @@ Vector<Dim> mean_of(const Vector<Dim>& a, const Vector<Dim>& b) {
     return 0.5 * (a + b);
 }
 
+/// Of the squared length of a mean of two unit vectors: rounding errors of momenta are divided by it.
+constexpr double turned_over = 1e-8;
+
 }  // namespace
 
 PairFrame<2>::PairFrame(const PairCorners<2>& x, const PairLaw<2>& law) : y(from_mean<2>(x)) {
@@ -40,6 +43,16 @@ PairFrame<3>::PairFrame(const PairCorners<3>& x, const PairLaw<3>&)
     e[2] = edge_b.cross(edge_c).normalized();
     e[1] = e[2].cross(e[0]);
     for (std::size_t v = 0; v < y.size(); ++v) z[v] = {e[0].dot(y[v]), e[1].dot(y[v]), e[2].dot(y[v])};
+}
+
+template <>
+bool turns_over(const PairFrame<2>& start, const PairFrame<2>& end) {
+    return mean_of<2>(start.normal, end.normal).squaredNorm() < turned_over;
+}
+template <>
+bool turns_over(const PairFrame<3>& start, const PairFrame<3>& end) {
+    return mean_of<3>(start.e[0], end.e[0]).squaredNorm() < turned_over ||
+           mean_of<3>(start.e[2], end.e[2]).squaredNorm() < turned_over;
 }
 
 template <>

@@ -33,6 +33,10 @@ struct PairFrame<3> {
     PairCorners<3> z;            ///< (e_1 . y, e_2 . y, e_3 . y)
 };
 
+/// Whether the pair turns by half a turn along a step, or next to it: there is no way back then that keeps the momenta.
+template <int Dim>
+[[nodiscard]] bool turns_over(const PairFrame<Dim>& start, const PairFrame<Dim>& end);
+
 /// The way back along a step: Delta z is an exact discrete derivative of z, and this is its transpose. For any phi,
 /// sum result . Delta x = sum phi . Delta z, and result has neither a sum nor moments about the mean of both ends.
 template <int Dim>

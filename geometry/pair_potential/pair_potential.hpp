@@ -134,8 +134,8 @@ struct PairMeanGradient {
 ///
 ///     sum gradient . (x_1 - x_0) = W(x_1) - W(x_0),   sum gradient = 0,   sum (x_0 + x_1)/2 x gradient = 0,
 ///
-/// all to round-off, for steps of any size in which the pair turns by less than half a turn; it tends to dW/dx. W is
-/// integrated in a frame that turns with the pair; the rest goes along the motion in this frame. docs/method.md.
+/// all to round-off, for steps of any size in which the pair turns by less than half a turn (else it is NaN where W acts);
+/// it tends to dW/dx. W is integrated in a frame that turns with the pair; the rest goes along the motion in this frame.
 template <int Dim>
 [[nodiscard]] PairMeanGradient<Dim> pair_mean_gradient(const PairCorners<Dim>& x_0, const PairCorners<Dim>& x_1,
                                                        const PairLaw<Dim>& law, const PairPathOptions& options = {});

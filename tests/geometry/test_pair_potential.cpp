@@ -439,3 +439,28 @@ TEST_CASE("two triangles on both sides of a shared edge have no energy, wherever
     CHECK(energy < 1e-12);
     CHECK(force < 1e-8);
 }
+
+TEMPLATE_TEST_CASE_SIG("a pressed pair that turns by half a turn in a step has no force that keeps momenta: it is no number",
+                       "[pair_potential]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(21);
+    int active = 0;
+    for (int i = 0; i < 200; ++i) {
+        const PairCorners<Dim> x_0 = random_pair<Dim>(random);
+        if (pair_gradient<Dim>(x_0, law_of<Dim>(x_0)).energy < 1e-6) continue;
+        ++active;
+        PairCorners<Dim> half = x_0, less = x_0;
+        Matrix<Dim> turn = -Matrix<Dim>::Identity();  // 3D: about e_3
+        if constexpr (Dim == 3) turn(2, 2) = 1.0;
+        Matrix<Dim> nearly = turn;
+        nearly.template topLeftCorner<2, 2>() = Eigen::Rotation2Dd(3.0).toRotationMatrix();
+        for (std::size_t v = 0; v < x_0.size(); ++v) half[v] = turn * x_0[v], less[v] = nearly * x_0[v];
+        if constexpr (Dim == 3) {  // about the normal of face 1, whose first edge then turns over
+            const Vector<3> normal = (x_0[1] - x_0[0]).cross(x_0[2] - x_0[0]).normalized();
+            for (std::size_t v = 0; v < x_0.size(); ++v) half[v] = 2.0 * normal.dot(x_0[v]) * normal - x_0[v];
+        }
+        CHECK(std::isnan(pair_mean_gradient<Dim>(x_0, half, law_of<Dim>(x_0)).gradient[0][0]));
+        const auto found = pair_mean_gradient<Dim>(x_0, less, law_of<Dim>(x_0));
+        CHECK(sum_of<Dim>(found.gradient).norm() < 1e-11 * norm_of<Dim>(found.gradient) + 1e-15);
+    }
+    CHECK(active > 30);
+}
