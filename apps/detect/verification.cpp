@@ -120,11 +120,20 @@ private:
         return beside_->contains(other);
     }
 
+    /// docs/method.md: that of a much larger face, else the mean.
+    [[nodiscard]] Vector<3> pair_normal(std::int32_t face_1, std::int32_t face_2) const {
+        constexpr double much_larger = 1.23 * 1.23;
+        const double area_1 = surface_.area[at(face_1)], area_2 = surface_.area[at(face_2)];
+        if (area_1 > much_larger * area_2) return surface_.normal[at(face_1)];
+        if (area_2 > much_larger * area_1) return -surface_.normal[at(face_2)];
+        return (surface_.normal[at(face_1)] - surface_.normal[at(face_2)]).normalized();
+    }
+
     [[nodiscard]] PairFacts facts_of(std::int32_t face_1, std::int32_t face_2) const {
         const Vector<3>&n_1 = surface_.normal[at(face_1)], &n_2 = surface_.normal[at(face_2)];
         const double cosine = n_1.dot(n_2);
         if (cosine >= requirement_.facing_cosine + rounding || cosine >= 0.0) return {};
-        const Vector<3> normal = (n_1 - n_2).normalized();
+        const Vector<3> normal = pair_normal(face_1, face_2);
         const Vector<3> apart = surface_.centroid[at(face_2)] - surface_.centroid[at(face_1)];
         PairFacts facts{.gap = apart.dot(normal)};
         const double slack = rounding * (requirement_.distance + requirement_.depth + apart.norm());

@@ -81,13 +81,14 @@ TEST_CASE("the rim of an open surface is no edge, and two bodies have no edge in
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("two faces meet along the normal of the one that is farther from a sharp edge, or the mean of both",
-                       "[contact][edges]", ((int Dim), Dim), 2, 3) {
+TEMPLATE_TEST_CASE_SIG(
+    "two faces of one size meet along the normal of the one that is farther from a sharp edge, or the mean of both",
+    "[contact][edges]", ((int Dim), Dim), 2, 3) {
     Vector<Dim> slanted = -up<Dim>();
     slanted[0] = 1.0;  // 45 degrees
     contact::Surface<Dim> surface;
     surface.append(tile<Dim>(Vector<Dim>::Zero(), up<Dim>(), 0.5), 0.5, 1.0, 0);
-    surface.append(tile<Dim>(Vector<Dim>(0.1 * up<Dim>()), slanted.normalized(), 0.3), 0.3, 1.0, 1);
+    surface.append(tile<Dim>(Vector<Dim>(0.1 * up<Dim>()), slanted.normalized(), 0.45), 0.3, 1.0, 1);
     const auto normal = [&](std::uint8_t steps_0, std::uint8_t steps_1) -> Vector<Dim> {
         surface.steps_to_sharp_edge = {steps_0, steps_1};
         const std::vector<geometry::IndexPair> pair{{0, 1}};
