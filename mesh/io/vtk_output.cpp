@@ -2,6 +2,8 @@
 
 #include <vtkErrorCode.h>
 
+#include <exception>
+
 #include "abut/base/error.hpp"
 #include "abut/mesh/io/vtk_messages.hpp"
 #include "abut/mesh/quality.hpp"
@@ -31,7 +33,13 @@ PreparedFile prepared_grid(vtkXMLWriter& writer, vtkDataObject& grid, const std:
     writer.SetDataModeToAppended();
     writer.EncodeAppendedDataOff();
     writer.SetCompressorTypeToZLib();
-    const bool is_written = writer.Write() == 1;
+    bool is_written = false;
+    try {
+        is_written = writer.Write() == 1;
+    } catch (const std::exception& error) {
+        throw MeshError(path.string() + ": cannot be written: VTK ends with " + error.what() +
+                        ". Give the run more memory, or write fewer fields.");
+    }
     const auto code = static_cast<int>(writer.GetErrorCode());  // the system's below VTK's own
     const std::string said = messages.all();
     if (is_written && code == 0 && said.empty()) return prepared;
