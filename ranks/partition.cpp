@@ -100,6 +100,7 @@ std::vector<int> partition(const Communicator& communicator, std::span<const Vec
     float version = 0.0f;
     require_zoltan(communicator, Zoltan_Initialize(0, nullptr, &version), "Zoltan_Initialize");
     const std::unique_ptr<Zoltan_Struct, Destroy> zoltan(Zoltan_Create(handle(communicator)));
+    require_zoltan(communicator, zoltan ? ZOLTAN_OK : ZOLTAN_MEMERR, "Zoltan_Create");
     const auto set = [&](const char* name, const char* value) { Zoltan_Set_Param(zoltan.get(), name, value); };
     set("DEBUG_LEVEL", "0");
     set("LB_METHOD", "RCB");

@@ -1,10 +1,18 @@
 #include "abut/ranks/session.hpp"
 
+#include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -77,14 +85,93 @@ std::vector<std::string> command_for(int n_ranks) {
     return command;
 }
 
+int most_ranks_here() {
+    constexpr int per_processor = 16, least = 64;
+    return std::max(least, per_processor * static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+namespace {
+
+constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
+
+std::atomic<pid_t> process_of_mpirun{0};
+std::atomic<int> noted{0};
+
+/// What a terminal sends, it sends to mpirun as well; the rest is passed on. Calls only what a handler may call.
+void pass_on(int signal, siginfo_t* info, void*) {
+    noted.store(signal);
+    if (info->si_code <= 0) kill(process_of_mpirun.load(), signal);
+}
+
+void set_action(int signal, bool passes_on) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) return;
+    action = {};
+    action.sa_flags = passes_on ? SA_SIGINFO | SA_RESTART : 0;
+    if (passes_on)
+        action.sa_sigaction = pass_on;
+    else
+        action.sa_handler = SIG_DFL;
+    sigaction(signal, &action, nullptr);
+}
+
+[[noreturn]] void refuse_start(int error) {
+    throw BadInput(std::string("ranks: mpirun cannot be started: ") + std::strerror(error) +
+                   ". Install openmpi-bin, or start the program with the mpirun that you have.");
+}
+
+/// Its process; it ends with this one, however that ends. `told` is where it says why it cannot begin.
+pid_t start_command(const std::vector<char*>& words, const sigset_t& blocked, int told) {
+    [[maybe_unused]] const pid_t parent = getpid();
+    const pid_t child = fork();
+    if (child != 0) return child;
+    pthread_sigmask(SIG_SETMASK, &blocked, nullptr);
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(1);
+#endif
+    execvp(words.front(), words.data());
+    const int error = errno;
+    static_cast<void>(!write(told, &error, sizeof(error)));
+    _exit(1);
+}
+
+int code_of(pid_t process) {
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0)
+        if (errno != EINTR) return 1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
 void start_on(int n_ranks) {
     std::vector<std::string> words = command_for(n_ranks);
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-    execvp(pointers.front(), pointers.data());
-    throw BadInput(std::string("ranks: mpirun cannot be started: ") + std::strerror(errno) +
-                   ". Install openmpi-bin, or start the program with the mpirun that you have.");
+    std::array<int, 2> told{};
+    if (pipe2(told.data(), O_CLOEXEC) != 0) refuse_start(errno);
+    sigset_t ending, before;
+    sigemptyset(&ending);
+    for (const int signal : ending_signals) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before);
+    const pid_t mpirun = start_command(pointers, before, told[1]);
+    const int error = errno;
+    close(told[1]);
+    process_of_mpirun = mpirun;
+    if (mpirun > 0)
+        for (const int signal : ending_signals) set_action(signal, true);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    if (mpirun < 0) refuse_start(error);
+    int reason = 0;
+    const bool has_begun = read(told[0], &reason, sizeof(reason)) == 0;  // its end is closed where the command has begun
+    close(told[0]);
+    const int code = code_of(mpirun);
+    for (const int signal : ending_signals) set_action(signal, false);
+    if (!has_begun) refuse_start(reason);
+    std::exit(noted != 0 ? 128 + noted : code);
 }
 
 }  // namespace abut::ranks

@@ -36,7 +36,12 @@ private:
 /// The command that starts this program on so many ranks of this machine, with the arguments that it was given.
 [[nodiscard]] std::vector<std::string> command_for(int n_ranks);
 
-/// Becomes that command: does not return. Throws BadInput where it cannot be started.
+/// How many ranks start_on may be asked for on this machine: 16 per processor, 64 at least.
+[[nodiscard]] int most_ranks_here();
+
+/// Runs that command in place of this process: does not return. The process ends with its exit code, or with 130, 143 or 129
+/// where SIGINT, SIGTERM or SIGHUP has ended it; the command is sent these, and ends where this process ends. To be called before
+/// the program has threads. Throws BadInput where the command cannot be started.
 [[noreturn]] void start_on(int n_ranks);
 
 }  // namespace abut::ranks

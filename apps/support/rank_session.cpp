@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -71,6 +72,11 @@ void start_ranks(int n_ranks) {
         if (const int size = the_session->all().size(); n_ranks > 0 && n_ranks != size)
             throw BadInput(
                 fmt::format("--ranks: {} are asked for, but mpirun has started {}. Leave --ranks out.", n_ranks, size));
+    } else if (n_ranks > ranks::most_ranks_here()) {
+        throw BadInput(fmt::format("--ranks: {} are asked for, at most {} are allowed on this machine, which has {} "
+                                   "processors. Take fewer, or start more on several machines with mpirun.",
+                                   n_ranks, ranks::most_ranks_here(), std::thread::hardware_concurrency()),
+                       {.value = static_cast<double>(n_ranks), .allowed = static_cast<double>(ranks::most_ranks_here())});
     } else if (n_ranks > 1) {
         ranks::start_on(n_ranks);
     }
