@@ -7,8 +7,11 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
+#include "abut/base/text.hpp"
 #include "abut/input/fault.hpp"
 
 namespace abut::input {
@@ -26,6 +29,68 @@ public:
 private:
     std::string name_;
     bool has_lines_;
+};
+
+/// Tables and lists within each other. Scenes need five; what reads and frees them calls itself for each.
+constexpr int most_nested = 64;
+constexpr std::size_t most_shown = 80;  // of a text in a message [bytes]
+
+/// Looks through a text of TOML for keys and brackets that go deeper than `most_nested`. What is no TOML may count wrongly: the
+/// parser says then what is wrong.
+class Nesting {
+public:
+    explicit Nesting(std::string_view text) : text_(text) {}
+
+    /// Where that happens first; nothing: nowhere.
+    [[nodiscard]] std::optional<toml::source_position> too_deep() {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (c == '#')
+                skip_to("\n");
+            else if (c == '"' || c == '\'')
+                skip_string(c);
+            else
+                take(c);
+            if (below_ + dots_ > most_nested) return position();
+        }
+        return std::nullopt;
+    }
+
+private:
+    void take(char c) {
+        ++at_;
+        if (c == '.') ++dots_;
+        if (c == '[' || c == '{') {
+            open_.push_back(dots_ + 1);
+            below_ += dots_ + 1;
+        }
+        if ((c == ']' || c == '}') && !open_.empty()) {
+            below_ -= open_.back();
+            open_.pop_back();
+        }
+        if (c == '[' || c == '{' || c == ']' || c == '}' || c == ',' || c == '\n') dots_ = 0;
+    }
+    void skip_to(std::string_view end) { at_ = std::min(text_.find(end, at_), text_.size()); }
+    void skip_string(char quote) {
+        const std::string three(3, quote);
+        const bool many_lines = text_.substr(at_).starts_with(three);
+        const std::string_view end = many_lines ? std::string_view(three) : std::string_view(three).substr(0, 1);
+        at_ += end.size();
+        while (at_ < text_.size() && !text_.substr(at_).starts_with(end) && (many_lines || text_[at_] != '\n'))
+            at_ += quote == '"' && text_[at_] == '\\' ? 2 : 1;
+        at_ = std::min(at_ + end.size(), text_.size());
+    }
+    [[nodiscard]] toml::source_position position() const {
+        const std::string_view before = text_.substr(0, at_);
+        const auto line = static_cast<toml::source_index>(1 + std::ranges::count(before, '\n'));
+        return {line, static_cast<toml::source_index>(before.size() - (before.rfind('\n') + 1))};
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int dots_ = 0;           // of the key that is read
+    int below_ = 0;          // levels of all open brackets
+    std::vector<int> open_;  // levels of each
 };
 
 Node node_of(const toml::node& from, const Places& places);
@@ -79,6 +144,10 @@ Node node_of(const toml::node& from, const Places& places) {
 }
 
 Node parse(const std::string& text, const Places& places) {
+    if (const auto where = Nesting(text).too_deep())
+        throw SceneError({{places.at(*where), fmt::format("tables or lists are nested more than {} deep, at most {} are "
+                                                          "allowed. Take out dots or brackets.",
+                                                          most_nested, most_nested)}});
     try {
         return node_of(toml::parse(text), places);
     } catch (const toml::parse_error& error) {
@@ -108,7 +177,7 @@ std::string description(const Node& node) {
         case Node::Type::array:
             return fmt::format("a list of {}", node.items.size());
         case Node::Type::text:
-            return fmt::format("the text '{}'", node.text);
+            return fmt::format("the text '{}'", shortened(node.text, most_shown));
         case Node::Type::number:
             return fmt::format("the number {:g}", node.number);
         case Node::Type::whole:
@@ -129,7 +198,7 @@ Node read_document(const std::filesystem::path& path) {
 }
 
 Node read_override(const std::string& text) {
-    const Places places("--set " + text, false);
+    const Places places("--set " + as_utf8(shortened(text, most_shown)), false);
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
         throw SceneError({{places.at({}), "a key and its value are needed: --set bodies.left.density=2."}});

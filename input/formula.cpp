@@ -15,22 +15,40 @@
 
 namespace abut::input {
 
+namespace {
+
+/// Calls muParser, whose errors are none of the standard library: nothing of them leaves this file.
+template <class Call>
+auto with_parser(const Call& call) {
+    try {
+        return call();
+    } catch (const mu::ParserError& error) {
+        throw BadInput(fmt::format("as a formula it cannot be read: {}", error.GetMsg()));
+    }
+}
+
+}  // namespace
+
 class Formula::Expression {
 public:
     explicit Expression(const std::string& text) {
-        for (std::size_t i = 0; i < names.size(); ++i) parser_.DefineVar(names[i], &values_[i]);
-        parser_.DefineConst("pi", std::numbers::pi);
-        parser_.SetExpr(text);
+        with_parser([&] {
+            for (std::size_t i = 0; i < names.size(); ++i) parser_.DefineVar(names[i], &values_[i]);
+            parser_.DefineConst("pi", std::numbers::pi);
+            parser_.SetExpr(text);
+        });
     }
     [[nodiscard]] double evaluate(double time, const Vector<3>& position) {
         const std::lock_guard lock(mutex_);
         values_ = {time, position.x(), position.y(), position.z()};
-        return parser_.Eval();
+        return with_parser([&] { return parser_.Eval(); });
     }
     /// Also names that mean nothing.
     [[nodiscard]] std::vector<std::string> used_names() {
         std::vector<std::string> used;
-        for (const auto& [name, value] : parser_.GetUsedVar()) used.push_back(name);
+        with_parser([&] {
+            for (const auto& [name, value] : parser_.GetUsedVar()) used.push_back(name);
+        });
         return used;
     }
 
@@ -58,16 +76,12 @@ Formula::Formula(const std::string& text, Variables variables) {
     const auto expression = std::make_shared<Expression>(text);
     const auto known = names_of(variables, Expression::names);
     bool varies = false;
-    try {
-        for (const std::string& name : expression->used_names()) {
-            varies = true;
-            if (std::ranges::find(known, name) != known.end()) continue;
-            throw BadInput(fmt::format("a formula knows no name '{}' here.{}", name, hint(name, known)));
-        }
-        value_ = expression->evaluate(0.0, Vector<3>::Zero());
-    } catch (const mu::ParserError& error) {
-        throw BadInput(fmt::format("as a formula it cannot be read: {}", error.GetMsg()));
+    for (const std::string& name : expression->used_names()) {
+        varies = true;
+        if (std::ranges::find(known, name) != known.end()) continue;
+        throw BadInput(fmt::format("a formula knows no name '{}' here.{}", name, hint(name, known)));
     }
+    value_ = expression->evaluate(0.0, Vector<3>::Zero());
     if (varies)
         expression_ = expression;
     else if (!std::isfinite(value_))

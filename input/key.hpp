@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/text.hpp"
 #include "abut/input/nearest_word.hpp"
 #include "abut/input/reader.hpp"
 
@@ -55,8 +56,8 @@ void read_table(Section& section, const Node& table, const std::string& path, co
         const auto key =
             std::find_if(keys.begin(), keys.end(), [&](const auto& known) { return known.name == table.names[i]; });
         if (key == keys.end())
-            reader.fault(table.items[i],
-                         fmt::format("{}{} is an unknown key.{}", in, table.names[i], hint(table.names[i], names_of(keys))));
+            reader.fault(table.items[i], fmt::format("{}{} is an unknown key.{}", in, table.names[i],
+                                                     hint_of_key(table.names[i], names_of(keys))));
         else
             key->take(section, table.items[i], in + key->name, reader);
     }
@@ -74,6 +75,10 @@ void read_named(std::vector<Section>& sections, const Node& node, const std::str
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         const std::string path = name + "." + node.names[i];
         if (!reader.is_table(node.items[i], path)) continue;
+        if (has_control_character(node.names[i]))
+            reader.fault(node.items[i], fmt::format("{} has a name with a control character, such as a line end. Name it by "
+                                                    "letters, digits and signs.",
+                                                    in_one_line(path)));
         Section section;
         section.name = node.names[i];
         section.where = node.items[i].where;

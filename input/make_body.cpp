@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "abut/base/error.hpp"
+#include "abut/base/text.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/read_surface.hpp"
@@ -122,6 +123,8 @@ mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& 
 template <int Dim>
 void name_parts(mesh::Mesh<Dim>& mesh, const std::string& name) {
     mesh.name = name;
+    for (std::string& body : mesh.body_names) body = in_one_line(as_utf8(body));
+    for (auto& group : mesh.groups) group.name = in_one_line(as_utf8(group.name));
     if (mesh.n_bodies() == 1)
         mesh.body_names = {name};
     else

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <string_view>
 
 namespace abut::input {
 namespace {
@@ -32,7 +34,119 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return before.back();
 }
 
+/// Words of other programs and of equations for a key of ours, in small letters.
+struct Synonym {
+    std::string_view word;
+    std::string_view key;
+};
+constexpr std::array synonyms = std::to_array<Synonym>({{"e", "young"},
+                                                        {"youngs_modulus", "young"},
+                                                        {"young_modulus", "young"},
+                                                        {"elastic_modulus", "young"},
+                                                        {"modulus", "young"},
+                                                        {"nu", "poisson"},
+                                                        {"poisson_ratio", "poisson"},
+                                                        {"poissons_ratio", "poisson"},
+                                                        {"rho", "density"},
+                                                        {"rho0", "density"},
+                                                        {"mass_density", "density"},
+                                                        {"t_end", "time"},
+                                                        {"tend", "time"},
+                                                        {"t_max", "time"},
+                                                        {"end", "time"},
+                                                        {"end_time", "time"},
+                                                        {"final_time", "time"},
+                                                        {"duration", "time"},
+                                                        {"until", "time"},
+                                                        {"n_steps", "steps"},
+                                                        {"nsteps", "steps"},
+                                                        {"num_steps", "steps"},
+                                                        {"time_step", "dt"},
+                                                        {"timestep", "dt"},
+                                                        {"delta_t", "dt"},
+                                                        {"courant", "cfl"},
+                                                        {"scheme", "integrator"},
+                                                        {"solver", "integrator"},
+                                                        {"n_threads", "threads"},
+                                                        {"num_threads", "threads"},
+                                                        {"h", "size"},
+                                                        {"lc", "size"},
+                                                        {"mesh_size", "size"},
+                                                        {"cell_size", "size"},
+                                                        {"element_size", "size"},
+                                                        {"resolution", "size"},
+                                                        {"r", "radius"},
+                                                        {"diameter", "radius"},
+                                                        {"center", "place"},
+                                                        {"centre", "place"},
+                                                        {"position", "place"},
+                                                        {"translation", "place"},
+                                                        {"translate", "place"},
+                                                        {"offset", "place"},
+                                                        {"location", "place"},
+                                                        {"rotate", "turn"},
+                                                        {"rotation", "turn"},
+                                                        {"angle", "turn"},
+                                                        {"orientation", "turn"},
+                                                        {"v", "velocity"},
+                                                        {"v0", "velocity"},
+                                                        {"initial_velocity", "velocity"},
+                                                        {"omega", "spin"},
+                                                        {"angular_velocity", "spin"},
+                                                        {"min", "lower"},
+                                                        {"max", "upper"},
+                                                        {"n", "counts"},
+                                                        {"divisions", "counts"},
+                                                        {"elements", "counts"},
+                                                        {"type", "shape"},
+                                                        {"kind", "shape"},
+                                                        {"geometry", "shape"},
+                                                        {"file", "mesh"},
+                                                        {"filename", "mesh"},
+                                                        {"file", "surface"},
+                                                        {"filename", "surface"},
+                                                        {"stl", "surface"},
+                                                        {"g", "gravity"},
+                                                        {"dimension", "dim"},
+                                                        {"dimensions", "dim"},
+                                                        {"ndim", "dim"},
+                                                        {"boundary", "supports"},
+                                                        {"boundary_conditions", "supports"},
+                                                        {"constraints", "supports"},
+                                                        {"loads", "tractions"},
+                                                        {"simulation", "run"},
+                                                        {"directory", "out"},
+                                                        {"folder", "out"},
+                                                        {"output_dir", "out"}});
+
+/// What users look for and is not there.
+struct Missing {
+    std::string_view word;
+    std::string_view text;
+};
+constexpr std::string_view no_friction = " Friction is not there yet: contact is without it. Leave the key out.";
+constexpr std::array missing = std::to_array<Missing>({{"friction", no_friction},
+                                                       {"friction_coefficient", no_friction},
+                                                       {"coefficient_of_friction", no_friction},
+                                                       {"mu", no_friction}});
+
+std::string in_small_letters(std::string word) {
+    for (char& c : word)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return word;
+}
+
 }  // namespace
+
+std::string hint_of_key(const std::string& word, const std::vector<std::string>& known) {
+    const std::string small = in_small_letters(word);
+    for (const Missing& one : missing)
+        if (one.word == small) return std::string(one.text);
+    for (const Synonym& synonym : synonyms)
+        if (synonym.word == small && std::ranges::find(known, synonym.key) != known.end())
+            return fmt::format(" Did you mean '{}'?", synonym.key);
+    return hint(word, known);
+}
 
 std::string hint(const std::string& word, const std::vector<std::string>& known) {
     if (known.empty()) return "";
