@@ -143,7 +143,7 @@ void check(Scene& scene, const dynamics::LedgerEntry<3>& first) {
                              std::abs(last.pseudo_energy - first.pseudo_energy) / kinetic, 1e-11);
     benchmark::require_small("momentum over m v, at the end against the start",
                              (last.linear_momentum - first.linear_momentum).norm() / momentum, 1e-12);
-    benchmark::require_small("contacts lost", static_cast<double>(report.missed_contacts), 0.0);
+    benchmark::require_small("missed contacts", static_cast<double>(report.missed_contacts), 0.0);
     if (report.events == 0)
         throw std::runtime_error("the bodies never touched: nothing is measured. Raise --time or --speed.");
 }

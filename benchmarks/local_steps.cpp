@@ -70,7 +70,7 @@ void close(const Scheme& scheme, const solid::Solid<Dim>& solid, Record<Dim>& re
     record.speed = solid::body_motions<Dim>(scheme, solid)[0].velocity.x();
     const double kinetic = record.ledger.entries().front().kinetic;
     benchmark::require_small("drift of the pseudo-energy over K0", record.ledger.pseudo_energy_drift() / kinetic, 1e-11);
-    benchmark::require_small("contacts lost", static_cast<double>(record.contact.missed_contacts), 0.0);
+    benchmark::require_small("missed contacts", static_cast<double>(record.contact.missed_contacts), 0.0);
     if (record.contact.events == 0) throw std::runtime_error("the bodies never touched: nothing is measured. Raise --time.");
 }
 

@@ -12,9 +12,11 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
-#include "abut/dynamics/stable_step.hpp"
 #include "abut/input/make_scene.hpp"
 #include "abut/input/read_settings.hpp"
+#include "abut/run/failure.hpp"
+#include "abut/run/simulation.hpp"
+#include "abut/run/warnings.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::input {
@@ -58,35 +60,85 @@ std::string duration(double seconds) {
     return seconds < 6000.0 ? fmt::format("{:.2g} min", seconds / 60.0) : fmt::format("{:.2g} h", seconds / 3600.0);
 }
 
-/// Of the kinematics of the scene where a pilot run would choose them. Throws BadInput for a solid that cannot be made and a
-/// step that cannot be taken.
+/// How long a longitudinal wave takes through a cell, in its narrowest direction about [s].
 template <int Dim>
-Estimate estimate(const run::Scene<Dim>& scene, const run::RunOptions& given) {
-    run::RunOptions options = run::with_defaults<Dim>(given);
-    if (options.kinematics == run::BodyKinematics::automatic) options.kinematics = run::BodyKinematics::scene;
-    solid::Solid<Dim> solid(scene.mesh, run::solid_options(scene, options));
-    Estimate estimate{.bodies = scene.mesh.n_bodies(),
-                      .cells = scene.mesh.n_cells(),
-                      .boundary_faces = static_cast<std::int64_t>(scene.mesh.boundary_faces.size())};
-    if (solid.contact()) estimate.law = "reconstruction";
-    if (solid.nodal_contact()) estimate.law = "pair_potential";
-    estimate.stable_dt = dynamics::stable_step(solid).dt;
-    estimate.dt = run::choose_step(options, estimate.stable_dt);
-    estimate.steps = std::isnan(options.time) ? options.steps : run::steps_until(options.time, estimate.dt);
-    estimate.end = static_cast<double>(estimate.steps) * estimate.dt;
-    const double evaluations = static_cast<double>(estimate.steps) * (1.0 + 1.0 / options.interval);
-    estimate.seconds = evaluations * seconds_of_force(solid);
-    estimate.bytes = peak_memory();
-    return estimate;
+double crossing_time(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const solid::Material& material) {
+    double surface = 0.0;
+    for (const std::int32_t face : mesh.cell_faces[cell]) surface += mesh.face_measure[static_cast<std::size_t>(face)];
+    const double nu = material.poisson;
+    const double modulus = material.young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    return 2.0 * Dim * mesh.cell_measure[static_cast<std::size_t>(cell)] / surface * std::sqrt(material.density / modulus);
 }
 
-/// What only a solid knows, where nothing else is wrong.
+/// Of all cells that deform, the one with the shortest time, and that over the median; empty where all are rigid.
 template <int Dim>
-void check_solid(const Settings& settings, CheckedScene& checked) {
+std::string cell_of_step(const run::Scene<Dim>& scene, const run::RunOptions& options) {
+    const auto of_all = run::kinematics_of_all(options.kinematics);
+    std::vector<std::pair<double, std::int32_t>> times;
+    for (std::int32_t cell = 0; cell < scene.mesh.n_cells(); ++cell) {
+        const auto body = static_cast<std::size_t>(scene.mesh.cell_body[static_cast<std::size_t>(cell)]);
+        if (of_all.value_or(scene.solid.kinematics[body]) == solid::Kinematics::rigid) continue;
+        times.emplace_back(crossing_time(scene.mesh, cell, scene.solid.materials[body]), cell);
+    }
+    if (times.empty()) return "";
+    const auto least = *std::ranges::min_element(times);
+    const auto middle = times.begin() + std::ssize(times) / 2;
+    std::ranges::nth_element(times, middle);
+    return fmt::format("{}: a wave takes {:.3g} s through it, {:.2g} of the median",
+                       run::name_of_cell(scene.mesh, least.second), least.first, least.first / middle->first);
+}
+
+/// Looks at a run that ends before its first step.
+template <int Dim>
+class Rehearsal : public run::Observer<Dim> {
+public:
+    Rehearsal(const run::RunOptions& options, CheckedScene& checked) : options_(options), checked_(checked) {}
+
+    void begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) override {
+        estimate_ = {.bodies = scene.mesh.n_bodies(),
+                     .cells = scene.mesh.n_cells(),
+                     .boundary_faces = static_cast<std::int64_t>(scene.mesh.boundary_faces.size())};
+        for (const auto& [word, law] : run::law_words)
+            if (law == result.options.law && law != solid::ContactLaw::automatic) estimate_.law = word;
+        estimate_.stable_dt = result.stable.dt;
+        estimate_.dt = run::choose_step(options_, result.stable.dt);
+        estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
+        estimate_.end = static_cast<double>(estimate_.steps) * estimate_.dt;
+        estimate_.cell_of_step = cell_of_step(scene, options_);
+        for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, result)))
+            checked_.warnings.push_back(warning.text);
+    }
+    [[nodiscard]] bool wants_look(std::int64_t) const override { return true; }
+    void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>& solid) override {
+        const double evaluations = static_cast<double>(estimate_.steps) * (1.0 + 1.0 / options_.interval);
+        estimate_.seconds = evaluations * seconds_of_force(solid);
+    }
+    [[nodiscard]] bool asks_to_stop() const override { return true; }
+
+    [[nodiscard]] Estimate estimate() const {
+        Estimate estimate = estimate_;
+        estimate.bytes = peak_memory();
+        return estimate;
+    }
+
+private:
+    const run::RunOptions& options_;
+    CheckedScene& checked_;
+    Estimate estimate_;
+};
+
+/// What only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics of the scene
+/// where a pilot run would choose them.
+template <int Dim>
+void check_run(const Settings& settings, CheckedScene& checked) {
     const run::Scene<Dim> scene = make_scene<Dim>(settings, checked.faults);
     if (!checked.faults.empty()) return;
+    run::RunOptions options = run::with_defaults<Dim>(settings.options);
+    if (options.kinematics == run::BodyKinematics::automatic) options.kinematics = run::BodyKinematics::scene;
     try {
-        checked.estimate = estimate(scene, settings.options);
+        Rehearsal<Dim> rehearsal(options, checked);
+        static_cast<void>(run::simulate<Dim>(scene, options, rehearsal));
+        checked.estimate = rehearsal.estimate();
     } catch (const Error& error) {
         checked.faults.push_back({settings.file.string(), error.what()});
     }
@@ -99,8 +151,8 @@ CheckedScene check_scene(const std::filesystem::path& path, const Overrides& ove
     try {
         ReadSettings read = read_settings(path, overrides);
         checked.faults = std::move(read.faults);
-        if (read.settings.dim == 2) check_solid<2>(read.settings, checked);
-        if (read.settings.dim == 3) check_solid<3>(read.settings, checked);
+        if (read.settings.dim == 2) check_run<2>(read.settings, checked);
+        if (read.settings.dim == 3) check_run<3>(read.settings, checked);
     } catch (const SceneError& error) {
         checked.faults = error.faults();
     }
@@ -116,6 +168,7 @@ std::string text_of(const Estimate& estimate) {
     line("boundary faces", fmt::format("{}", estimate.boundary_faces));
     if (!estimate.law.empty()) line("law of contact", estimate.law);
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
+    if (!estimate.cell_of_step.empty()) line("  set by", estimate.cell_of_step);
     line("step", fmt::format("{:.4g} s", estimate.dt));
     line("steps", fmt::format("{}", estimate.steps));
     line("end", fmt::format("{:.4g} s", estimate.end));

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "abut/run/user_words.hpp"
+
 namespace abut::input {
 namespace {
 
@@ -40,6 +42,7 @@ std::tuple<int, int, int> place_of(const Fault& fault) {
 }  // namespace
 
 std::vector<Fault> in_order(std::vector<Fault> faults) {
+    for (Fault& fault : faults) fault.text = run::with_keys(run::in_user_words(std::move(fault.text)));
     std::ranges::stable_sort(faults, {}, place_of);
     return faults;
 }

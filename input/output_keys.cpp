@@ -63,6 +63,8 @@ const Keys<Settings>& output_keys() {
                        "time from one checkpoint to the next; 0: none"),
             Of::count("checkpoint_steps", option(&RunOptions::checkpoint_steps), 0, Of::many,
                       "steps from one checkpoint to the next, beside that; 0: by minutes alone"),
+            Of::truth("keep_last_checkpoint", option(&RunOptions::keep_last_checkpoint),
+                      "a run that comes to its end keeps its last state: abut restart DIR --until TIME goes on from there"),
             Of::count("frames", option(&RunOptions::frames), 0, Of::many,
                       "frames for ParaView, first and last included; 0: none"),
             Of::truth("pieces", option(&RunOptions::pieces),

@@ -166,8 +166,21 @@ Checkpoint unpacked(Bytes& bytes) {
 
 }  // namespace
 
+namespace {
+
+/// Errors of HDF5 are none of the standard library: nothing of them leaves this file.
+Bytes content_of(const Checkpoint& checkpoint, const fs::path& path) {
+    try {
+        return packed(checkpoint);
+    } catch (const H5::Exception& error) {
+        throw BadInput(cannot_be_written(path, "HDF5 says " + error.getDetailMsg()));
+    }
+}
+
+}  // namespace
+
 void write_checkpoint(const Checkpoint& checkpoint, const fs::path& path) {
-    const Bytes content = packed(checkpoint);
+    const Bytes content = content_of(checkpoint, path);
     fs::path partial = path;
     partial += ".partial";
     try {

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "abut/base/error.hpp"
+#include "abut/base/text.hpp"
 #include "abut/run/failure_files.hpp"
 #include "abut/run/paraview_script.hpp"
 
@@ -57,27 +58,53 @@ void remove_result(const fs::path& path) {
                         path.string(), error.message()));
 }
 
-void remove_series(const fs::path& directory, const std::string& series) {
-    std::vector<fs::path> frames;
+/// Names of the files of a series that are there.
+std::vector<std::string> files_of_series(const fs::path& directory, const std::string& series) {
+    std::vector<std::string> names;
     std::error_code error;
     for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))
-        if (belongs_to_series(entry->path().filename().string(), series)) frames.push_back(entry->path());
+        if (const std::string name = entry->path().filename().string(); belongs_to_series(name, series))
+            names.push_back(name);
     if (error) refuse_directory(directory, error.message());
-    for (const auto& frame : frames) remove_result(frame);
+    return names;
 }
+
+std::vector<std::string> files_of_failure(const fs::path& directory, const std::string& series) {
+    const std::string name(failure_name);
+    std::vector<std::string> names = files_of_series(directory, failure_series(series));
+    names.insert(names.end(), {name + ".csv", name + ".gp", name + ".png"});
+    return names;
+}
+
+/// Says that a folder is one of results.
+constexpr const char* mark = ".abut.results";
 
 }  // namespace
 
 void remove_earlier_results(const fs::path& directory, const std::string& series) {
-    remove_files(directory, plain_results);
-    remove_series(directory, series);
-    remove_failure(directory, series);
+    std::vector<std::string> names = plain_results;
+    for (const auto& more : {files_of_series(directory, series), files_of_failure(directory, series)})
+        names.insert(names.end(), more.begin(), more.end());
+    claim_results(directory, names);
 }
 
 void remove_failure(const fs::path& directory, const std::string& series) {
-    const std::string name(failure_name);
-    remove_files(directory, {name + ".csv", name + ".gp", name + ".png"});
-    remove_series(directory, failure_series(series));
+    remove_files(directory, files_of_failure(directory, series));
+}
+
+bool holds_results(const fs::path& directory) { return fs::exists(directory / mark); }
+
+void claim_results(const fs::path& directory, const std::vector<std::string>& names) {
+    if (!holds_results(directory)) {
+        for (const std::string& name : names)
+            if (std::error_code error; fs::exists(fs::symlink_status(directory / name, error)))
+                throw BadInput(
+                    fmt::format("--out {}: {} is there, and the folder holds no results of Abut: a run would write over it. "
+                                "Choose another folder with --out, or move the file away.",
+                                directory.string(), name));
+        write_whole(directory / mark, "The results of a run of Abut are in this folder: the next run here replaces them.\n");
+    }
+    remove_files(directory, names);
 }
 
 void remove_files(const fs::path& directory, const std::vector<std::string>& names) {
@@ -112,8 +139,12 @@ void refuse_directory(const fs::path& directory, const std::string& reason) {
 
 std::string in_csv(std::string name) {
     std::ranges::replace_if(
-        name, [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }, '_');
-    return name;
+        name,
+        [](char c) {
+            return c == ',' || c == '"' || has_control_character({&c, 1});
+        },
+        '_');
+    return as_cell(name);
 }
 
 std::string cannot_be_written(const fs::path& path, const std::string& reason) {

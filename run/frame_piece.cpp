@@ -62,7 +62,7 @@ public:
         for (std::size_t b = 0; b < part.boundary_faces.size(); ++b) {
             if (!is_own_here[first_cell(part, b)]) continue;
             piece_.pressure.push_back(contact.pressure[b]);
-            piece_.gap.push_back(std::isfinite(contact.gap[b]) ? contact.gap[b] : std::numeric_limits<double>::quiet_NaN());
+            piece_.gap.push_back(gap_in_contact(contact.gap[b]));
         }
         for (std::size_t b = 0; b < mesh_.boundary_faces.size(); ++b)
             if (is_own_[first_cell(mesh_, b)]) piece_.boundary.push_back(static_cast<std::int32_t>(b));

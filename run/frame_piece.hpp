@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "abut/base/vector.hpp"
@@ -8,6 +9,12 @@
 #include "abut/solid/solid.hpp"
 
 namespace abut::run {
+
+/// The gap of a face as frames show it [m]: where it is in contact, so that it is not above 0; NaN elsewhere. Gaps of open faces
+/// are known of pairs that are listed alone, and lists depend on ranks and restarts, which results do not.
+[[nodiscard]] inline double gap_in_contact(double gap) {
+    return gap <= 0.0 ? gap : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// What one rank has of a frame: its own cells, in their order in the scene.
 template <int Dim>
@@ -29,7 +36,7 @@ struct FramePiece {
 
     std::vector<std::int32_t> boundary;  ///< faces of these cells among Mesh::boundary_faces, increasing (n_faces)
     std::vector<double> pressure;        ///< of contact (n_faces) [Pa]
-    std::vector<double> gap;             ///< (n_faces) [m]; NaN: nothing faces it
+    std::vector<double> gap;             ///< (n_faces) [m]; gap_in_contact
 };
 
 /// The piece of this rank, or the whole where there is one; `solid` is that of the run. A call of all ranks.

@@ -21,10 +21,9 @@ Matrix<3> full_stress(const Matrix<Dim>& stress, double poisson) {
     return full;
 }
 
-std::vector<double> finite_or_nan(std::vector<double> values) {
-    for (double& value : values)
-        if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
-    return values;
+std::vector<double> in_contact(std::vector<double> gaps) {
+    for (double& gap : gaps) gap = gap_in_contact(gap);
+    return gaps;
 }
 
 /// Stresses of some cells, and what follows from them.
@@ -173,7 +172,7 @@ void Frames<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
         series_.emplace(directory_, name_, scene.mesh);
     fields_ = scene.outputs.fields;
     if (fields_.pairs && scene.contact) pairs_.emplace(directory_, pairs_series(name_));
-    n_steps_ = result.steps;
+    n_spread_ = n_steps_ = result.steps;
 }
 
 template <int Dim>
@@ -185,7 +184,8 @@ void Frames<Dim>::look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& sol
 template <int Dim>
 std::int64_t Frames<Dim>::due(std::int64_t step, std::int64_t n_written) const {
     const std::int64_t intervals = std::max<std::int64_t>(1, n_frames_ - 1);
-    return n_written < n_frames_ && step * intervals >= n_written * n_steps_ ? n_written : -1;
+    const bool more = n_written < n_frames_ || n_steps_ > n_spread_;
+    return more && step * intervals >= n_written * n_spread_ ? n_written : -1;
 }
 
 template <int Dim>
@@ -201,12 +201,14 @@ std::int64_t Frames<Dim>::wants_piece(std::int64_t step) const {
 
 template <int Dim>
 void Frames<Dim>::save(StateWriter& state) {
+    state.put(n_spread_);
     state.put_all(std::span(in_pieces_ ? pieces_->times() : series_->times()));
 }
 
 template <int Dim>
 void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     begin(scene, result);
+    n_spread_ = state.get<std::int64_t>();
     const auto times = state.get_all<double>();
     if (in_pieces_)
         pieces_->go_on_after(times);
@@ -218,7 +220,7 @@ void Frames<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, 
 template <int Dim>
 void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
     const auto contact = solid.contact_field(run.q);
-    const auto gap = finite_or_nan(contact.gap);
+    const auto gap = in_contact(contact.gap);
     static_cast<void>(solid.potential(run.q));  // leaves the stresses of this state behind
     const auto displacement = solid.cell_displacement(run.q);
     std::vector<Vector<Dim>> of_vertices;  // a body that turns is not where the mean displacement of its cells takes it

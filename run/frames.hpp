@@ -14,11 +14,12 @@
 namespace abut::run {
 
 /// A run as a series for ParaView: displacement [m], velocity [m/s], stress and von Mises stress [Pa] on cells, contact
-/// pressure [Pa] and gap [m] on boundary faces (a face that nothing faces has the gap NaN); and, as points of a series of
+/// pressure [Pa] and gap [m] on boundary faces (NaN on faces that are not in contact); and, as points of a series of
 /// their own, SERIES_pairs, pairs of faces that push each other, in the middle between their centres: bodies (-1: an
 /// obstacle), normal and force on the second body [N], normal force [N], gap [m] and area [m^(Dim-1)]. `n_frames` equally
-/// far apart, first and last step included; Outputs::fields may leave fields out. `series` is what the files are called by, see
-/// mesh::VtuSeries, which also says what they throw if they cannot be written.
+/// far apart, first and last step included (a run that goes on beyond the end of another one writes more, as far apart);
+/// Outputs::fields may leave fields out. `series` is what the files are called by, see mesh::VtuSeries, which also says what they
+/// throw if they cannot be written.
 ///
 /// In pieces the same, but each rank writes its own cells and their boundary faces (mesh::PieceSeries; on ranks other than 0 by
 /// PieceFiles). Pairs are not in pieces: rank 0 writes them, and brings the whole together for them unless they are left out.
@@ -51,6 +52,7 @@ private:
     std::int64_t n_frames_;
     bool in_pieces_;
     std::int64_t n_steps_ = 0;
+    std::int64_t n_spread_ = 0;  // steps that the frames are spread over: those of the run, or of the one it goes on from
     FrameFields fields_;
     std::optional<mesh::VtuSeries<Dim>> series_;  // of the whole, or
     std::optional<mesh::PieceSeries> pieces_;     // in pieces

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "abut/base/text.hpp"
 #include "abut/run/files.hpp"
 
 namespace abut::run {
@@ -72,7 +73,7 @@ std::string draw(const fs::path& directory, const Picture& picture) {
 
 std::string in_quotes(const std::string& text) {
     std::string doubled;
-    for (const char c : text) doubled.append(c == '\'' ? 2 : 1, c);
+    for (const char c : in_one_line(as_utf8(text))) doubled.append(c == '\'' ? 2 : 1, c);
     return doubled;
 }
 

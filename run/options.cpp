@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
+#include "abut/run/user_words.hpp"
 
 namespace abut::run {
 namespace {
@@ -21,11 +22,12 @@ constexpr double most_steps = 1e15;
 /// What a quotient of two times may be off by.
 constexpr double rounding = 1e-12;
 
+/// As `check`, with options as command lines have them.
+void check_together(const RunOptions& options);
+
 void append(NamedValues& values, const NamedValues& more) { values.insert(values.end(), more.begin(), more.end()); }
 
 }  // namespace
-
-std::string name_of(SolidIntegrator integrator) { return word_of(integrator_words, integrator); }
 
 std::string name_of(solid::Kinematics kinematics) {
     for (const auto& [word, meant] : kinematics_words)
@@ -86,6 +88,16 @@ double choose_step(const RunOptions& options, double stable_dt) {
 }
 
 void check(const RunOptions& options) {
+    try {
+        check_together(options);
+    } catch (const BadInput& error) {
+        throw BadInput(with_keys(error.what()), error.facts());
+    }
+}
+
+namespace {
+
+void check_together(const RunOptions& options) {
     if (options.filter && options.integrator != SolidIntegrator::memm)
         throw BadInput(fmt::format("--filter neutral: the filter is made for memm, and {} was chosen. Take --filter none.",
                                    name_of(options.integrator)));
@@ -131,6 +143,8 @@ void check(const RunOptions& options) {
         throw BadInput(fmt::format("--gauge: {} has no gauge. Take --integrator bilbao, or leave --gauge out.",
                                    name_of(options.integrator)));
 }
+
+}  // namespace
 
 NamedValues model_values(const RunOptions& options) {
     return {{"weights", word_of(weighting_words, options.contact.weighting)},

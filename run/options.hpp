@@ -7,6 +7,7 @@
 #include <string>
 
 #include "abut/contact/options.hpp"
+#include "abut/dynamics/scheme.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
@@ -17,8 +18,8 @@ namespace abut::run {
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
-/// The schemes that a solid with contact runs under. docs/integrators.md says which to choose.
-enum class SolidIntegrator { memm, memm_async, leapfrog, bilbao };
+/// A solid with contact runs under those of integrator_words; `simulate` refuses others. docs/integrators.md says which to choose.
+using SolidIntegrator = dynamics::Scheme;
 
 /// How bodies may move (solid::Kinematics): one choice for all of them, that of the scene, or `automatic`: for each body the
 /// cheapest one that a pilot run allows (run/pilot.hpp).
@@ -49,11 +50,13 @@ struct RunOptions {
     int threads = 0;           ///< at most; 0: all. The results do not depend on it
     int ranks = 0;             ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
     int rebalance = 0;         ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are
-    double rebalance_above = 1.05;  ///< cells are shared out again where the costliest rank costs so many times the mean
-    std::filesystem::path out;      ///< folder of ResultFiles; a simulation alone writes nothing
-    int interval = 0;               ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
-    int frames = 21;                ///< of the VTU series of ResultFiles, the first and the last included; 0: none
-    bool pieces = false;            ///< each rank writes its own cells of these frames
+    double rebalance_above = 1.05;      ///< cells are shared out again where the costliest rank costs so many times the mean
+    std::filesystem::path out;          ///< folder of ResultFiles; a simulation alone writes nothing
+    int interval = 0;                   ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
+    int frames = 21;                    ///< of the VTU series of ResultFiles, the first and the last included; 0: none
+    bool pieces = false;                ///< each rank writes its own cells of these frames
+    bool keep_last_checkpoint = false;  ///< of a run that comes to its end, too: another one may go on from there
+    bool other_end = false;             ///< a run that goes on may end at another time than the one it goes on from
     double checkpoint = 10.0;  ///< minutes from one checkpoint of ResultFiles to the next; 0: none, not even at a signal
     int checkpoint_steps = 0;  ///< the same in steps, beside it; 0: by minutes alone
     bool resume = false;       ///< goes on from the last checkpoint in `out`
@@ -97,8 +100,7 @@ inline constexpr std::array<Word<solid::CornerRule>, 2> corner_words{
 inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neutral", true}}};
 inline constexpr std::array<Word<bool>, 2> event_words{{{"on", true}, {"off", false}}};
 
-/// "memm"
-[[nodiscard]] std::string name_of(SolidIntegrator integrator);
+using dynamics::name_of;  ///< "memm"
 /// "floating"
 [[nodiscard]] std::string name_of(solid::Kinematics kinematics);
 /// That of all bodies; nothing where the scene or a pilot run decides.

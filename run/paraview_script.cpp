@@ -62,7 +62,8 @@ simple.RenderAllViews()
 std::string paraview_script(const std::string& series) {
     std::string text = script;
     const std::string empty = "SERIES = {}";
-    return text.replace(text.find(empty), empty.size(), "SERIES = " + nlohmann::json(series).dump(-1, ' ', true));
+    return text.replace(text.find(empty), empty.size(),
+                        "SERIES = " + nlohmann::json(series).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace abut::run

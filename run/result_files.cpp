@@ -38,9 +38,10 @@ ResultFiles<Dim>::ResultFiles(const RunOptions& options, std::string program, st
       checkpoints_(out_ / "checkpoints"),
       minutes_(options.checkpoint),
       steps_(options.checkpoint_steps),
+      keep_last_(options.keep_last_checkpoint),
       last_kept_(std::chrono::steady_clock::now()) {
     if (!options.resume) {
-        remove_earlier_results(out_, name_);
+        remove_earlier_results(out_, name_);  // refuses a folder that holds files of the user under these names
         checkpoints_.remove(texts_beside);
     }
     if (options.frames > 0) frames_.emplace(out_, name_, options.frames, options.pieces);
@@ -50,6 +51,7 @@ template <int Dim>
 void ResultFiles<Dim>::begin(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     const Stopwatch watch(seconds_);
     energies_.begin(scene, result);
+    n_steps_ = result.steps;
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").begin(scene, result);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").begin(scene, result);
@@ -109,6 +111,7 @@ std::string ResultFiles<Dim>::left_behind() const {
 
 template <int Dim>
 bool ResultFiles<Dim>::wants_checkpoint(std::int64_t step, bool stops) const {
+    if (keep_last_ && step == n_steps_) return true;
     if (minutes_ == 0.0 && steps_ == 0) return false;
     if (stops || (steps_ > 0 && step % steps_ == 0)) return true;
     return minutes_ > 0.0 && std::chrono::steady_clock::now() - last_kept_ >= std::chrono::duration<double>(60.0 * minutes_);
@@ -143,6 +146,7 @@ void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& res
     remove_files(out_, {"summary.json", "report.html", "energy.csv", "energy.png", "energy.gp"});
     remove_failure(out_, name_);
     energies_.resume(scene, result, state);
+    n_steps_ = result.steps;
     has_begun_ = true;
     if (!scene.outputs.probes.empty()) probes_.emplace(out_ / "probes.csv").resume(scene, result, state);
     if (scene.outputs.forces) forces_.emplace(out_ / "forces.csv").resume(scene, result, state);
@@ -164,7 +168,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
     if (frames_) write_whole(out_ / paraview_script_name, paraview_script(name_));
     write_whole(out_ / "report.html", report_html(program_, scene, result, files_of_report()));
     write_whole(out_ / "summary.json", summary_json(program_, scene, result));
-    if (result.complete) checkpoints_.remove(texts_beside);
+    if (result.complete && !keep_last_) checkpoints_.remove(texts_beside);
     lock_.reset();
 }
 

@@ -78,8 +78,10 @@ private:
     std::optional<ProbeFile<Dim>> probes_;
     std::optional<ForceFile<Dim>> forces_;
     CheckpointFolder checkpoints_;
-    double minutes_;                                           // between two of them; 0: there are none
-    int steps_;                                                // the same; 0: by minutes alone
+    double minutes_;  // between two of them; 0: there are none
+    int steps_;       // the same; 0: by minutes alone
+    bool keep_last_;
+    std::int64_t n_steps_ = 0;
     std::vector<std::pair<std::string, std::string>> beside_;  // names and texts
     std::chrono::steady_clock::time_point last_kept_;
     bool has_kept_ = false;

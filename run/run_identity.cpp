@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "abut/base/error.hpp"
+#include "abut/base/state_bytes.hpp"
 #include "abut/run/json.hpp"
 
 namespace abut::run {
@@ -15,6 +18,14 @@ namespace {
 // What the bits of a run do not depend on: threads, the device, and where files are.
 constexpr std::array<std::string_view, 4> free_choices{"out", "scene", "threads", "device"};
 
+template <int Dim>
+std::string checksum(const mesh::Mesh<Dim>& mesh) {
+    Checksum sum;
+    for (const Vector<Dim>& vertex : mesh.vertices) sum.add_values<double>(std::span(vertex.data(), Dim));
+    sum.add_values<std::int32_t>(mesh.cell_vertices.values);
+    return fmt::format("{:016x}", sum.value());
+}
+
 }  // namespace
 
 template <int Dim>
@@ -22,19 +33,22 @@ std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Json of_run = {{"dimension", Dim},
                    {"bodies", scene.mesh.body_names},
                    {"cells", scene.mesh.n_cells()},
+                   {"checksum of the meshes", checksum(scene.mesh)},
                    {"step [s]", result.dt},
                    {"steps", result.steps}};
     of_run.update(to_json(scene.options));
     of_run.update(to_json(named_values(result.options)));
     for (const std::string_view name : free_choices) of_run.erase(std::string(name));
-    return of_run.dump();
+    return text_of(of_run);
 }
 
-void require_same_run(const std::string& saved, const std::string& now) {
-    const Json there = Json::parse(saved, nullptr, false), here = Json::parse(now);
+void require_same_run(const std::string& saved, const std::string& now, bool other_end) {
+    Json there = Json::parse(saved, nullptr, false), here = Json::parse(now);
     if (!there.is_object()) throw BadInput("a checkpoint does not say what run it is of: it is damaged.");
+    if (other_end)
+        for (Json* run : {&there, &here}) run->erase("steps");
     const auto shown = [](const Json& run, const std::string& name) {
-        return run.contains(name) ? run[name].dump() : std::string("nothing");
+        return run.contains(name) ? text_of(run[name]) : std::string("nothing");
     };
     for (const Json* run : {&there, &here})
         for (const auto& [name, value] : run->items())

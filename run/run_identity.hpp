@@ -10,7 +10,7 @@ namespace abut::run {
 template <int Dim>
 [[nodiscard]] std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
-/// Throws BadInput naming what a saved run had and this one has not.
-void require_same_run(const std::string& saved, const std::string& now);
+/// Throws BadInput naming what a saved run had and this one has not; with `other_end` its number of steps may be another.
+void require_same_run(const std::string& saved, const std::string& now, bool other_end);
 
 }  // namespace abut::run

@@ -15,12 +15,9 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
-#include "abut/dynamics/bilbao.hpp"
 #include "abut/dynamics/filter.hpp"
-#include "abut/dynamics/leapfrog.hpp"
-#include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/memm_async.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/dynamics/with_scheme.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/divergence.hpp"
 #include "abut/run/frame_piece.hpp"
@@ -30,6 +27,7 @@
 #include "abut/run/run_identity.hpp"
 #include "abut/run/start.hpp"
 #include "abut/run/start_contact.hpp"
+#include "abut/run/user_words.hpp"
 #include "abut/run/wanted.hpp"
 
 namespace abut::run {
@@ -41,6 +39,7 @@ using oneapi::tbb::global_control;
 constexpr double sound_factor = 2.0;
 
 const std::string observers_kind = "observers of a run";
+constexpr int observers_version = 2;
 
 /// One run, from the first step to the last.
 template <int Dim, class Integrator>
@@ -245,7 +244,7 @@ private:
             checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
         }
         on_first([&] {
-            StateWriter state(observers_kind, 1);
+            StateWriter state(observers_kind, observers_version);
             observer_.save(state);
             checkpoint.observers = std::move(state).finish();
         });
@@ -253,7 +252,12 @@ private:
     }
 
     void resume(const Checkpoint& from) {
-        require_same_run(from.run, identity(scene_, result_));
+        require_same_run(from.run, identity(scene_, result_), options_.other_end);
+        if (from.motion.steps > result_.steps)
+            throw BadInput(fmt::format(
+                "the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
+                "Give a later end.",
+                result_.steps, static_cast<double>(result_.steps) * result_.dt, from.motion.steps, from.motion.time));
         go_on_from(from.motion, from.solid);
         make_restart({.period = options_.restart, .steps_before = integrator_->steps(), .report_before = from.restarts});
         const std::size_t n = dynamics::ledger_columns<Dim>().size();
@@ -265,7 +269,7 @@ private:
         result_.resumed_after = integrator_->steps();
         keep_sound();
         on_first([&] {
-            StateReader state(from.observers, observers_kind, 1);
+            StateReader state(from.observers, observers_kind, observers_version);
             observer_.resume(scene_, result_, state);
             state.finish();
         });
@@ -382,32 +386,20 @@ private:
     double own_seconds_before_ = 0.0;
 };
 
-/// The one place that knows all schemes.
 template <int Dim>
 void simulate(Start<Dim>& start, Observer<Dim>& observer, const Checkpoint* from) {
-    using Solid = solid::Solid<Dim>;
-    const auto run_with = [&](auto make) { Simulation<Dim, decltype(make(start))>(start, observer, make).run(from); };
-    const double dt = start.result.dt;
-    switch (start.options.integrator) {
-        case SolidIntegrator::memm:
-            return run_with([dt](Start<Dim>& s) { return dynamics::Memm<Solid>(*s.solid, s.q, s.momentum, dt); });
-        case SolidIntegrator::memm_async:
-            return run_with(
-                [dt](Start<Dim>& s) { return dynamics::MemmAsync<Solid>(*s.solid, s.q, s.momentum, dt, s.local_steps); });
-        case SolidIntegrator::leapfrog:
-            return run_with([dt](Start<Dim>& s) { return dynamics::Leapfrog<Solid>(*s.solid, s.q, s.momentum, dt); });
-        case SolidIntegrator::bilbao:
-            return run_with([dt, gauge = run::gauge(start)](Start<Dim>& s) {
-                return dynamics::Bilbao<Solid>(*s.solid, s.q, s.momentum, dt, gauge);
-            });
-    }
+    const SolidIntegrator scheme = start.options.integrator;
+    const double gauge = scheme == SolidIntegrator::bilbao ? run::gauge(start) : 0.0;
+    dynamics::with_scheme<solid::Solid<Dim>>(scheme, {.gauge = gauge}, [&](const auto& make) {
+        const auto make_at = [&](Start<Dim>& s) { return make(*s.solid, s.q, s.momentum, s.result.dt, s.local_steps); };
+        Simulation<Dim, decltype(make_at(start))>(start, observer, make_at).run(from);
+    });
 }
 
-}  // namespace
-
+/// As `simulate`, with the messages of all layers as they are.
 template <int Dim>
-RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
-                        const Share<Dim>* share) {
+RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
+                         const Share<Dim>* share) {
     check(given);
     const RunOptions options = with_defaults<Dim>(given);
     std::optional<global_control> threads;
@@ -440,6 +432,20 @@ RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& given, Observ
     }
     start->result.seconds.total = seconds.total;
     return std::move(start->result);
+}
+
+}  // namespace
+
+template <int Dim>
+RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options, Observer<Dim>& observer, const Checkpoint* from,
+                        const Share<Dim>* share) {
+    try {
+        return simulated(scene, options, observer, from, share);
+    } catch (const Error& error) {
+        const std::string text = with_keys(in_user_words(error.what(), {scene.mesh.body_names, scene.outputs.obstacles}));
+        if (text == error.what()) throw;
+        throw_again(error, text);
+    }
 }
 
 template RunResult<2> simulate<2>(const Scene<2>&, const RunOptions&, Observer<2>&, const Checkpoint*, const Share<2>*);

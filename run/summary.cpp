@@ -145,7 +145,7 @@ Json counts_json(const RunResult<Dim>& result) {
     return {{"events", contact.events},
             {"active_pairs_max", contact.active_pairs_max},
             {"active_pairs_final", result.ledger.entries().back().active_pairs},
-            {"lost_contacts", contact.missed_contacts},
+            {"missed_contacts", contact.missed_contacts},
             {"not_admitted_max", result.inadmissible_overlaps_max},
             {"candidates", contact.candidates_max},
             {"rebuilds", contact.rebuilds},
@@ -173,7 +173,7 @@ std::string velocity_text(const Vector<Dim>& velocity) {
 
 std::string value_text(const Value& value) {
     const double* number = std::get_if<double>(&value);
-    return number ? fmt::format("{:.6g}", *number) : to_json(value).dump();
+    return number ? fmt::format("{:.6g}", *number) : text_of(to_json(value));
 }
 
 template <int Dim>
@@ -214,7 +214,7 @@ std::string contact_lines(const RunResult<Dim>& result) {
     return table_line("contact events", fmt::format("{}", contact.events)) +
            table_line("active pairs, at most", fmt::format("{} ({} at the end)", contact.active_pairs_max,
                                                            result.ledger.entries().back().active_pairs)) +
-           table_line("contacts lost", fmt::format("{}", contact.missed_contacts)) +
+           table_line("missed contacts", fmt::format("{}", contact.missed_contacts)) +
            table_line("compression of the skin, max |g|/D", fmt::format("{:.3g}", contact.compression_max));
 }
 
@@ -259,7 +259,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
                  {"contact_share", contact_share(result)},
                  {"options", options_json(scene, result)}});
     json.update(rebalancing_json(result.rebalancing));
-    return json.dump(2) + "\n";
+    return text_of(json, 2) + "\n";
 }
 
 template <int Dim>

@@ -10,8 +10,16 @@
 #include <optional>
 #include <utility>
 
+#include "abut/run/user_words.hpp"
+
 namespace abut::run {
 namespace {
+
+/// In the words of people who write scenes.
+std::vector<Warning> in_user_words(std::vector<Warning> warnings) {
+    for (Warning& warning : warnings) warning.text = with_keys(run::in_user_words(std::move(warning.text)));
+    return warnings;
+}
 
 /// Gathers warnings of counts that should be 0.
 class Counts {
@@ -88,7 +96,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
                          "before it are not seen. Take an --interval that shares no factor with --restart, such as {}",
                          options.interval, options.restart, options.interval + 1),
              static_cast<double>(options.interval), static_cast<double>(options.restart)});
-    return std::move(counts.warnings);
+    return in_user_words(std::move(counts.warnings));
 }
 
 template <int Dim>
@@ -130,9 +138,10 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         contact.slipped_pairs, contact.slipped_compression_max));
     if (const double rotation = result.ledger.rotation(); rotation > far_rotation && !result.all_may_turn)
         add(WarningKind::rotation, rotation, far_rotation,
-            fmt::format("a body has turned by {:.2g} rad, {:g} is safe. A body of Kinematics::small grows as it turns, by "
-                        "{:.2g} % at this angle, and no energy shows it. --kinematics floating lets bodies turn",
-                        rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
+            fmt::format(
+                "a body has turned by {:.2g} rad, {:g} is safe. A body of kinematics \"small\" grows as it turns, by "
+                "{:.2g} % at this angle, and no energy shows it. --kinematics floating lets bodies turn",
+                rotation, far_rotation, 100.0 * (1.0 / std::cos(rotation) - 1.0)));
     if (const auto most = std::ranges::max_element(result.local_rotations);
         result.all_may_turn && most != result.local_rotations.end() && *most > far_rotation)
         add(WarningKind::local_rotation, *most, far_rotation,
@@ -146,11 +155,11 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "if noise grows, a lower --cfl and --restart 50 help",
                         result.finite.strain, large_strain, result.finite.determinant));
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
-               fmt::format("{} contacts were lost, 0 are allowed: the energy is not exact", contact.missed_contacts));
+               fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,
                fmt::format("up to {} pairs of faces overlap without being contacts: far sides of bodies",
                            result.inadmissible_overlaps_max));
-    return std::move(counts.warnings);
+    return in_user_words(std::move(counts.warnings));
 }
 
 std::vector<Warning> without_notes(std::vector<Warning> warnings) {

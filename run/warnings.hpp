@@ -41,7 +41,7 @@ enum class WarningKind {
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
-    missed_contacts,        ///< contacts that were lost: the energy is not exact
+    missed_contacts,        ///< contacts that were missed: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };
 

@@ -2,7 +2,7 @@
 // must obey whatever the number is.
 //
 // A run `held` when it came to its end with finite numbers, H~ and linear momentum kept to 1e-10 of their scale, H - H~
-// below the energy of the run, and no contact lost. It is `refused` when it ended with a message, which then says what is
+// below the energy of the run, and no contact missed. It is `refused` when it ended with a message, which then says what is
 // allowed; it `failed` when it came to its end and one of these is not so. A change of units must leave every number
 // without a unit as it is, to 1e-9. No energy is claimed without H - H~, |e|/m and the number of events beside it.
 #include <set>
@@ -51,7 +51,7 @@ void add_options(CLI::App& app, Options& options) {
 
 void sweep(const Options& options) {
     const run::FolderLock lock(options.sweep.run.out, program.name);
-    run::remove_files(options.sweep.run.out, {"extremes.csv", "summary.json"});
+    run::claim_results(options.sweep.run.out, {"extremes.csv", "summary.json"});
     const std::set<std::string> wanted(options.only.begin(), options.only.end());
     std::vector<Row> rows;
     for (const Family& family : families()) {

@@ -4,6 +4,7 @@
 // work from outside, momentum, J~ = sum x × p - dt/4 sum v^- × p^+ where nothing holds the bodies, missed contacts and the
 // force that closes the balance of energy; scenes are asked for closed forms: tops, times of impact, Hertz, a cradle, gears. No
 // energy is claimed without H - H~, |e|/m and the number of events beside it.
+#include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
 #include "apps/support/command_line.hpp"
 #include "studies/kinematics/rows.hpp"
@@ -47,6 +48,7 @@ void add_options(CLI::App& app, Options& options) {
 
 void run(const Options& options) {
     const run::FolderLock lock(options.out, program.name);
+    run::claim_results(options.out, {"summary.json", program.name + ".csv"});
     std::vector<Row> rows;
     for (const Part& part : parts()) {
         if (!options.asks_for(part.name)) continue;

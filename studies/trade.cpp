@@ -153,7 +153,7 @@ std::vector<Row> climb(const Problem& problem, const Options& options) {
 
 void run(const Options& options) {
     const run::FolderLock lock(options.out, program.name);
-    run::remove_files(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
+    run::claim_results(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
     std::vector<Row> rows;
     for (const Problem& problem : problems()) {
         if (!options.only.empty() && std::ranges::find(options.only, problem.name) == options.only.end()) continue;

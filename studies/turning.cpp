@@ -5,6 +5,7 @@
 // missed contacts and the force that closes the balance of energy. Solutions at rest are asked for stress and pressure.
 // No energy is claimed without H - H~, |e|/m and the number of events beside it. docs/turning.md reads the table.
 #include "abut/base/error.hpp"
+#include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
 #include "apps/support/command_line.hpp"
 #include "studies/nodal/rows.hpp"
@@ -58,6 +59,7 @@ void run(const Options& options) {
             "--scheme leapfrog: filter and restart are made for memm, which has the mode they take out. Leave "
             "--filter and --restart out.");
     const run::FolderLock lock(options.out, program.name);
+    run::claim_results(options.out, {"summary.json", program.name + ".csv"});
     std::vector<Row> rows;
     for (const Part& part : parts()) {
         if (!options.asks_for(part.name)) continue;

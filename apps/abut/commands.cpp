@@ -35,7 +35,7 @@ struct CommandLine {
     fs::path scene;
     fs::path new_file;
     fs::path results;
-    run::RunOptions restarted;  ///< threads, ranks and how they share the scene out
+    run::RunOptions restarted;  ///< threads, ranks and how they share the scene out, and the end
     std::vector<std::string> set;
     std::vector<std::string> sweep;
     run::RunOptions options;
@@ -56,7 +56,7 @@ const Program abut_program{.name = "abut",
                            .footer =
                                "abut run --help lists the options of a run, abut help the topics. Units are SI. Exit codes: "
                                "0 good, 1 an error, with "
-                               "its message, 130 or 143 ended by SIGINT or SIGTERM.",
+                               "its message, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.",
                            .takes_ranks = true};
 
 void add_scene_options(CLI::App& command, CommandLine& line) {
@@ -91,6 +91,11 @@ void add_commands(CLI::App& app, CommandLine& line) {
     line.restart->add_option("results", line.results, "the folder of its results, that of --out")
         ->required()
         ->type_name("DIR");
+    add_number(*line.restart, "--until", line.restarted.time,
+               "another end of the run than it had; a run that has come to its end goes on if it was made with "
+               "--keep-last-checkpoint",
+               {.unit = "s", .above = 0.0})
+        ->group("Time");
     add_count(*line.restart, "--threads", line.restarted.threads,
               "threads; 0: as the run had. The results do not depend on it", 0);
     add_ranks_options(*line.restart, line.restarted);
@@ -126,20 +131,34 @@ input::Overrides overrides(int argc, char** argv, const CommandLine& first) {
             }};
 }
 
-/// `restart`: what a restart needs; none where one run of several is made.
-void run_file(const Program& program, const input::SceneFile& file, const Restart* restart) {
+using TextFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// `beside`: what a restart needs; empty where one run of several is made.
+void run_file(const Program& program, const input::SceneFile& file, const TextFiles& beside) {
     Program named = program;
     named.name = file.name();
-    if (restart && !file.options().resume) named.beside_checkpoints = files_for_restart(*restart);
+    named.beside_checkpoints = beside;
     if (file.dimension() == 2)
         run_scene<2>(named, file.options(), [&] { return file.scene<2>(); });
     else
         run_scene<3>(named, file.options(), [&] { return file.scene<3>(); });
 }
 
+/// A run from the start leaves what a restart needs; one that goes on has the scene that it began with.
+void run_scene_file(const Program& program, const fs::path& path, const input::Overrides& overrides,
+                    const std::vector<std::string>& arguments) {
+    const input::SceneFile file(path, overrides);
+    if (!file.options().resume) return run_file(program, file, files_for_restart({fs::absolute(path), arguments}, path));
+    if (const std::string changes = changes_since(path, file.options().out); !changes.empty())
+        throw BadInput(changes + " Go on with the scene as it was by abut restart " + file.options().out.string() +
+                       ", or run from the start without --resume.");
+    run_file(program, file, {});
+}
+
 /// The command line of the run is read once more.
 void restart_run(const Program& program, const fs::path& results, const run::RunOptions& now) {
-    const Restart restart = read_restart(results);
+    Restart restart = read_restart(results);
+    if (!std::isnan(now.time)) restart.until = now.time;
     std::vector<char*> words;
     std::vector<std::string> arguments = restart.arguments;
     for (std::string& argument : arguments) words.push_back(argument.data());
@@ -157,14 +176,26 @@ void restart_run(const Program& program, const fs::path& results, const run::Run
         of_run.ranks = now.ranks;
         of_run.rebalance = now.rebalance;
         of_run.rebalance_above = now.rebalance_above;
+        if (restart.until) {
+            of_run.time = *restart.until;
+            of_run.steps = 0;
+            of_run.other_end = true;
+        }
     };
-    run_file(program, input::SceneFile(scene_for_restart(results), over), &restart);
+    const fs::path copy = scene_for_restart(results);
+    Program with_note = program;
+    if (const std::string changes = changes_since(restart.scene, results); !changes.empty())
+        with_note.note = changes + " The run goes on with the scene as it was.";
+    run_file(with_note, input::SceneFile(copy, over), std::isnan(now.time) ? TextFiles{} : files_for_restart(restart, copy));
 }
 
 void check_file(const fs::path& path, const input::Overrides& overrides) {
     const input::CheckedScene checked = input::check_scene(path, overrides);
     if (!checked.faults.empty()) throw input::SceneError(checked.faults);
-    fmt::print("{}: no fault found\n{}", path.string(), input::text_of(*checked.estimate));
+    const std::size_t n = checked.warnings.size();
+    fmt::print("{}: no fault found{}\n{}", path.string(), n == 0 ? "" : fmt::format(", {} warning{}", n, n == 1 ? "" : "s"),
+               input::text_of(*checked.estimate));
+    for (const std::string& warning : checked.warnings) fmt::print("  {:<16}{}\n", "warning", warning);
 }
 
 void write_new_scene(fs::path path) {
@@ -189,10 +220,9 @@ int run_abut(int argc, char** argv) {
         if (line.run->parsed() && !line.sweep.empty()) {
             refuse_ranks("--sweep");
             run_sweep(line.scene, overrides(argc, argv, line), read_sweeps(line.sweep), program.messages,
-                      [&](const input::SceneFile& file) { run_file(program, file, nullptr); });
+                      [&](const input::SceneFile& file) { run_file(program, file, {}); });
         } else if (line.run->parsed()) {
-            const Restart restart{fs::absolute(line.scene), {argv, argv + argc}};
-            run_file(program, input::SceneFile(line.scene, overrides(argc, argv, line)), &restart);
+            run_scene_file(program, line.scene, overrides(argc, argv, line), {argv, argv + argc});
         } else if (line.restart->parsed())
             restart_run(program, line.results, line.restarted);
         else if (line.check->parsed())

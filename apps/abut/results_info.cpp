@@ -67,7 +67,7 @@ std::string finished_lines(const Json& summary) {
            line_of(summary, "steps", "steps") + line_of(summary, "time", "until", " s") +
            drift_line(summary, "pseudo_energy_drift", "drift of H~") + drift_line(summary, "energy_drift", "error of H") +
            drift_line(summary, "energy_excess_max", "H - H~") + line_of(summary, "events", "contact events") +
-           line_of(summary, "lost_contacts", "missed contacts") + body_lines(summary);
+           line_of(summary, "missed_contacts", "missed contacts") + body_lines(summary);
 }
 
 /// Rows of a table that a run writes as it goes.

@@ -13,8 +13,10 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
+#include "abut/run/folder_lock.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/signals.hpp"
+#include "apps/support/standard_streams.hpp"
 
 namespace abut::apps {
 namespace {
@@ -23,7 +25,8 @@ namespace fs = std::filesystem;
 
 /// Columns of summary.json that sweep.csv repeats.
 constexpr std::array<const char*, 8> figures{
-    "steps", "dt", "energy_excess_max", "parasitic_max", "momentum_drift_max", "events", "lost_contacts", "compression_max"};
+    "steps",          "dt", "energy_excess_max", "parasitic_max", "momentum_drift_max", "events", "missed_contacts",
+    "compression_max"};
 
 /// What has become of one run.
 struct Outcome {
@@ -144,15 +147,47 @@ Outcome outcome_of(const fs::path& scene, const input::Overrides& overrides, con
         outcome.state = "failed";
         outcome.message = error.what();
     }
-    if (!outcome.message.empty()) run::remove_files(out / folder, {"summary.json"});  // of a sweep before
+    if (!outcome.message.empty() && run::holds_results(out / folder))
+        run::remove_files(out / folder, {"summary.json"});  // of a sweep before
     return outcome;
 }
 
+/// The folders that a sweep writes its table to, which are its own while it runs.
+class Folders {
+public:
+    void take(const fs::path& out) {
+        if (std::ranges::find(taken_, out) != taken_.end()) return;
+        locks_.emplace_back(out, "abut run --sweep");
+        run::claim_results(out, {"sweep.csv"});
+        taken_.push_back(out);
+    }
+
+private:
+    std::vector<fs::path> taken_;
+    std::vector<run::FolderLock> locks_;
+};
+
+/// Where the scene has its results under these overrides; empty: there is no scene.
+fs::path out_of(const fs::path& scene, const input::Overrides& overrides) {
+    fs::path out;
+    const auto note = [&](run::RunOptions& options) {
+        if (overrides.options) overrides.options(options);
+        out = options.out;
+    };
+    try {
+        const input::SceneFile file(scene, {.set = overrides.set, .options = note});
+    } catch (const Error&) {  // the run says so
+    }
+    return out;
+}
+
 void print_table(const std::vector<Outcome>& outcomes, const std::vector<Sweep>& sweeps, const fs::path& table) {
-    fmt::print("Sweep\n");
+    std::string text = "Sweep\n";
     for (const Outcome& outcome : outcomes)
-        fmt::print("  {}  {}  {}\n", outcome.folder, fmt::join(settings_of(outcome.values, sweeps), " "), outcome.state);
-    fmt::print("  table  {}\n", table.string());
+        text += fmt::format("  {}  {}  {}\n", outcome.folder, fmt::join(settings_of(outcome.values, sweeps), " "),
+                            outcome.state);
+    text += fmt::format("  table  {}\n", table.string());
+    say(text);
 }
 
 void require_held(const std::vector<Outcome>& outcomes, std::size_t n_runs, const fs::path& table) {
@@ -182,16 +217,17 @@ void run_sweep(const fs::path& scene, const input::Overrides& overrides, const s
     for (const Sweep& sweep : sweeps) n_runs *= sweep.values.size();
     const auto width = static_cast<int>(std::to_string(n_runs).size());
     std::vector<Outcome> outcomes;
+    Folders folders;
     fs::path out;
     for (std::size_t i = 0; i < n_runs && noted_signal() == 0; ++i) {
         const std::vector<std::string> values = values_of(i, sweeps), settings = settings_of(values, sweeps);
         spdlog::info("run {} of {}: {}", i + 1, n_runs, fmt::join(settings, " "));
         input::Overrides with_values = overrides;
         with_values.set.insert(with_values.set.end(), settings.begin(), settings.end());
+        if (const fs::path of_run = out_of(scene, with_values); !of_run.empty()) folders.take(of_run);
         outcomes.push_back(outcome_of(scene, with_values, fmt::format("run_{:0{}}", i + 1, width), out, run_one));
         outcomes.back().values = values;
         if (!outcomes.back().message.empty()) spdlog::warn("{}: {}", outcomes.back().state, outcomes.back().message);
-        fs::create_directories(out);
         write_table(out / "sweep.csv", outcomes, sweeps);
     }
     if (messages == Messages::normal) print_table(outcomes, sweeps, out / "sweep.csv");

@@ -98,6 +98,7 @@ const Topic exit_codes{"exit-codes", "Exit codes",
   130  ended by SIGINT (Ctrl-C) after a whole step; all files are finished, "complete" is false in
        summary.json
   143  the same by SIGTERM
+  129  the same by SIGHUP: the terminal is gone
 
 A second signal ends a run at once, as SIGKILL does; energy.csv.partial then holds the records so far.)"};
 

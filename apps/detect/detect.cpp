@@ -12,7 +12,9 @@
 #include "abut/run/files.hpp"
 #include "apps/detect/output.hpp"
 #include "apps/detect/report.hpp"
+#include "apps/support/csv.hpp"
 #include "apps/support/signals.hpp"
+#include "apps/support/standard_streams.hpp"
 
 namespace abut::apps {
 namespace {
@@ -129,6 +131,8 @@ void detect(const DetectOptions& options) {
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
     std::optional<run::FolderLock> lock;
     if (!options.no_files) lock = prepare_output(options.out);
+    std::optional<GoOnWithoutReader> to_files;
+    if (lock) to_files.emplace();
     DetectTimes seconds;
     Bodies bodies = read_bodies(options, seconds.input);
     if (bodies.names.size() == 1 && !options.search.self_contact)
@@ -148,7 +152,7 @@ void detect(const DetectOptions& options) {
     steps->all_steps();
     if (!report.complete)
         spdlog::warn("{}: ends after step {} of {}", name_of_signal(noted_signal()), report.steps, motion.steps());
-    if (!options.no_files) run::write_whole(options.out / "summary.json", summary(report, options).dump(2) + "\n");
+    if (!options.no_files) write_json(options.out / "summary.json", summary(report, options));
     print(report, options);
     throw_if_missed(report.verification);
 }

@@ -142,11 +142,10 @@ std::vector<double> problems_of(const Bodies& bodies) {
 
 run::FolderLock prepare_output(const fs::path& out) {
     run::FolderLock lock(out, detect_program.name);
-    run::remove_files(out, {"summary.json", "candidates.csv", "overlaps.csv", "steps.csv"});
-    std::vector<std::string> pictures;
+    std::vector<std::string> names{"summary.json", "candidates.csv", "overlaps.csv", "steps.csv"};
     for (const auto& entry : fs::directory_iterator(out))
-        if (is_picture(entry.path().filename().string())) pictures.push_back(entry.path().filename().string());
-    run::remove_files(out, pictures);
+        if (is_picture(entry.path().filename().string())) names.push_back(entry.path().filename().string());
+    run::claim_results(out, names);
     return lock;
 }
 

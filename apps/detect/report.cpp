@@ -158,7 +158,7 @@ Json seconds_json(const DetectTimes& seconds) {
             {"writing", seconds.writing}};
 }
 
-void print_line(const std::string& name, const std::string& value) { fmt::print("  {:<44}{}\n", name, value); }
+void print_line(const std::string& name, const std::string& value) { say(fmt::format("  {:<44}{}\n", name, value)); }
 
 void print_bodies(const Bodies& bodies) {
     std::vector<std::int64_t> n_faces(bodies.names.size(), 0);
@@ -245,9 +245,10 @@ Json summary(const DetectReport& report, const DetectOptions& options) {
 
 void print(const DetectReport& report, const DetectOptions& options) {
     const Bodies& bodies = report.bodies;
-    fmt::print("detect: {}, {} faces, step {}{}\n",
-               bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()), bodies.surface.size(),
-               report.last.step, report.complete ? fmt::format(" of {}", report.steps) : ", asked to stop before the end");
+    say(fmt::format("detect: {}, {} faces, step {}{}\n",
+                    bodies.names.size() == 1 ? "1 body" : fmt::format("{} bodies", bodies.names.size()),
+                    bodies.surface.size(), report.last.step,
+                    report.complete ? fmt::format(" of {}", report.steps) : ", asked to stop before the end"));
     print_bodies(bodies);
     print_line("mean size of a face, sqrt(area)", fmt::format("{:.6g} m", bodies.mean_face_size()));
     print_line("gaps kept", fmt::format("above {:.6g} m, up to {:.6g} m", -report.near.depth, report.near.distance));

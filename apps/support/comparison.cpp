@@ -46,7 +46,8 @@ Json run_json(const SchemeRun& run) {
 std::string value_text(const run::Value& value) {
     if (std::holds_alternative<std::monostate>(value)) return "-";
     const double* number = std::get_if<double>(&value);
-    return number ? fmt::format("{:.5g}", *number) : to_json(value).dump();
+    return number ? fmt::format("{:.5g}", *number)
+                  : to_json(value).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void print_line(const std::string& name, const std::vector<std::string>& values) {
@@ -118,7 +119,7 @@ run::FolderLock prepare_results(const Program& program, const fs::path& out, std
     for (const Scheme scheme : all_schemes) more.push_back(name_of(scheme) + ".csv");
     more.insert(more.end(), {"summary.json", program.name + ".gp", program.name + ".png"});
     run::FolderLock lock(out, program.name);
-    run::remove_files(out, more);
+    run::claim_results(out, more);
     return lock;
 }
 
@@ -130,7 +131,7 @@ void report(const Program& program, const fs::path& out, const Comparison& compa
             write_csv(files.back(), run.series);
         }
     const std::string without_picture = draw(out, comparison.picture);
-    run::write_whole(out / "summary.json", summary(program, comparison).dump(2) + "\n");
+    write_json(out / "summary.json", summary(program, comparison));
     fmt::print("{}: {}\n", program.name, comparison.title);
     print_runs(comparison.runs);
     for (const run::Finding& finding : comparison.findings) print_line(finding.text, {value_text(finding.value)});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "abut/base/text.hpp"
 #include "abut/run/files.hpp"
 
 namespace abut::apps {
@@ -23,9 +24,13 @@ nlohmann::ordered_json json_number(double number) {
     return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json();
 }
 
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
+    run::write_whole(path, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
 std::string quoted(const std::string& text) {
     std::string result = "\"";
-    for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    for (const char c : as_cell(text)) result += c == '"' ? std::string("\"\"") : std::string(1, c);
     return result + "\"";
 }
 

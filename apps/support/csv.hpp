@@ -22,7 +22,9 @@ void write_csv(const std::filesystem::path& path, const Table& table);
 [[nodiscard]] std::string two_digits(double number);
 /// null where it is no finite number.
 [[nodiscard]] nlohmann::ordered_json json_number(double number);
-/// Text as a field: in quotation marks, those inside doubled.
+/// A file of JSON. Never seen half-written; what is not UTF-8 in it, as of a path, has U+FFFD in its place. Throws BadInput.
+void write_json(const std::filesystem::path& path, const nlohmann::ordered_json& json);
+/// Text as a field: in quotation marks, those inside doubled; as_cell.
 [[nodiscard]] std::string quoted(const std::string& text);
 
 }  // namespace abut::apps

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/run/user_words.hpp"
 #include "abut/run/warnings.hpp"
 #include "apps/support/csv.hpp"
 
@@ -92,17 +93,21 @@ void JsonLines<Dim>::end(const run::RunResult<Dim>& result, int exit_code) {
                 {"energy_excess_max", json_number(result.ledger.energy_excess())},
                 {"parasitic_max", json_number(result.ledger.parasitic())},
                 {"events", result.contact.events},
-                {"lost_contacts", result.contact.missed_contacts},
+                {"missed_contacts", result.contact.missed_contacts},
                 {"seconds", result.seconds.total},
                 {"out", result.options.out.string()},
                 {"exit_code", exit_code}});
+}
+
+void json_note(const std::string& text) {
+    print_line({{"event", "warning"}, {"severity", "warning"}, {"text", text}, {"value", nullptr}, {"threshold", nullptr}});
 }
 
 void json_error(const std::exception& error, int exit_code) {
     const auto* ours = dynamic_cast<const Error*>(&error);
     print_line({{"event", "error"},
                 {"kind", ours ? name(ours->kind()) : "other"},
-                {"text", error.what()},
+                {"text", run::in_user_words(error.what())},
                 {"exit_code", exit_code}});
 }
 

@@ -36,6 +36,9 @@ private:
     Clock::time_point last_ = start_;
 };
 
+/// A "warning" before a run, without value and threshold.
+void json_note(const std::string& text);
+
 /// "error", of a program that ends by one with this exit code.
 void json_error(const std::exception& error, int exit_code);
 

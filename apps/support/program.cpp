@@ -8,41 +8,58 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 
+#include "abut/base/text.hpp"
+#include "abut/run/user_words.hpp"
 #include "apps/support/command_line.hpp"
 #include "apps/support/json_lines.hpp"
 #include "apps/support/rank_session.hpp"
 #include "apps/support/signals.hpp"
+#include "apps/support/standard_streams.hpp"
 #include "apps/support/terminal.hpp"
 
 namespace abut::apps {
 namespace {
 
 std::string message_of(const CLI::App* app, const CLI::Error& error) {
-    return for_terminal(fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what()),
-                        STDERR_FILENO);
+    return for_terminal(
+        as_utf8(fmt::format("{0}: error: {1} ({0} --help lists all options.)\n", app->get_name(), error.what())),
+        STDERR_FILENO);
 }
 
-int report_errors(const Program& program, const std::function<void()>& body) {
+/// Says it wherever somebody may hear it. What is not UTF-8 in it, as of a path, has another letter in its place.
+int report(const Program& program, const std::exception& error) {
+    const std::string text = as_utf8(fmt::format("{}: error: {}", program.name, run::in_user_words(error.what())));
+    std::fputs((for_terminal(text, STDERR_FILENO) + "\n").c_str(), stderr);
+    if (program.messages == Messages::json) json_error(error, 1);
+    leave_ranks(text);
+    return 1;
+}
+
+/// Calls body(), whose exit code it returns; 1, with a message, where that throws anything.
+template <class Body>
+int report_errors(const Program& program, const Body& body) {
     try {
-        spdlog::set_default_logger(spdlog::stdout_color_mt(program.name));
-        spdlog::set_pattern("[%T] %v");
-        if (!program.takes_ranks) refuse_ranks(program.name.c_str());
-        body();
-        return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
+        return body();
     } catch (const std::exception& error) {
-        fmt::print(stderr, "{}", for_terminal(fmt::format("{}: error: {}\n", program.name, error.what()), STDERR_FILENO));
-        if (program.messages == Messages::json) json_error(error, 1);
-        leave_ranks(fmt::format("{}: error: {}", program.name, error.what()));
-        return 1;
+        return report(program, error);
+    } catch (...) {
+        return report(program, std::runtime_error("an error of unknown kind, of a library that Abut builds on. This is a "
+                                                  "fault of Abut: please report it with the input."));
     }
 }
 
-}  // namespace
+int run_body(const Program& program, const std::function<void()>& body) {
+    spdlog::set_default_logger(spdlog::stdout_color_mt(program.name));
+    spdlog::set_pattern("[%T] %v");
+    if (!program.takes_ranks) refuse_ranks(program.name.c_str());
+    body();
+    return noted_signal() == 0 ? 0 : exit_code_of(noted_signal());
+}
 
-int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
-                const std::function<void()>& body) {
-    const std::unique_ptr<ranks::Session> ranks = join_ranks();
+int run_on_ranks(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+                 const std::function<void()>& body) {
     CLI::App app(program.purpose, program.name);
     app.formatter(std::make_shared<HelpFormatter>());
     app.failure_message(message_of);
@@ -55,7 +72,19 @@ int run_program(const Program& program, int argc, char** argv, const std::functi
         leave_ranks(fmt::format("{}: error: {}", program.name, error.what()));
         return 1;
     }
-    return report_errors(program, body);
+    return run_body(program, body);
+}
+
+}  // namespace
+
+int run_program(const Program& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_options,
+                const std::function<void()>& body) {
+    open_closed_streams();
+    std::unique_ptr<ranks::Session> ranks;  // ends after all that is said
+    return report_errors(program, [&] {
+        ranks = join_ranks();
+        return run_on_ranks(program, argc, argv, add_options, body);
+    });
 }
 
 }  // namespace abut::apps

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string>
 
+#include "apps/support/standard_streams.hpp"
+
 namespace abut::apps {
 namespace {
 
@@ -46,7 +48,7 @@ void Progress::show(std::int64_t step, double time, double drift) {
     next_step_ = next_tenth(step, n_steps_);
     line_open_ = terminal_;
     if (!terminal_) return spdlog::info("{}", line);
-    fmt::print("\r{}\033[K", line);
+    say(fmt::format("\r{}\033[K", line));
     std::fflush(stdout);
 }
 

@@ -169,6 +169,9 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
                        {.unit = "min", .above = 0.0, .zero = true, .remedy = "Give minutes, or 0 for no checkpoints."}));
     grouped(add_count(app, "--checkpoint-steps", options.checkpoint_steps,
                       "steps from one checkpoint to the next, beside that; 0: by minutes alone", 0));
+    app.add_flag("--keep-last-checkpoint", options.keep_last_checkpoint,
+                 "of a run that comes to its end, too: abut restart DIR --until TIME goes on from there")
+        ->group("Output");
     app.add_flag("--resume", options.resume,
                  "goes on from the last checkpoint in the folder of --out; by default a run begins at its start")
         ->group("Output");

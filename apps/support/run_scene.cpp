@@ -26,6 +26,7 @@
 #include "apps/support/progress.hpp"
 #include "apps/support/rank_session.hpp"
 #include "apps/support/signals.hpp"
+#include "apps/support/standard_streams.hpp"
 
 namespace abut::apps {
 namespace {
@@ -109,6 +110,8 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     std::optional<run::Checkpoint> from;
     std::optional<run::Scene<Dim>> scene;
     double seconds = 0.0;
+    if (!program.note.empty()) spdlog::warn("{}", program.note);
+    if (!program.note.empty() && program.messages == Messages::json) json_note(program.note);
     on_all([&] {
         files.emplace(options, program.name, program.series);
         for (const auto& [name, text] : program.beside_checkpoints) files->keep_beside_checkpoints(name, text);
@@ -131,7 +134,7 @@ void run_and_write(const Program& program, const run::RunOptions& options,
     if (program.messages == Messages::json) lines.end(result, noted_signal() == 0 ? 0 : exit_code_of(noted_signal()));
     if (program.messages != Messages::normal) return;
     log_warnings(run::warnings_after(result));
-    fmt::print("{}{}", run::closing_table(program.name, *scene, result), files->table());
+    say(run::closing_table(program.name, *scene, result) + files->table());
 }
 
 /// On the other ranks: the run, and their pieces of frames. Each reads the checkpoint that rank 0 has found for itself.
@@ -156,6 +159,7 @@ void run_beside(const Program& program, const run::RunOptions& options, const st
 template <int Dim>
 void run_scene(const Program& program, const run::RunOptions& given, const std::function<run::Scene<Dim>()>& make_scene) {
     start_ranks(given.ranks);
+    const GoOnWithoutReader to_files;
     set_log(program.messages);
     run::RunOptions options = given;
     options.threads = threads_of(given);

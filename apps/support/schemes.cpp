@@ -13,11 +13,6 @@ namespace {
 
 using dynamics::PathMean;
 
-const Choices<Scheme> scheme_names = {{"memm", Scheme::memm},
-                                      {"leapfrog", Scheme::leapfrog},
-                                      {"bilbao", Scheme::bilbao},
-                                      {"energy_momentum", Scheme::energy_momentum},
-                                      {"memm_async", Scheme::memm_async}};
 const Choices<PathMean> means = {
     {"system", PathMean::system}, {"1", PathMean::gauss_1}, {"2", PathMean::gauss_2}, {"3", PathMean::gauss_3}};
 const Choices<bool> starts = {{"half", false}, {"naive", true}};
@@ -34,7 +29,6 @@ bool known_to_any(const std::vector<Scheme>& known, const std::vector<Scheme>& c
 
 }  // namespace
 
-std::string name_of(Scheme scheme) { return name_of(scheme_names, scheme); }
 void add_integrator(CLI::App& app, SchemeOptions& options) {
     Choices<std::vector<Scheme>> choices = {{"all", options.schemes}};
     for (const Scheme scheme : options.schemes) choices.push_back({name_of(scheme), {scheme}});

@@ -5,23 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include "abut/dynamics/bilbao.hpp"
-#include "abut/dynamics/energy_momentum.hpp"
-#include "abut/dynamics/leapfrog.hpp"
-#include "abut/dynamics/memm.hpp"
-#include "abut/dynamics/memm_async.hpp"
+#include "abut/dynamics/with_scheme.hpp"
 #include "apps/support/cli.hpp"
 
 namespace abut::apps {
 
 /// The schemes that small systems run under. docs/integrators.md says which to choose.
-enum class Scheme { memm, leapfrog, bilbao, energy_momentum, memm_async };
+using Scheme = dynamics::Scheme;
 
 inline const std::vector<Scheme> all_schemes = {Scheme::memm, Scheme::leapfrog, Scheme::bilbao, Scheme::energy_momentum,
                                                 Scheme::memm_async};
-
-/// As on the command line: "memm".
-[[nodiscard]] std::string name_of(Scheme scheme);
 
 /// What a program that compares schemes on a small system lets its user choose about them.
 struct SchemeOptions {
@@ -62,24 +55,15 @@ struct Start {
     dynamics::LocalSteps local_steps;  ///< of memm_async
 };
 
-/// Calls body(integrator). This is the one place that knows all schemes. The first step must be step(dt, StepChange::keep):
-/// an integrator that starts naively was made for a step of nearly nothing, so that both of its half-step momenta are p^0.
+/// Calls body(integrator). The first step must be step(dt, StepChange::keep): an integrator that starts naively was made for a
+/// step of nearly nothing, so that both of its half-step momenta are p^0.
 template <class S, class Body>
 void with_integrator(Scheme scheme, S& system, const Start& start, const SchemeOptions& options, const Body& body) {
     const double dt = options.naive_start ? 1e-100 * start.dt : start.dt;
-    const auto with = [&](auto integrator) { body(integrator); };
-    switch (scheme) {
-        case Scheme::memm:
-            return with(dynamics::Memm<S>(system, start.q, start.p, dt, options.mean));
-        case Scheme::leapfrog:
-            return with(dynamics::Leapfrog<S>(system, start.q, start.p, dt));
-        case Scheme::bilbao:
-            return with(dynamics::Bilbao<S>(system, start.q, start.p, dt, options.gauge));
-        case Scheme::energy_momentum:
-            return with(dynamics::EnergyMomentum<S>(system, start.q, start.p, dt, options.mean));
-        case Scheme::memm_async:
-            return with(dynamics::MemmAsync<S>(system, start.q, start.p, dt, start.local_steps));
-    }
+    dynamics::with_scheme<S>(scheme, {.mean = options.mean, .gauge = options.gauge}, [&](const auto& make) {
+        auto integrator = make(system, start.q, start.p, dt, start.local_steps);
+        body(integrator);
+    });
 }
 
 }  // namespace abut::apps

@@ -6,7 +6,7 @@
 namespace abut::apps {
 namespace {
 
-constexpr std::array<int, 2> stop_signals = {SIGINT, SIGTERM};
+constexpr std::array<int, StopSignals::n_signals> stop_signals = {SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<int> noted{0};
 static_assert(std::atomic<int>::is_always_lock_free, "a handler may touch nothing that waits");
@@ -41,6 +41,6 @@ StopSignals::~StopSignals() {
 
 int noted_signal() { return noted.load(); }
 
-const char* name_of_signal(int signal) { return signal == SIGINT ? "SIGINT" : "SIGTERM"; }
+const char* name_of_signal(int signal) { return signal == SIGINT ? "SIGINT" : signal == SIGHUP ? "SIGHUP" : "SIGTERM"; }
 
 }  // namespace abut::apps

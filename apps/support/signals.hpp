@@ -1,15 +1,19 @@
 #pragma once
 #include <array>
 #include <csignal>
+#include <cstddef>
 
 #include "abut/run/observer.hpp"
 
 namespace abut::apps {
 
-/// While it lives, the first SIGINT (Ctrl-C) or SIGTERM is noted, so that a run can end well; the next one ends the process
-/// at once. A signal that whoever started the program ignores stays ignored. Afterwards all is as it was before.
+/// While it lives, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone) is noted, so that a run can end well;
+/// the next one ends the process at once. A signal that whoever started the program ignores stays ignored. Afterwards all is as
+/// it was before.
 class StopSignals {
 public:
+    static constexpr std::size_t n_signals = 3;
+
     StopSignals();
     ~StopSignals();
     StopSignals(const StopSignals&) = delete;
@@ -18,16 +22,17 @@ public:
 private:
     using Action = struct sigaction;
 
-    std::array<Action, 2> before_{};
+    std::array<Action, n_signals> before_{};
 };
 
 /// The signal that was noted; 0: none. It stays so until the process ends.
 [[nodiscard]] int noted_signal();
 
-/// Of a process that ends because of the signal, as a shell calls it: 130 for SIGINT, 143 for SIGTERM.
+/// Of a process that ends because of the signal, as a shell calls it: 130 for SIGINT, 143 for SIGTERM, 129 for
+/// SIGHUP.
 [[nodiscard]] constexpr int exit_code_of(int signal) { return 128 + signal; }
 
-/// "SIGINT" or "SIGTERM"
+/// "SIGINT", "SIGTERM" or "SIGHUP"
 [[nodiscard]] const char* name_of_signal(int signal);
 
 /// Asks a run to stop once a signal was noted.

@@ -14,7 +14,7 @@ std::string shown(const Json& value, bool rough) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float())
         return rough ? fmt::format("{:.2g}", value.get<double>()) : fmt::format("{:.6g}", value.get<double>());
-    if (!value.is_array()) return value.dump();
+    if (!value.is_array()) return text_of(value);
     std::string text;
     for (const Json& each : value) text += (text.empty() ? "" : ", ") + shown(each, rough);
     return text.empty() ? "–" : text;
@@ -30,7 +30,7 @@ const Json& Figures::find(const std::string& path) const {
 
 Markup Figures::at(const std::string& path, bool rough) const {
     const Json& value = find(path);
-    Attributes attributes{{"id", path}, {"value", value.dump()}};
+    Attributes attributes{{"id", path}, {"value", text_of(value)}};
     if (value.is_string()) attributes.emplace_back("class", "words");
     return element("data", attributes, shown(value, rough));
 }

@@ -1,5 +1,7 @@
 #include "abut/run/report/markup.hpp"
 
+#include "abut/base/text.hpp"
+
 namespace abut::run {
 namespace {
 
@@ -15,7 +17,7 @@ bool is_allowed(char c) {
 
 std::string escaped(std::string_view text) {
     std::string result;
-    for (const char c : text) switch (c) {
+    for (const char c : as_utf8(text)) switch (c) {
             case '&':
                 result += "&amp;";
                 break;

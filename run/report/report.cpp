@@ -132,7 +132,7 @@ Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunRe
                        table({"", ""}, {figure_row(figures, "openings, closings and slips within steps", "events", ""),
                                         figure_row(figures, "pairs in contact, at most", "active_pairs_max", ""),
                                         figure_row(figures, "pairs in contact, at the end", "active_pairs_final", ""),
-                                        figure_row(figures, "contacts missed: 0 is right", "lost_contacts", ""),
+                                        figure_row(figures, "missed contacts: 0 is right", "missed_contacts", ""),
                                         figure_row(figures, "deepest contact, |g|/D of its cells", "compression_max", ""),
                                         figure_row(figures, "steps that were strongly compressed", "compressed_steps", ""),
                                         figure_row(figures, "sliding over pressing, at most", "sliding_ratio_max", ""),

@@ -18,15 +18,16 @@ using Json = nlohmann::ordered_json;
 std::string csv_text(const std::vector<Row>& rows) {
     std::string text =
         "family,value,outcome,finite,pseudo_energy_drift,energy_excess_max,parasitic_max,events,momentum_drift,"
-        "lost_contacts,compression_max,sliding_ratio_max,slipped_compression_max,deviation,cells,steps,active_pairs_max,"
+        "missed_contacts,compression_max,sliding_ratio_max,slipped_compression_max,deviation,cells,steps,active_pairs_max,"
         "blind_corners,message\n";
     for (const Row& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family,
-                            apps::quoted(row.value), name_of(row.verdict), row.is_finite ? 1 : 0,
-                            apps::all_digits(row.drift), apps::all_digits(row.excess), apps::all_digits(row.parasitic),
-                            row.events, apps::all_digits(row.momentum), row.lost_contacts, apps::all_digits(row.compression),
-                            apps::all_digits(row.sliding), apps::all_digits(row.slipped), apps::all_digits(row.deviation),
-                            row.cells, row.steps, row.active_pairs_max, row.blind_corners, apps::quoted(row.message));
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.family, apps::quoted(row.value),
+                        name_of(row.verdict), row.is_finite ? 1 : 0, apps::all_digits(row.drift),
+                        apps::all_digits(row.excess), apps::all_digits(row.parasitic), row.events,
+                        apps::all_digits(row.momentum), row.missed_contacts, apps::all_digits(row.compression),
+                        apps::all_digits(row.sliding), apps::all_digits(row.slipped), apps::all_digits(row.deviation),
+                        row.cells, row.steps, row.active_pairs_max, row.blind_corners, apps::quoted(row.message));
     return text;
 }
 
@@ -46,7 +47,7 @@ Json to_json(const Row& row) {
             {"parasitic_max", apps::json_number(row.parasitic)},
             {"events", row.events},
             {"momentum_drift", apps::json_number(row.momentum)},
-            {"lost_contacts", row.lost_contacts},
+            {"missed_contacts", row.missed_contacts},
             {"compression_max", apps::json_number(row.compression)},
             {"sliding_ratio_max", apps::json_number(row.sliding)},
             {"slipped_compression_max", apps::json_number(row.slipped)},
@@ -100,16 +101,16 @@ Json summary(const apps::Program& program, const SweepOptions& options, const st
 
 void print_head(const Family& family) {
     fmt::print("{}: {}\n", family.name, family.question);
-    fmt::print("  {:<38}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}{:>9}\n", "", "outcome", "drift", "H - H~",
-               "|e|/m v", "events", "momentum", "lost", "|g|/D", "sliding", "slipped", "units");
+    fmt::print("  {:<38}{:<9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}{:>9}{:>9}{:>9}\n", "", "outcome", "drift", "H - H~",
+               "|e|/m v", "events", "momentum", "missed", "|g|/D", "sliding", "slipped", "units");
 }
 
 void print(const Row& row) {
     fmt::print("  {:<38}{:<9}", row.value, name_of(row.verdict));
     if (row.verdict != Verdict::refused)
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>6}{:>8}{:>9}{:>9}{:>9}", apps::two_digits(row.drift),
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}{:>9}{:>9}{:>9}", apps::two_digits(row.drift),
                    apps::two_digits(row.excess), apps::two_digits(row.parasitic), row.events, apps::two_digits(row.momentum),
-                   row.lost_contacts, apps::two_digits(row.compression), apps::two_digits(row.sliding),
+                   row.missed_contacts, apps::two_digits(row.compression), apps::two_digits(row.sliding),
                    apps::two_digits(row.slipped), apps::two_digits(row.deviation));
     fmt::print("\n");
     if (!row.message.empty()) fmt::print("      {}\n", row.message);
@@ -119,7 +120,7 @@ void print(const Row& row) {
 void write_report(const apps::Program& program, const std::filesystem::path& out, const SweepOptions& options,
                   const std::vector<Row>& rows) {
     run::write_whole(out / "extremes.csv", csv_text(rows));
-    run::write_whole(out / "summary.json", summary(program, options, rows).dump(2) + "\n");
+    apps::write_json(out / "summary.json", summary(program, options, rows));
     const auto count = [&](Verdict verdict) { return std::ranges::count(rows, verdict, &Row::verdict); };
     fmt::print("{} runs: {} held, {} refused, {} failed\n", rows.size(), count(Verdict::held), count(Verdict::refused),
                count(Verdict::failed));

@@ -74,7 +74,7 @@ std::string defect(const Row& row, const Trial<Dim>& trial) {
             "H - H~ reaches {:.2g} of the scale, {:g} is allowed; faces that slide off each other are pressed in by {:.2g} "
             "of their width",
             row.excess, largest_excess, row.sliding);
-    if (row.lost_contacts > 0) return fmt::format("{} contacts were lost, 0 are allowed", row.lost_contacts);
+    if (row.missed_contacts > 0) return fmt::format("{} contacts were missed, 0 are allowed", row.missed_contacts);
     return "";
 }
 
@@ -90,7 +90,7 @@ void measure(Row& row, const Trial<Dim>& trial, const run::RunResult<Dim>& resul
     row.slipped = result.contact.slipped_compression_max;
     row.steps = result.steps;
     row.events = result.contact.events;
-    row.lost_contacts = result.contact.missed_contacts;
+    row.missed_contacts = result.contact.missed_contacts;
     row.active_pairs_max = result.contact.active_pairs_max;
     row.blind_corners = static_cast<std::int64_t>(result.blind_corners.size());
     row.numbers = speeds_at_end(result, trial.speed);

@@ -45,7 +45,7 @@ struct Row {
     double sliding = run::not_given;      ///< largest |g| |dA/ds| over the smaller face
     double slipped = run::not_given;      ///< largest |g|/D of pairs that slid off each other
     double deviation = run::not_given;    ///< from the same run in other units or at another place
-    std::int64_t cells = 0, steps = 0, events = 0, lost_contacts = 0, active_pairs_max = 0, blind_corners = 0;
+    std::int64_t cells = 0, steps = 0, events = 0, missed_contacts = 0, active_pairs_max = 0, blind_corners = 0;
     std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts
 };
 

@@ -101,7 +101,7 @@ void write_table(const apps::Program& program, const std::filesystem::path& out,
     Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"options", options}};
     json["levels"] = Json::array();
     for (const RowRecord& row : rows) json["levels"].push_back(to_json(row));
-    run::write_whole(out / "summary.json", json.dump(2) + "\n");
+    apps::write_json(out / "summary.json", json);
     run::write_whole(out / (program.name + ".csv"), csv_text(rows));
     const auto missed =
         std::ranges::count_if(rows, [](const RowRecord& row) { return std::ranges::any_of(row.quantities, is_missed); });

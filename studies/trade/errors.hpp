@@ -36,7 +36,7 @@ struct Outcome {
     double momentum = run::not_given;        ///< drift over sum |p| at the start, of bodies that nothing holds
     double pseudo_angular = run::not_given;  ///< of J~, over sum |x × p| at the start, of the same
     std::int64_t events = 0;
-    std::int64_t lost_contacts = 0;
+    std::int64_t missed_contacts = 0;
     std::int64_t cells = 0;
     std::int64_t steps = 0;  ///< in time, or of the static solver
     double seconds = 0.0;    ///< of the steps, without set-up and without what measures energies

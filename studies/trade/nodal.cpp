@@ -48,7 +48,7 @@ NodalOutcome<Dim> solve_on_nodes(const run::Scene<Dim>& scene, const std::vector
                         .momentum = figures.momentum,
                         .pseudo_angular = figures.pseudo_angular,
                         .events = figures.events,
-                        .lost_contacts = figures.missed_contacts,
+                        .missed_contacts = figures.missed_contacts,
                         .cells = scene.mesh.n_cells(),
                         .steps = figures.steps,
                         .seconds = figures.seconds_of_steps},

@@ -58,7 +58,7 @@ bool is_on_front(const Row& row, const std::vector<Row>& rows, const Measure& me
 std::string csv_text(const std::vector<Row>& rows) {
     std::string text = "problem,level,setting,model,preset,finished,cells,steps,seconds,ratio";
     for (const Measure& measure : measures) text += fmt::format(",{0}_error,{0}_front", measure.key);
-    text += ",energy_excess_max,parasitic_max,momentum_drift,pseudo_angular_momentum_drift,events,lost_contacts,message\n";
+    text += ",energy_excess_max,parasitic_max,momentum_drift,pseudo_angular_momentum_drift,events,missed_contacts,message\n";
     for (const Row& row : rows) {
         const Outcome& outcome = row.outcome;
         text += fmt::format("{},{},{},{},{},{},{},{},{},{}", row.problem, row.level, apps::quoted(row.setting),
@@ -68,7 +68,7 @@ std::string csv_text(const std::vector<Row>& rows) {
             text += fmt::format(",{},{}", apps::all_digits(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
         text += fmt::format(",{},{},{},{},{},{},{}\n", apps::all_digits(outcome.excess), apps::all_digits(outcome.parasitic),
                             apps::all_digits(outcome.momentum), apps::all_digits(outcome.pseudo_angular), outcome.events,
-                            outcome.lost_contacts, apps::quoted(row.refusal));
+                            outcome.missed_contacts, apps::quoted(row.refusal));
     }
     return text;
 }
@@ -91,7 +91,7 @@ Json to_json(const Row& row) {
                  {"momentum_drift", apps::json_number(outcome.momentum)},
                  {"pseudo_angular_momentum_drift", apps::json_number(outcome.pseudo_angular)},
                  {"events", outcome.events},
-                 {"lost_contacts", outcome.lost_contacts}});
+                 {"missed_contacts", outcome.missed_contacts}});
     for (std::size_t i = 0; i < measures.size(); ++i) {
         json["errors"][measures[i].key] = apps::json_number(outcome.errors.*measures[i].error);
         if (row.on_front[i]) json["on_front"].push_back(measures[i].key);
@@ -227,7 +227,7 @@ void compare(std::vector<Row>& rows) {
 void print_head(const Problem& problem) {
     fmt::print("{}: {}\n  {:>4}  {:<52}{:>8}", problem.name, problem.text, "", "", "seconds");
     for (const Measure& measure : measures) fmt::print("{:>12}", measure.key);
-    fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>5}\n", "H - H~", "|e|/m v", "P", "J~", "events", "lost");
+    fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}\n", "H - H~", "|e|/m v", "P", "J~", "events", "missed");
 }
 
 void print(const Row& row) {
@@ -236,9 +236,9 @@ void print(const Row& row) {
     if (row.finished()) {
         fmt::print("{:>8.2g}", outcome.seconds);
         for (const Measure& measure : measures) fmt::print("{:>12}", apps::two_digits(outcome.errors.*measure.error));
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>5}\n", apps::two_digits(outcome.excess), apps::two_digits(outcome.parasitic),
+        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}\n", apps::two_digits(outcome.excess), apps::two_digits(outcome.parasitic),
                    apps::two_digits(outcome.momentum), apps::two_digits(outcome.pseudo_angular), outcome.events,
-                   outcome.lost_contacts);
+                   outcome.missed_contacts);
     } else {
         fmt::print("\n        {}\n", row.refusal);
     }
@@ -254,7 +254,7 @@ void write_report(const apps::Program& program, const std::filesystem::path& out
     json["never_on_a_front"] = never_on_a_front(rows);
     json["rows"] = Json::array();
     for (const Row& row : rows) json["rows"].push_back(to_json(row));
-    run::write_whole(out / "summary.json", json.dump(2) + "\n");
+    apps::write_json(out / "summary.json", json);
     fmt::print("on no front of any problem: {}\n", fmt::join(never_on_a_front(rows), " | "));
     if (!without_picture.empty()) fmt::print("no picture: {}\n", without_picture);
     fmt::print("{} runs, {} of them not finished\nfiles: {}\n", rows.size(),

@@ -73,7 +73,7 @@ Outcome outcome_of(const run::Scene<Dim>& scene, const TimedRun<Dim>& timed, dou
             .momentum = is_free ? ledger.momentum_drift() / timed.momentum_scale : run::not_given,
             .pseudo_angular = is_free ? ledger.pseudo_angular_momentum_drift() / timed.moment_scale : run::not_given,
             .events = result.contact.events,
-            .lost_contacts = result.contact.missed_contacts,
+            .missed_contacts = result.contact.missed_contacts,
             .cells = scene.mesh.n_cells(),
             .steps = result.steps,
             .seconds = timed.seconds};

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "abut/run/files.hpp"
+#include "apps/support/csv.hpp"
 
 namespace abut::studies {
 namespace {
@@ -149,7 +150,7 @@ run::FolderLock prepare_study(const apps::Program& program, const std::filesyste
         names.push_back(picture + ".gp");
         names.push_back(picture + ".png");
     }
-    run::remove_files(out, names);
+    run::claim_results(out, names);
     return lock;
 }
 
@@ -159,7 +160,7 @@ void report(const apps::Program& program, const std::filesystem::path& out, cons
     for (const run::Picture& picture : study.pictures)
         if (std::string why = draw(out, picture); !why.empty()) without_picture.push_back(std::move(why));
     run::write_whole(out / "values.csv", values_text(study));
-    run::write_whole(out / "summary.json", summary(program, study).dump(2) + "\n");
+    apps::write_json(out / "summary.json", summary(program, study));
 
     fmt::print("{}: {}\n", program.name, study.title);
     fmt::print("  reference: {}\n", study.reference);

@@ -91,3 +91,85 @@ TEST_CASE("a scene with a fault is not run: reading throws all of them", "[input
     CHECK_THROWS_AS(overlapping.scene<2>(), input::SceneError);
     CHECK_THROWS_AS(overlapping.scene<3>(), Misuse);
 }
+
+TEST_CASE("texts and keys of any length and depth are refused with their place, in a short message", "[input][faults]") {
+    const std::string formula(20000, '1'), brackets = std::string(9000, '(') + "1" + std::string(9000, ')');
+    std::string dots = "a", tables = "[a", lists = "a = ";
+    for (int i = 0; i < 20000; ++i) {
+        dots += ".a";
+        tables += ".a";
+        lists += "[";
+    }
+    const auto text_of_faults = [](const std::string& more, const std::vector<std::string>& set) {
+        const WrittenScene file(two_blocks(more));
+        const std::string text = input::text_of(input::check_scene(file.path(), {.set = set}).faults);
+        CHECK(text.size() < 2000);
+        return text;
+    };
+    CHECK(text_of_faults("cfl = \"" + formula + "\"", {}).find(".toml:19:") != std::string::npos);
+    CHECK(text_of_faults("", {"run.cfl=" + formula}).find("run.cfl") != std::string::npos);
+    static_cast<void>(text_of_faults("cfl = \"" + brackets + "\"", {}));
+    for (const std::string& more : {dots + " = 1", tables + "]", lists})
+        CHECK(text_of_faults(more, {}).find(".toml:19:") != std::string::npos);
+    CHECK(text_of_faults(dots + " = 1", {}).find("nested more than 64 deep") != std::string::npos);
+    CHECK(text_of_faults("", {dots + "=1"}).find("nested more than 64 deep") != std::string::npos);
+}
+
+TEST_CASE("dots and brackets in texts and comments are no depth", "[input][faults]") {
+    const std::string many = std::string(200, '.') + std::string(200, '[');
+    const WrittenScene file(two_blocks("# " + many + "\n[obstacles.\"" + many + "\"]\nshape = 'x" + many +
+                                       "'\n[output]\nout = \"\"\"a\n" + many + "\"\"\"\n"));
+    const std::string text = input::text_of(input::check_scene(file.path()).faults);
+    CHECK(text.find("nested") == std::string::npos);
+    CHECK(text.find("none of its words") != std::string::npos);
+}
+
+TEST_CASE("words of other programs are known for keys", "[input][faults]") {
+    struct Wrong {
+        const char* more;
+        const char* text;
+    };
+    for (const Wrong& wrong :
+         {Wrong{"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.E is an unknown key. Did you mean 'young'?"},
+          {"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.nu is an unknown key. Did you mean 'poisson'?"},
+          {"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.rho is an unknown key. Did you mean 'density'?"},
+          {"t_end = 1", "run.t_end is an unknown key. Did you mean 'time'?"},
+          {"[contact]\nfriction = 0.3", "contact.friction is an unknown key. Friction is not there yet"}}) {
+        const WrittenScene file(two_blocks(wrong.more));
+        CHECK(input::text_of(input::check_scene(file.path()).faults).find(wrong.text) != std::string::npos);
+    }
+}
+
+TEST_CASE("a name with a control character is refused, and one that is no UTF-8 is no TOML", "[input][faults]") {
+    const std::string block = "\nshape = 'disc'\nradius = 0.1\nsize = 0.1\nplace = [0, 3]\nyoung = 1\ndensity = 1\n";
+    const WrittenScene control(two_blocks("[bodies.\"a\\nb\"]" + block));
+    CHECK(input::text_of(input::check_scene(control.path()).faults).find("control character") != std::string::npos);
+    const WrittenScene bytes(two_blocks("[bodies.\"K\xF6rper\"]" + block));
+    const std::string text = input::text_of(input::check_scene(bytes.path()).faults);
+    CHECK(text.find(".toml:19:") != std::string::npos);
+    CHECK(text.find("this is no TOML") != std::string::npos);
+}
+
+TEST_CASE("check says what a run refuses before its first step, and what it warns of", "[input][check]") {
+    const std::string tip =
+        "[bodies.tip]\nshape = \"fan_disc\"\nradius = 0.4\nsectors = 3\nplace = [5, 5]\nyoung = 1\ndensity = 1\n";
+    const WrittenScene sharp(two_blocks("[contact]\nfacing_cosine = -0.9\nlaw = \"reconstruction\"\n" + tip));
+    const auto checked = input::check_scene(sharp.path());
+    REQUIRE(checked.estimate);
+    CHECK(std::ranges::any_of(checked.warnings, [](const std::string& text) {
+        return text.find("contact.facing_cosine (--facing-cosine)") != std::string::npos;
+    }));
+    CHECK(checked.estimate->cell_of_step.find("of body '") != std::string::npos);
+}
+
+TEST_CASE("the cell that sets the step is the smallest one, over the median", "[input][check]") {
+    // Squares of 1/2 and of 1/10: a wave takes 5 times as long through the larger ones, which are fewer.
+    const WrittenScene file(
+        two_blocks("[bodies.fine]\nshape = \"structured_box\"\nlower = [5, 0]\nupper = [6, 0.1]\ncounts = [10, 1]\nyoung = "
+                   "1\ndensity = 1\n"));
+    const auto checked = input::check_scene(file.path());
+    REQUIRE(checked.estimate);
+    CHECK(checked.estimate->cell_of_step.find("of body 'fine'") != std::string::npos);
+    CHECK(checked.estimate->cell_of_step.find("0.3 of the median") !=
+          std::string::npos);  // squares of 1/3 are in the middle
+}

@@ -12,9 +12,7 @@ import sys
 import tempfile
 import time
 
-# Gaps are of pairs that are listed, and lists are new where rank 0 looks at the whole.
-FIELDS = 'output.fields=["pressure", "velocity", "stress", "von_mises", "pairs"]'
-OPTIONS = ["--set", "bodies.left.size=0.2", "--set", "bodies.right.size=0.2", "--set", FIELDS, "--quiet"]
+OPTIONS = ["--set", "bodies.left.size=0.2", "--set", "bodies.right.size=0.2", "--quiet"]
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"] + (["--allow-run-as-root"] if os.geteuid() == 0 else [])
 AGAIN = ["--rebalance", "20", "--rebalance-above", "1"]  # at each look
 LONG = {"steps": 12000, "frames": 0, "interval": 20}
@@ -51,14 +49,20 @@ def end(run):
     run.send_signal(signal.SIGTERM)
 
 
+def children_of(pid):
+    return [int(child) for path in pathlib.Path(f"/proc/{pid}/task").glob("*/children") for child in path.read_text().split()]
+
+
 def kill_a_rank(run):
-    """One of the processes that mpirun has started, without warning."""
-    children = [int(pid) for path in pathlib.Path(f"/proc/{run.pid}/task").glob("*/children") for pid in path.read_text().split()]
+    """One of the processes that mpirun has started, which the program has, without warning."""
+    mpirun = children_of(run.pid)
+    assert len(mpirun) == 1, mpirun
+    children = children_of(mpirun[0])
     assert len(children) >= 2, children
     os.kill(children[-1], signal.SIGKILL)
 
 
-def end_in_its_midst(words, folder, how=end):
+def end_in_its_midst(words, folder, how=end, code=None):
     """Starts a run, and ends it when its first checkpoint is there."""
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
         give_up = time.monotonic() + 120
@@ -68,6 +72,7 @@ def end_in_its_midst(words, folder, how=end):
         how(run)
         run.wait(timeout=120)
         assert run.returncode != 0, "a run that was stopped says so"
+        assert code in (None, run.returncode), (run.returncode, code)
     assert list(pathlib.Path(folder).glob("checkpoints/*.h5")), "the run had ended before it was stopped: give it more steps"
 
 
@@ -124,6 +129,14 @@ def check_refused(program, other, scene, folder):
         check_one_message(run, (name, "not made for several ranks"), words)
 
 
+def check_signals(program, scene, folder):
+    """A signal ends a run on ranks with the exit code that it has on one; with its program the ranks end, too."""
+    for sent, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
+        out = folder / f"signal_{code}"
+        end_in_its_midst(command(program, scene, out, "--ranks", "2", "--checkpoint-steps", "30", **LONG), out,
+                         lambda run: run.send_signal(sent), code)
+
+
 def check_left_alone(program, scene, folder):
     """The second rank cannot read its scene, and the first one waits for it."""
     good, bad = command(program, scene, folder / "left"), command(program, str(folder / "nowhere.toml"), folder / "left")
@@ -160,6 +173,7 @@ def main():
             subprocess.run([program, "restart", str(parted), "--ranks", after, "--rebalance", "700", "--quiet"], check=True)
             assert (parted / "energy.csv").read_bytes() == energies, f"began on {before} ranks, went on on {after}"
 
+        check_signals(program, scene, folder)
         check_refused(program, other, scene, folder)
         check_left_alone(program, scene, folder)
 

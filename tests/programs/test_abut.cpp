@@ -30,7 +30,7 @@ TEST_CASE("a scene gives the bits of the program for the same bodies", "[program
         CHECK(read_text(by_scene.directory / "energy.csv") == read_text(by_program.directory / "energy.csv"));
         CHECK(read_summary(by_scene)["complete"] == true);
         CHECK(read_summary(by_scene)["program"] == name);
-        CHECK(read_summary(by_scene)["lost_contacts"] == 0);
+        CHECK(read_summary(by_scene)["missed_contacts"] == 0);
     }
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("abut new writes a scene that has no fault and runs, and no file twice
     CHECK(checked.exit_code == 0);
     const auto run = run_well("abut", fmt::format("run '{}' --frames 2", file.string()), "abut_new_results");
     CHECK(relative_drift(run) < 1e-11);
-    CHECK(read_summary(run)["lost_contacts"] == 0);
+    CHECK(read_summary(run)["missed_contacts"] == 0);
     CHECK(read_summary(run)["active_pairs_max"] > 0);  // something does happen in it
 }
 

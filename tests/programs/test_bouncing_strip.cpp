@@ -19,7 +19,7 @@ TEST_CASE("the bouncing strip keeps its pseudo-energy, and the filter makes the 
     for (const auto& outcome : {plain, filtered}) {
         CHECK(read_summary(outcome)["impacts"] >= 3);
         CHECK(relative_drift(outcome) <= 1e-12);
-        CHECK(number(outcome, "lost_contacts") == 0);
+        CHECK(number(outcome, "missed_contacts") == 0);
         CHECK(number(outcome, "energy_excess_max") >= 0.0);
     }
     CHECK(number(filtered, "parasitic_max") < 0.5 * number(plain, "parasitic_max"));

@@ -62,7 +62,7 @@ TEST_CASE("pseudo-energy and momentum hold to round-off through impact, slip and
     CHECK(summary["momentum_drift_max"].get<double>() <= 1e-12 * momentum_scale(summary));
     CHECK(summary["energy_excess_max"].get<double>() <= 1e-2 * summary["kinetic_initial"].get<double>());
     CHECK(summary["energy_excess_max"].get<double>() >= 0.0);
-    CHECK(summary["lost_contacts"] == 0);
+    CHECK(summary["missed_contacts"] == 0);
     check_impact_and_release(summary);
 }
 

@@ -28,7 +28,7 @@ void check_held(const nlohmann::json& row) {
     CHECK(row["pseudo_energy_drift"].get<double>() <= 1e-10);
     if (!row["momentum_drift"].is_null()) CHECK(row["momentum_drift"].get<double>() <= 1e-10);
     CHECK(row["energy_excess_max"].get<double>() <= 1.0);
-    CHECK(row["lost_contacts"] == 0);
+    CHECK(row["missed_contacts"] == 0);
     CHECK(row["active_pairs_max"] > 0);
 }
 

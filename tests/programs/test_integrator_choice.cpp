@@ -30,7 +30,7 @@ TEST_CASE("each scheme of --integrator keeps the energy that it promises to keep
     }
     CHECK(energy_error(summary) < 0.05);
     CHECK(summary["momentum_drift_max"].get<double>() < 1e-12);
-    CHECK(summary["lost_contacts"] == 0);
+    CHECK(summary["missed_contacts"] == 0);
     CHECK(summary["active_pairs_max"] > 0);
     CHECK(summary["options"]["integrator"] == integrator);
 }
@@ -94,15 +94,14 @@ TEST_CASE("a body that falls from rest runs under every scheme", "[programs]") {
     if (integrator != "leapfrog") CHECK(relative_drift(outcome) <= 1e-11);
 }
 
-TEST_CASE("single precision is said in the summary, misses no contact, and parts the bodies as double does",
-          "[programs]") {
+TEST_CASE("single precision is said in the summary, misses no contact, and parts the bodies as double does", "[programs]") {
     const std::string integrator = GENERATE("memm", "leapfrog");
     const auto of_double = read_summary(run_scheme(integrator));
     const auto outcome = run_scheme(integrator, "--precision single");
     const auto summary = read_summary(outcome);
     CHECK(of_double["options"]["precision"] == "double");
     CHECK(summary["options"]["precision"] == "single");
-    CHECK(summary["lost_contacts"] == 0);
+    CHECK(summary["missed_contacts"] == 0);
     CHECK(summary["active_pairs_max"] > 0);
     CHECK(summary["restitution"].get<double>() == Approx(of_double["restitution"].get<double>()).margin(1e-4));
     CHECK(summary["restitution"] != of_double["restitution"]);

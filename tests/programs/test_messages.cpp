@@ -82,7 +82,7 @@ TEST_CASE("with --json a program tells a run line by line, in the figures of its
     CHECK(lines.front()["bodies"] == json({"left", "right"}));
     CHECK(lines.back()["event"] == "end");
     for (const char* same : {"complete", "steps", "time", "pseudo_energy_drift", "energy_drift", "energy_excess_max",
-                             "parasitic_max", "events", "lost_contacts"})
+                             "parasitic_max", "events", "missed_contacts"})
         CHECK(lines.back()[same] == summary[same]);
     CHECK(lines.back()["exit_code"] == 0);
     const auto records = of_event(lines, "record");

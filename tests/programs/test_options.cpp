@@ -47,7 +47,7 @@ TEST_CASE("the energy holds to round-off for every choice that is exact", "[prog
     const auto summary = read_summary(outcome);
     CHECK(relative_drift(outcome) <= 1e-11);
     CHECK(summary["events"] > 0);
-    CHECK(summary["lost_contacts"] == 0);
+    CHECK(summary["missed_contacts"] == 0);
     CHECK(summary["active_pairs_max"] > 0);
 }
 
@@ -135,7 +135,7 @@ TEST_CASE("two meshes from files collide", "[programs]") {
     const auto summary = read_summary(outcome);
     CHECK(summary["cells"] == 25 + 36);
     CHECK(summary["events"] > 0);
-    CHECK(summary["lost_contacts"] == 0);
+    CHECK(summary["missed_contacts"] == 0);
     CHECK(relative_drift(outcome) <= 1e-11);
     for (const auto& body : summary["bodies"]) CHECK(body["mass"].get<double>() == Approx(1.0));
     CHECK(summary["options"]["mesh"] == nlohmann::json({left.string(), right.string()}));
@@ -211,7 +211,7 @@ TEST_CASE("summary.json holds all that a reader is promised", "[programs]") {
                              "angular_momentum_drift_max",
                              "events",
                              "active_pairs_max",
-                             "lost_contacts",
+                             "missed_contacts",
                              "candidates",
                              "rebuilds",
                              "not_admitted_max",

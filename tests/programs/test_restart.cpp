@@ -1,6 +1,7 @@
 // Runs that go on after they were stopped or killed.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
@@ -113,4 +114,67 @@ TEST_CASE("a checkpoint that cannot be written ends the run with a message, and 
         CHECK(outcome.error.find(word) != std::string::npos);
     CHECK_FALSE(has_checkpoint(outcome.directory));
     CHECK(files_in(outcome.directory / "checkpoints").empty());
+}
+
+TEST_CASE("a run goes on to a later end, with the energies of the run that had that end at once",
+          "[programs][abut][restart]") {
+    const std::string common = "--set output.interval=5 --set output.frames=3 --set output.checkpoint_steps=50";
+    const auto late =
+        run_well("abut", fmt::format("run '{}' --set run.time=60 {}", scene("slipping_cylinders"), common), "later_end");
+    const Folder folder("earlier_end");
+    const bool ended = GENERATE(true, false);
+    std::vector<std::string> arguments{"run", scene("slipping_cylinders"), "--out", folder.path().string(), "--time",
+                                       "30",  "--keep-last-checkpoint"};
+    for (const std::string& word : words(common)) arguments.push_back(word);
+    {
+        Child child("abut", arguments);
+        if (!ended) {
+            child.wait_until([&] { return has_checkpoint(folder.path()); });
+            child.send(SIGKILL);
+        }
+        CHECK(child.wait() == (ended ? 0 : -SIGKILL));
+    }
+    const auto rest = run_program("abut", fmt::format("restart '{}' --until 60", folder.path().string()), "");
+    CAPTURE(rest.error);
+    REQUIRE(rest.exit_code == 0);
+    const Outcome outcome{.exit_code = 0, .out = "", .error = "", .directory = folder.path(), .folder = nullptr};
+    CHECK(read_summary(outcome)["steps"] == read_summary(late)["steps"]);
+    const Table whole = read_energies(late), parted = read_energies(outcome);
+    std::size_t found = 0;
+    for (const auto& row : parted.rows) found += std::ranges::count(whole.rows, row) > 0 ? 1 : 0;
+    CHECK(parted.rows.back() == whole.rows.back());
+    CHECK(found + 1 >= parted.rows.size());  // one more: the last row of the run that ended first
+    CHECK(parted.rows.size() >= whole.rows.size());
+    CHECK(lines_in(folder.path() / "bodies.pvd") > lines_in(late.directory / "bodies.pvd"));  // as far apart as they were
+}
+
+TEST_CASE("a restart to an end before its checkpoint is refused", "[programs][abut][restart]") {
+    const Folder folder("too_early");
+    const auto first = run_program("abut",
+                                   fmt::format("run '{}' --time 20 --keep-last-checkpoint --frames 0 --out '{}'",
+                                               scene("slipping_cylinders"), folder.path().string()),
+                                   "");
+    REQUIRE(first.exit_code == 0);
+    const auto rest = run_program("abut", fmt::format("restart '{}' --until 10", folder.path().string()), "");
+    CHECK(rest.exit_code == 1);
+    CHECK(rest.error.find("Give a later end.") != std::string::npos);
+    CHECK(has_checkpoint(folder.path()));
+}
+
+TEST_CASE("a scene that was edited since is named key by key by a restart, and refused by --resume",
+          "[programs][abut][restart]") {
+    const Folder home("edited_home"), results("edited_results");
+    const fs::path mine = home.path() / "mine.toml";
+    fs::copy_file(scene("slipping_cylinders"), mine);
+    run_until_checkpoint(results.path(), mine.string(), SIGKILL);
+    std::ofstream(mine, std::ios::app) << "[materials.new]\nyoung = 1\ndensity = 1\n";
+    const auto resumed = run_program(
+        "abut", fmt::format("run '{}' --resume {} --out '{}'", mine.string(), moderate, results.path().string()), "");
+    CHECK(resumed.exit_code == 1);
+    for (const char* word : {"has changed since the run began", "materials is new", "abut restart"})
+        CHECK(resumed.error.find(word) != std::string::npos);
+    const auto rest = run_program("abut", fmt::format("restart '{}'", results.path().string()), "");
+    CHECK(rest.exit_code == 0);
+    for (const char* word : {"has changed since the run began", "materials is new", "as it was"})
+        CHECK(rest.out.find(word) != std::string::npos);
 }

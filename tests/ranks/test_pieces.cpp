@@ -119,14 +119,12 @@ fs::path results(const std::string& name) {
 
 TEST_CASE("frames in pieces hold, cell by cell, what the whole holds", "[ranks][run][pieces]") {
     auto scene = test::meeting_bodies<2>(0.3);
-    scene.outputs.fields.gap = false;  // of pairs that are listed: lists are new where parts change
     check_pieces<2>(scene, 15, results("discs"));
 }
 
 TEST_CASE("frames in pieces of floating and of rigid bodies hold what the whole holds, also where a rank has no cells",
           "[ranks][run][pieces]") {
     auto scene = test::meeting_bodies<2>(0.3);
-    scene.outputs.fields.gap = false;
     scene.solid.kinematics = {solid::Kinematics::floating, solid::Kinematics::rigid};
     if (GENERATE(false, true)) std::swap(scene.solid.kinematics[0], scene.solid.kinematics[1]);
     scene.added_velocity = [](const Vector<2>& x) -> Vector<2> { return 0.3 * Vector<2>(-x[1], x[0]); };

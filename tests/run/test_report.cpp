@@ -99,7 +99,7 @@ TEST_CASE("a report holds the figures of its summary, each at its place", "[run]
                              "energy_excess_max",
                              "parasitic_max",
                              "events",
-                             "lost_contacts",
+                             "missed_contacts",
                              "steps",
                              "dt",
                              "cells",

@@ -1,0 +1,179 @@
+#include "abut/run/user_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstddef>
+#include <string_view>
+
+namespace abut::run {
+namespace {
+
+struct Name {
+    std::string_view of_cpp;
+    std::string_view word;
+};
+
+/// Longer ones before those that they begin with. tests/project/check_messages.py asks for every name of C++ that a message of
+/// any layer has.
+constexpr std::array names_of_cpp = std::to_array<Name>({
+    {"BodyKinematics::scene", "run.kinematics = \"scene\""},
+    {"Bond::fixed", "fixed"},
+    {"CandidateOptions::largest_motion", "the allowed motion, which no key sets"},
+    {"CandidateOptions::skin", "contact.skin"},
+    {"Constraint::full", "constraint = \"full\""},
+    {"Contact::faces", "the faces of contact"},
+    {"ContactLaw::automatic", "\"automatic\""},
+    {"ContactLaw::pair_potential", "contact.law = \"pair_potential\""},
+    {"HostStep::coupling_of", "coupling_of"},
+    {"HostStep::gradients_of", "gradients_of"},
+    {"Kinematics::small and ::finite", "kinematics \"small\" and \"finite\""},
+    {"Kinematics::finite", "kinematics \"finite\""},
+    {"Kinematics::rigid", "kinematics \"rigid\""},
+    {"Kinematics::small", "kinematics \"small\""},
+    {"MeshOptions::non_planar", "non_planar"},
+    {"MeshOptions::planarity_tolerance", "planarity_tolerance"},
+    {"PathMean::gauss_1", "the mean \"1\""},
+    {"PathMean::system", "the mean \"system\""},
+    {"Precision::double_precision", "run.precision = \"double\""},
+    {"RigidObstacle::path", "its path"},
+    {"RigidObstacle::placement", "its path and its rotation"},
+    {"Scene::added_velocity", "velocity"},
+    {"Scene::after_step", "after_step"},
+    {"Scene::displacement", "displacement"},
+    {"Scene::energy_scale", "energy_scale"},
+    {"Scene::solid", "the scene"},
+    {"Scene::spin", "spin"},
+    {"SearchLimits::bytes", "the limit on memory (detect: --max-memory)"},
+    {"SearchLimits::pairs", "the limit on pairs (detect: --max-pairs)"},
+    {"Solid::own_cells", "own_cells"},
+    {"SolidOptions::acceleration", "gravity"},
+    {"SolidOptions::body_load", "the load on its cells"},
+    {"SolidOptions::contact", "contact.enabled = true"},
+    {"SolidOptions::ignored_pairs", "contact.ignored_pairs"},
+    {"SolidOptions::moments", "[moments]"},
+    {"SolidOptions::springs", "[springs]"},
+    {"StepDevice::host", "run.device = \"host\""},
+    {"SurfaceOptions::displacement", "--displacement"},
+    {"TractionCondition::value", "value"},
+    {"UnusableFaces::skip", "--unusable skip"},
+});
+
+/// Values that may stand behind an option in a message.
+constexpr std::array<std::string_view, 25> words{
+    "none",       "neutral", "scene",    "automatic", "small",  "floating",       "finite",        "rigid",  "memm",
+    "memm_async", "bilbao",  "leapfrog", "double",    "single", "host",           "kokkos",        "moving", "frozen",
+    "on",         "off",     "half",     "stiffness", "exact",  "pair_potential", "reconstruction"};
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+/// "body 3" and "body 3 ('ball')" become "body 'ball'".
+void name_numbers(std::string& text, std::string_view what, const std::vector<std::string>& names) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) {
+        if (at > 0 && std::isalpha(static_cast<unsigned char>(text[at - 1])) != 0) continue;
+        const std::size_t begin = at + what.size();
+        std::size_t number = 0;
+        const char* const last = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data() + begin, last, number);
+        if (error != std::errc() || number >= names.size()) continue;
+        const std::string name = "'" + names[number] + "'", beside = " (" + name + ")";
+        std::size_t length = static_cast<std::size_t>(stop - (text.data() + begin));
+        if (std::string_view(stop, last).starts_with(beside)) length += beside.size();
+        text.replace(begin, length, name);
+    }
+}
+
+bool is_of_option(char c) { return (c >= 'a' && c <= 'z') || c == '-'; }
+
+std::string_view head_of(std::string_view text, bool (*belongs)(char)) {
+    return text.substr(0, static_cast<std::size_t>(std::ranges::find_if_not(text, belongs) - text.begin()));
+}
+
+const OptionKey* key_of(std::string_view option) {
+    std::string key(option);
+    std::ranges::replace(key, '-', '_');
+    const auto found = std::ranges::find_if(option_keys(), [&](const OptionKey& one) { return one.key == key; });
+    return found == option_keys().end() ? nullptr : &*found;
+}
+
+/// What stands behind an option as its value; empty: nothing.
+std::string_view value_in(std::string_view rest) {
+    if (!rest.starts_with(' ')) return {};
+    const auto is_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const std::string_view word = head_of(rest.substr(1), is_of_word);
+    const bool is_number = !word.empty() && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
+    return is_number || std::ranges::find(words, word) != words.end() ? word : std::string_view{};
+}
+
+}  // namespace
+
+const std::vector<OptionKey>& option_keys() {
+    static const std::vector<OptionKey> keys = {{"run", "time"},
+                                                {"run", "steps"},
+                                                {"run", "cfl"},
+                                                {"run", "dt"},
+                                                {"run", "allow_unstable"},
+                                                {"run", "integrator"},
+                                                {"run", "precision"},
+                                                {"run", "device"},
+                                                {"run", "levels"},
+                                                {"run", "contact_margin"},
+                                                {"run", "contact_levels"},
+                                                {"run", "gauge"},
+                                                {"run", "filter"},
+                                                {"run", "restart"},
+                                                {"run", "kinematics"},
+                                                {"contact", "law"},
+                                                {"contact", "overlap"},
+                                                {"contact", "weights"},
+                                                {"contact", "area"},
+                                                {"contact", "quadrature"},
+                                                {"contact", "facing_cosine"},
+                                                {"contact", "skin"},
+                                                {"contact", "compression_limit"},
+                                                {"contact", "neumann"},
+                                                {"contact", "corners"},
+                                                {"output", "interval"},
+                                                {"output", "frames"},
+                                                {"output", "checkpoint"},
+                                                {"output", "checkpoint_steps"}};
+    return keys;
+}
+
+std::string in_user_words(std::string text, const SceneNames& names) {
+    for (const Name& name : names_of_cpp) replace_all(text, name.of_cpp, name.word);
+    if (text.find("contact: ") != std::string::npos) return text;  // its surface numbers bodies in another way
+    name_numbers(text, "body ", names.bodies);
+    name_numbers(text, "obstacle ", names.obstacles);
+    return text;
+}
+
+std::string with_keys(const std::string& text) {
+    std::string result;
+    std::string_view rest = text;
+    for (std::size_t at = rest.find("--"); at != std::string_view::npos; at = rest.find("--")) {
+        result += rest.substr(0, at);
+        const bool begins_word = at == 0 ? result.empty() || result.back() == ' ' : rest[at - 1] == ' ';
+        rest.remove_prefix(at);
+        const std::string_view option = head_of(rest, is_of_option);
+        rest.remove_prefix(option.size());
+        const OptionKey* key = begins_word && option.size() > 2 ? key_of(option.substr(2)) : nullptr;
+        if (!key) {
+            result += option;
+            continue;
+        }
+        const std::string_view value = value_in(rest);
+        const std::string quote = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0 ? "\"" : "";
+        result += std::string(key->table) + "." + key->key;
+        if (!value.empty()) result += " = " + quote + std::string(value) + quote;
+        result += " (" + std::string(option) + (value.empty() ? "" : " " + std::string(value)) + ")";
+        rest.remove_prefix(value.empty() ? 0 : value.size() + 1);
+    }
+    return result + std::string(rest);
+}
+
+}  // namespace abut::run
