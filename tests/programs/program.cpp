@@ -96,7 +96,8 @@ int check_targets(const Outcome& outcome) {
 
 std::vector<std::string> files_in(const fs::path& directory) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(directory)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(directory))
+        if (entry.path().filename() != ".abut.results") names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;
 }

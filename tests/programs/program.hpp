@@ -57,7 +57,7 @@ struct StudyQuantity {
 /// Every quantity of a study that has a target has to meet it; how many there are, at all levels together.
 int check_targets(const Outcome& outcome);
 
-/// Names of all files in a folder, in order.
+/// Names of all files in a folder, in order, except the one that makes it a folder of results.
 [[nodiscard]] std::vector<std::string> files_in(const std::filesystem::path& directory);
 
 /// A file of results: names of the columns and all rows.

@@ -84,7 +84,7 @@ TEST_CASE("a run that breaks off leaves its records under another name, and an e
     const Folder folder;
     run::RunOptions options{.out = folder.path(), .frames = 0};
     fs::create_directories(folder.path());
-    for (const char* name : {"summary.json", "energy.csv", "somebody_elses.csv"})
+    for (const char* name : {".abut.results", "summary.json", "energy.csv", "somebody_elses.csv"})
         std::ofstream(folder.path() / name) << "old";
     options.contact.compression_limit = 1e-3;
     run::ResultFiles<2> files(options, "mine", "block");
@@ -95,6 +95,20 @@ TEST_CASE("a run that breaks off leaves its records under another name, and an e
     CHECK_FALSE(fs::exists(folder.path() / "energy.csv"));
     CHECK_FALSE(fs::exists(folder.path() / "summary.json"));
     CHECK(fs::exists(folder.path() / "somebody_elses.csv"));
+}
+
+TEST_CASE("files of a folder that no run has claimed are the user's: none is removed, and the run is refused by name",
+          "[run][files]") {
+    const Folder folder;
+    const run::RunOptions options{.out = folder.path(), .frames = 0};
+    for (const char* name : {"summary.json", "forces.csv", "block_000007.vtu", "block_surface.pvd", "failed.png"}) {
+        fs::create_directories(folder.path());
+        std::ofstream(folder.path() / name) << "mine";
+        CHECK_THROWS_WITH(run::ResultFiles<2>(options, "mine", "block"),
+                          Catch::Contains(name) && Catch::Contains("--out") && Catch::Contains("is there"));
+        CHECK(read_text(folder.path() / name) == "mine");
+        fs::remove_all(folder.path());
+    }
 }
 
 TEST_CASE("a run that is asked to stop leaves all its files, and its summary says that it is not complete", "[run][files]") {
