@@ -37,6 +37,7 @@ public:
         : surface_(std::move(surface)),
           options_(checked(std::move(options))),
           sharing_(sharing),
+          sides_(surface_.facets().view()),
           candidates_(surface_.facets().view(), options_.search, sharing),
           pairs_(options_.facing, sharing),
           law_(options_.events, sharing) {
@@ -53,7 +54,7 @@ public:
 
     const NodalStep<Dim>& step_listed(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
         require_list();
-        report_.inadmissible_overlaps = law_.apply(surface_, pairs_, store_.memory(), x_0, x_1, take, step_);
+        report_.inadmissible_overlaps = law_.apply(surface_, sides_, pairs_, store_.memory(), x_0, x_1, take, step_);
         count_step(report_, step_, options_.compression_warning);
         if (step_.report.compression > options_.compression_limit) refuse_depth();
         return step_;
@@ -131,8 +132,10 @@ public:
         std::vector<std::int32_t> new_facets = facets_that_come(new_facets_, surface_, surface, old_face_of);
         CandidateSearch<Dim> candidates(surface.facets().view(), options_.search, sharing_);
         candidates.restore_skin(candidates_.next_skin());
+        SideOutlines<Dim> sides(surface.facets().view());
         // The views of the new search are of arrays that stay where they are when the surface is moved.
         surface_ = std::move(surface);
+        sides_ = std::move(sides);
         candidates_ = std::move(candidates);
         store_ = std::move(store);
         new_facets_ = std::move(new_facets);
@@ -236,7 +239,7 @@ private:
     [[nodiscard]] bool is_admitted_at_first(const NodalPair<Dim>& pair, PointsView<Dim> x_0) {
         const auto is_new = [&](std::int32_t facet) { return std::ranges::binary_search(new_facets_, facet); };
         const FirstAdmission first =
-            decide_first<Dim>(pair, x_0, !has_searched_ || is_new(pair.facet_1) || is_new(pair.facet_2));
+            decide_first<Dim>(pair, x_0, sides_, !has_searched_ || is_new(pair.facet_1) || is_new(pair.facet_2));
         if (first == FirstAdmission::missed) ++report_.missed_contacts;
         return first == FirstAdmission::admitted;
     }
@@ -286,6 +289,7 @@ private:
     NodalSurface<Dim> surface_;
     NodalOptions options_;
     Sharing* sharing_;  // null: nobody shares the work
+    SideOutlines<Dim> sides_;
     CandidateSearch<Dim> candidates_;
     bool has_searched_ = false;  // once at least: the run has begun
     bool list_holds_ = false;    // the last search came to its end

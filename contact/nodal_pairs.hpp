@@ -13,6 +13,8 @@
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/shared_work.hpp"
+#include "abut/contact/side_outlines.hpp"
+#include "abut/geometry/pair_potential/pair_approach.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
 namespace abut::contact {
@@ -95,17 +97,30 @@ private:
     std::vector<geometry::PairOutlook<Dim>> outlooks_;  // work array
 };
 
-/// Whether a pair may be pressed in from here on, where W = 0: it is no far side of a body. docs/method.md, Contact.
+/// Deeper than this part of D, a pair that shares nothing begins to overlap from the side.
+inline constexpr double beside_depth = 0.01;
+
+/// Whether a pair may be pressed in from here on, where W = 0: it is no far side of a body. Sides that end on both bodies
+/// where their overlap would begin, and are behind each other there, look past each other: two corners or edges, the tips of
+/// which are thinner than D. docs/method.md, The potential of a pair.
 template <int Dim>
-[[nodiscard]] bool is_shallow(const NodalPair<Dim>& pair, const geometry::PairState<Dim>& state) {
-    return std::isfinite(state.gap) && state.gap > -pair.admission_depth;
+[[nodiscard]] bool may_touch(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& corners,
+                             const geometry::PairState<Dim>& state, const SideOutlines<Dim>& sides) {
+    if (!std::isfinite(state.gap) || state.gap <= -pair.admission_depth) return false;
+    if (state.gap > -beside_depth * pair.admission_depth || state.overlap > 0.0) return true;
+    const auto approach = geometry::pair_approach<Dim>(corners, pair.law);
+    return sides.goes_on(pair.facet_1, approach[0]) || sides.goes_on(pair.facet_2, approach[1]);
 }
 
-/// Of a pair that was not in the list before.
+/// Of a pair that was not in the list before. Where the run begins the depth alone decides.
 template <int Dim>
-[[nodiscard]] FirstAdmission decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, bool run_begins) {
-    const auto state = geometry::pair_state<Dim>(pair.at(x), pair.law);
-    return first_admission(is_shallow(pair, state), state.energy > 0.0, run_begins);
+[[nodiscard]] FirstAdmission decide_first(const NodalPair<Dim>& pair, PointsView<Dim> x, const SideOutlines<Dim>& sides,
+                                          bool run_begins) {
+    const geometry::PairCorners<Dim> corners = pair.at(x);
+    const auto state = geometry::pair_state<Dim>(corners, pair.law);
+    const bool is_shallow = std::isfinite(state.gap) && state.gap > -pair.admission_depth;
+    if (run_begins || state.energy > 0.0) return first_admission(is_shallow, state.energy > 0.0, run_begins);
+    return may_touch<Dim>(pair, corners, state, sides) ? FirstAdmission::admitted : FirstAdmission::not_admitted;
 }
 
 }  // namespace abut::contact

@@ -68,8 +68,8 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
 }
 
 template <int Dim>
-void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                                TakenForce take, Outcome& outcome) const {
+void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted,
+                                PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, Outcome& outcome) const {
     outcome.admitted = admitted;
     outcome.inadmissible = outcome.active = false;
     const geometry::PairCorners<Dim> start = pair.at(x_0), end = pair.at(x_1);
@@ -87,13 +87,13 @@ void PairPotential<Dim>::follow(const NodalPair<Dim>& pair, bool admitted, Point
     const bool may_rest_on_flag = admitted && at_start.place == PairPlace::unclear;
     if (at_start.place != PairPlace::apart && !may_rest_on_flag) {
         const auto state = geometry::pair_state<Dim>(start, pair.law);
-        outcome.admitted = state.energy == 0.0 && is_shallow<Dim>(pair, state);
+        outcome.admitted = state.energy == 0.0 && may_touch<Dim>(pair, start, state, sides);
         outcome.inadmissible = state.energy > 0.0;
     }
     if (!outcome.admitted) return;
     take_force(pair, start, end, take, outcome);
     if (may_rest_on_flag && outcome.found.energy_0 == 0.0 &&
-        !is_shallow<Dim>(pair, geometry::pair_state<Dim>(start, pair.law)))
+        !may_touch<Dim>(pair, start, geometry::pair_state<Dim>(start, pair.law), sides))
         outcome.admitted = outcome.active = false;
 }
 
@@ -170,13 +170,13 @@ void PairPotential<Dim>::read(ShareReader& in, Outcome& outcome) {
 }
 
 template <int Dim>
-std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, NodalPairs<Dim>& listed,
-                                       std::span<PairMemory> memory, PointsView<Dim> x_0, PointsView<Dim> x_1,
-                                       TakenForce take, NodalStep<Dim>& step) {
+std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const SideOutlines<Dim>& sides,
+                                       NodalPairs<Dim>& listed, std::span<PairMemory> memory, PointsView<Dim> x_0,
+                                       PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x_0, x_1, memory);
     const auto admitted = [&](std::size_t p) -> bool& { return memory[pairs[p].memory].admitted; };
     find_outcomes(
-        pairs.size(), [&](std::size_t p) { follow(pairs[p], admitted(p), x_0, x_1, take, outcomes_[p]); },
+        pairs.size(), [&](std::size_t p) { follow(pairs[p], sides, admitted(p), x_0, x_1, take, outcomes_[p]); },
         [&](std::size_t p) { admitted(p) = outcomes_[p].admitted; });
     add_up(surface, listed, pairs, x_0, x_1, step);
     return std::ranges::count_if(outcomes_, [](const Outcome& outcome) { return outcome.inadmissible; });

@@ -7,6 +7,7 @@
 #include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/shared_work.hpp"
+#include "abut/contact/side_outlines.hpp"
 
 namespace abut::contact {
 
@@ -22,8 +23,9 @@ public:
 
     /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
     /// how many pairs are pressed in at x_0 without being contacts.
-    std::int64_t apply(const NodalSurface<Dim>& surface, NodalPairs<Dim>& listed, std::span<PairMemory> memory,
-                       PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
+    std::int64_t apply(const NodalSurface<Dim>& surface, const SideOutlines<Dim>& sides, NodalPairs<Dim>& listed,
+                       std::span<PairMemory> memory, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
+                       NodalStep<Dim>& step);
 
     /// The forces of one state, with the admission as it stands.
     void evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const PairMemory> memory,
@@ -47,8 +49,8 @@ private:
     static void read(ShareReader& in, Outcome& outcome);
 
     /// What is not active leaves `found` as it was.
-    void follow(const NodalPair<Dim>& pair, bool admitted, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
-                Outcome& outcome) const;
+    void follow(const NodalPair<Dim>& pair, const SideOutlines<Dim>& sides, bool admitted, PointsView<Dim> x_0,
+                PointsView<Dim> x_1, TakenForce take, Outcome& outcome) const;
     void take_force(const NodalPair<Dim>& pair, const geometry::PairCorners<Dim>& start,
                     const geometry::PairCorners<Dim>& end, TakenForce take, Outcome& outcome) const;
     /// Adds up what these of the listed pairs do, in their order.
