@@ -1,11 +1,13 @@
 #include "abut/input/check_obstacle.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <string>
@@ -14,6 +16,7 @@
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_distance.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"
 
 namespace abut::input {
@@ -120,6 +123,25 @@ bool is_in_solid(const std::vector<Points<Dim>>& faces, const Vector<Dim>& point
     return room ? turns > -0.5 : turns > 0.5;
 }
 
+/// Of each body, whether it is wholly behind the plane of a face, as far as that can be told from rounding.
+template <int Dim>
+std::vector<bool> behind(const mesh::Mesh<Dim>& mesh, const Points<Dim>& face) {
+    const Vector<Dim> normal = geometry::face_normal<Dim>(face), foot = face.front();
+    std::vector<double> highest(mesh.body_names.size(), -std::numeric_limits<double>::infinity()),
+        lowest(highest.size(), 0.0);
+    for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell)
+        for (const std::int32_t vertex : mesh.cell_vertices[cell]) {
+            const auto body = static_cast<std::size_t>(mesh.cell_body[cell]);
+            const double height = normal.dot(mesh.vertices[vertex] - foot);
+            highest[body] = std::max(highest[body], height);
+            lowest[body] = std::min(lowest[body], height);
+        }
+    std::vector<bool> result;
+    for (std::size_t body = 0; body < highest.size(); ++body)
+        result.push_back(highest[body] <= -mesh::touching_tolerance * lowest[body] && lowest[body] < 0.0);
+    return result;
+}
+
 /// The first cell of each body.
 template <int Dim>
 std::vector<std::int32_t> first_cells(const mesh::Mesh<Dim>& mesh) {
@@ -148,11 +170,23 @@ void check_outside(const mesh::Mesh<Dim>& mesh, const contact::RigidObstacle<Dim
             return pair == std::array{b, table.number} || pair == std::array{table.number, b};
         });
     };
+    const bool stands_still = !obstacle.path && !obstacle.placement;
+    const std::vector<bool> is_behind =
+        table.endless && stands_still ? behind(mesh, faces.front()) : std::vector<bool>(depth.size(), false);
     for (std::size_t body = 0; body < depth.size(); ++body)
         if (is_ignored(body))
             continue;
         else if (depth[body] > 0.0)
             fault(body, fmt::format("a face of the obstacle is {:.6g} m inside a cell, 0 m is allowed", depth[body]));
+        else if (is_behind[body])
+            faults.push_back(
+                {table.settings.where,
+                 fmt::format(
+                     "body '{}' is behind obstacle '{}', where nothing touches it: contact acts on the side that its "
+                     "normal points to. Give normal = [{:g}], or let the two pass through each other "
+                     "(ignored_pairs in [contact]).",
+                     mesh.body_names[body], table.settings.name,
+                     fmt::join(Vector<Dim>(-head<Dim>(table.settings.normal) + Vector<Dim>::Zero()), ", "))});
         else if (table.closed && is_in_solid<Dim>(faces, mesh.cell_centroid[cells[body]], table.settings.inside))
             fault(body, table.settings.inside ? "the whole body is outside of its room" : "the whole body is inside of it");
 }

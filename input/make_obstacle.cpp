@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -16,6 +18,10 @@
 
 namespace abut::input {
 namespace {
+
+/// How far planes without a half width reach, in sizes of what all bodies are in at the start. Within that nothing is lost by
+/// the size of their one face: docs/limits.md.
+constexpr double reach_of_planes = 2000.0;
 
 template <int Dim>
 using Faces = std::vector<std::vector<Vector<Dim>>>;
@@ -54,6 +60,10 @@ Faces<3> faces_of_box(const Vector<3>& lower, const Vector<3>& upper) {
     return faces;
 }
 
+bool is_endless(const ObstacleSettings& obstacle) {
+    return obstacle.shape == ObstacleShape::plane && std::isinf(obstacle.half_width);
+}
+
 template <int Dim>
 void turn_inside_out(Faces<Dim>& faces) {
     for (auto& face : faces) std::ranges::reverse(face);
@@ -65,6 +75,36 @@ struct Shell {
     Faces<Dim> faces;
     bool closed = true;
 };
+
+/// Throws BadInput for a surface that looks to both sides: faces of one part that disagree, and parts that are turned against
+/// the others and are no cavities of them.
+void require_one_side(const mesh::SurfaceMesh& surface, const geometry::SurfaceReport& health, double volume) {
+    if (!health.inconsistent_edges.empty())
+        throw BadInput(fmt::format(
+            "{}: {} edges have faces that look to different sides of the surface, the first one beside "
+            "face {}, so that bodies would meet some of them from behind. Turn these faces around.",
+            surface.name, health.inconsistent_edges.size(), surface.label(health.inconsistent_edges.front().face)));
+    std::vector<geometry::Box<3>> boxes(health.components.size());
+    for (std::int32_t face = 0; face < surface.faces.size(); ++face)
+        if (const std::int32_t part = health.face_component[static_cast<std::size_t>(face)]; part >= 0)
+            for (const std::int32_t v : surface.faces[face])
+                boxes[static_cast<std::size_t>(part)].extend(surface.vertices[v]);
+    const auto is_around = [&](std::size_t outer, std::size_t inner) {
+        return (boxes[outer].lower.array() <= boxes[inner].lower.array()).all() &&
+               (boxes[outer].upper.array() >= boxes[inner].upper.array()).all();
+    };
+    for (std::size_t part = 0; part < boxes.size(); ++part) {
+        if (!(health.components[part].volume * volume < 0.0)) continue;
+        bool is_cavity = false;
+        for (std::size_t other = 0; other < boxes.size(); ++other)
+            is_cavity = is_cavity || (health.components[other].volume * volume > 0.0 && is_around(other, part));
+        if (is_cavity) continue;
+        throw BadInput(
+            fmt::format("{}: its part with face {} looks inwards, other than the rest, and lies in no other part whose "
+                        "cavity it could be. Turn its {} faces around.",
+                        surface.name, surface.label(health.components[part].first_face), health.components[part].n_faces));
+    }
+}
 
 /// Of a closed surface in either sense.
 Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::path& folder) {
@@ -78,8 +118,25 @@ Shell<3> shell_of_file(const ObstacleSettings& obstacle, const std::filesystem::
         shell.faces.push_back(std::move(corners));
     }
     const auto add = [](double sum, const geometry::SurfaceComponent& part) { return sum + part.volume; };
-    if (std::accumulate(health.components.begin(), health.components.end(), 0.0, add) < 0.0) turn_inside_out(shell.faces);
+    const double volume = std::accumulate(health.components.begin(), health.components.end(), 0.0, add);
+    require_one_side(read, health, volume);
+    if (volume < 0.0) turn_inside_out(shell.faces);
     return shell;
+}
+
+/// What has no end in the table, as far as the bodies can be expected to get; where it is already.
+template <int Dim>
+Shell<Dim> endless_plane(const ObstacleSettings& obstacle, const mesh::Mesh<Dim>& mesh) {
+    geometry::Box<Dim> box;
+    for (const Vector<Dim>& x : mesh.vertices) box.extend(x);
+    const Matrix<Dim> turn = rotation<Dim>(obstacle.turn);
+    const Vector<Dim> point = turn * head<Dim>(obstacle.point) + head<Dim>(obstacle.place);
+    if (box.empty()) box.extend(point);  // a fault has left no body
+    const double size = std::max((box.upper - box.lower).norm(), std::numeric_limits<double>::min());
+    return {contact::endless_plane_obstacle<Dim>(point, turn * head<Dim>(obstacle.normal), 0.5 * (box.lower + box.upper),
+                                                 reach_of_planes * size)
+                .faces,
+            false};
 }
 
 template <int Dim>
@@ -123,8 +180,10 @@ std::function<Vector<3>(double)> rotation_of(const ObstacleSettings& obstacle) {
     return [spin = obstacle.spin](double time) { return Vector<3>(spin * time); };
 }
 
+/// Of the box around it; of a plane its point.
 template <int Dim>
-Vector<Dim> middle_of(const Faces<Dim>& faces) {
+Vector<Dim> middle_of(const Faces<Dim>& faces, const ObstacleSettings& settings) {
+    if (is_endless(settings)) return rotation<Dim>(settings.turn) * head<Dim>(settings.point) + head<Dim>(settings.place);
     geometry::Box<Dim> box;
     for (const auto& face : faces)
         for (const Vector<Dim>& corner : face) box.extend(corner);
@@ -140,7 +199,7 @@ void set_in_motion(contact::RigidObstacle<Dim>& obstacle, const ObstacleSettings
         obstacle.path = std::move(path);
         return;
     }
-    const Vector<Dim> pivot = settings.pivot ? head<Dim>(*settings.pivot) : middle_of<Dim>(obstacle.faces);
+    const Vector<Dim> pivot = settings.pivot ? head<Dim>(*settings.pivot) : middle_of<Dim>(obstacle.faces, settings);
     obstacle.placement = [path = std::move(path), angle = std::move(angle), pivot](double time) {
         contact::Placement<Dim> placement{.turn = rotation<Dim>(angle(time))};
         placement.offset = pivot - placement.turn * pivot;
@@ -152,14 +211,16 @@ void set_in_motion(contact::RigidObstacle<Dim>& obstacle, const ObstacleSettings
 template <int Dim>
 void add_obstacle(run::Scene<Dim>& scene, const ObstacleSettings& settings, const Settings& all,
                   std::vector<Fault>& faults) {
-    Shell<Dim> shell = shell_of<Dim>(settings, all.file.parent_path());
-    place<Dim>(shell.faces, settings);
+    Shell<Dim> shell =
+        is_endless(settings) ? endless_plane<Dim>(settings, scene.mesh) : shell_of<Dim>(settings, all.file.parent_path());
+    if (!is_endless(settings)) place<Dim>(shell.faces, settings);
     if (settings.inside) turn_inside_out<Dim>(shell.faces);
     contact::RigidObstacle<Dim> obstacle{.faces = std::move(shell.faces), .path = {}};
     set_in_motion(obstacle, settings);
     const auto number = static_cast<std::int32_t>(scene.mesh.n_bodies() + (&settings - all.obstacles.data()));
     if (all.contact)
-        check_outside<Dim>(scene.mesh, obstacle, {.settings = settings, .closed = shell.closed, .number = number},
+        check_outside<Dim>(scene.mesh, obstacle,
+                           {.settings = settings, .closed = shell.closed, .endless = is_endless(settings), .number = number},
                            scene.solid.ignored_pairs, faults);
     scene.solid.obstacles.push_back(std::move(obstacle));
     scene.outputs.obstacles.push_back(settings.name);

@@ -126,8 +126,10 @@ const Keys<ObstacleSettings>& obstacle_keys() {
         From::field("path", &Obstacle::path, "m", Variables::time, "how far it has moved at t [s], instead of velocity"),
         From::axial("spin", &Obstacle::spin, "rad/s", "angular velocity, constant in time"),
         From::axial_field("rotation", &Obstacle::rotation, "rad", "how far it has turned at t [s], instead of spin"),
-        From::vector("pivot", &Obstacle::pivot, "m", "",
-                     "about which it turns, and which moves with it; by default the middle of the box around it")};
+        From::vector(
+            "pivot", &Obstacle::pivot, "m", "",
+            "about which it turns, and which moves with it; by default the middle of the box around it, of a plane its "
+            "point")};
     return keys;
 }
 
@@ -145,10 +147,11 @@ const std::vector<Variety<ObstacleSettings, ObstacleShape>>& obstacle_varieties(
         {{"plane",
           ObstacleShape::plane,
           {2, 3},
-          {required(From::vector("point", &Obstacle::point, "m", "", "its middle")),
+          {required(
+               From::vector("point", &Obstacle::point, "m", "", "one of its points; its middle where it has a half_width")),
            required(From::vector("normal", &Obstacle::normal, "", "", "direction it faces, of any length")),
            From::number("half_width", &Obstacle::half_width, {.unit = "m", .above = 0.0},
-                        "how far it reaches in every direction: more than the bodies do")}},
+                        "how far it reaches in every direction; not given: without end")}},
          {"box",
           ObstacleShape::box,
           {2, 3},

@@ -2,6 +2,7 @@
 // Private to the layer.
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -85,7 +86,7 @@ struct ObstacleSettings : Named {
     ObstacleShape shape = ObstacleShape::none;
     Vector<3> point = Vector<3>::Zero();   ///< [m]
     Vector<3> normal = Vector<3>::Zero();  ///< [-]
-    double half_width = 1.0;               ///< [m]
+    double half_width = std::numeric_limits<double>::infinity();  ///< [m]
     Vector<3> lower = Vector<3>::Zero();   ///< [m]
     Vector<3> upper = Vector<3>::Ones();   ///< [m]
     std::vector<Vector<3>> corners;        ///< [m]

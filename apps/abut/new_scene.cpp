@@ -36,7 +36,7 @@ young = 2e6
 shape = "plane"          # or box, polygon
 point = [0, 0]
 normal = [0, 1]          # the side where bodies are
-half_width = 2           # [m]
+# half_width = 2         # [m]; without it there is no end
 
 # [supports.left]        # holds a group of boundary faces, or moves it
 # group = "block.xmin"

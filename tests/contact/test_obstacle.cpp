@@ -49,3 +49,22 @@ TEMPLATE_TEST_CASE_SIG("an obstacle pushes a face out to its own plane: the corr
            mover.contact.last().mean_gradient[contact::ListedFace{1}])
               .norm() < 1e-15);
 }
+
+TEMPLATE_TEST_CASE_SIG("an endless plane is one face around a circle of its reach about the foot of its middle",
+                       "[contact][obstacle]", ((int Dim), Dim), 2, 3) {
+    std::mt19937 random(5);
+    for (int trial = 0; trial < 20; ++trial) {
+        const Vector<Dim> point = random_vector<Dim>(random, 5.0), middle = random_vector<Dim>(random, 5.0);
+        const Vector<Dim> normal = random_vector<Dim>(random, 2.0), n = normal.normalized();
+        const double reach = uniform(random, 10.0, 1000.0);
+        contact::Surface<Dim> surface;
+        contact::append(surface, contact::endless_plane_obstacle<Dim>(point, normal, middle, reach), 0);
+        REQUIRE(surface.size() == 1);
+        CHECK_NOTHROW(contact::check(surface.view()));
+        CHECK((surface.normal[0] - n).norm() < 1e-13);
+        const Vector<Dim> foot = middle - n.dot(middle - point) * n;
+        CHECK((surface.centroid[0] - foot).norm() < 1e-12 * reach);
+        for (const Vector<Dim>& corner : surface.vertices) CHECK(std::abs(n.dot(corner - point)) < 1e-13 * reach);
+        CHECK(surface.area[0] == Approx(Dim == 2 ? 2.0 * reach : 3.0 * std::sqrt(3.0) * reach * reach).epsilon(1e-12));
+    }
+}

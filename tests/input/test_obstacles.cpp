@@ -2,9 +2,13 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input/scenes.hpp"
@@ -149,14 +153,15 @@ surface = "{}/scenes/ball.stl"   # of radius 100
     CHECK(faults("scale = 0.05\nplace = [5, 0, 0]\npath = [9, 0, \"t\"]").empty());  // it starts elsewhere
 }
 
-TEST_CASE("a body that touches an obstacle, is behind a plane, or in a hollow one, does not overlap it",
+TEST_CASE("a body that touches an obstacle, is behind one with a rim, or in a hollow one, does not overlap it",
           "[input][obstacles]") {
     for (const char* obstacle :
-         {"shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]",                      // they stand on it
-          "shape = \"plane\"\npoint = [0, 3]\nnormal = [0, 1]",                      // far behind it
-          "shape = \"plane\"\npoint = [0.5, 0.5]\nnormal = [0, 1]\nplace = [5, 0]",  // beside them
-          "shape = \"box\"\nlower = [0, 0]\nupper = [2.5, 1]\ninside = true",        // they fill it
-          "shape = \"box\"\nlower = [1, 0]\nupper = [1.5, 1]",                       // it fills the gap
+         {"shape = \"plane\"\npoint = [0, 0]\nnormal = [0, 1]",                                      // they stand on it
+          "shape = \"plane\"\npoint = [0, 3]\nnormal = [0, 1]\nhalf_width = 9",                      // far behind it
+          "shape = \"plane\"\npoint = [0, 3]\nnormal = [0, 1]\nvelocity = [0, -1]",                  // it comes from behind
+          "shape = \"plane\"\npoint = [0.5, 0.5]\nnormal = [0, 1]\nplace = [5, 0]\nhalf_width = 1",  // beside them
+          "shape = \"box\"\nlower = [0, 0]\nupper = [2.5, 1]\ninside = true",                        // they fill it
+          "shape = \"box\"\nlower = [1, 0]\nupper = [1.5, 1]",                                       // it fills the gap
           "shape = \"polygon\"\ncorners = [[-2, -1], [4, -1], [4, 3], [3, 3], [3, 0], [-1, 0], [-1, 3], [-2, 3]]",
           "shape = \"box\"\nlower = [0, 0]\nupper = [1, 1]\npath = [9, \"t\"]"}) {  // elsewhere at the start
         CAPTURE(obstacle);
@@ -165,4 +170,78 @@ TEST_CASE("a body that touches an obstacle, is behind a plane, or in a hollow on
         CAPTURE(input::text_of(checked.faults));
         CHECK(checked.faults.empty());
     }
+}
+
+TEST_CASE("a plane without a half width has no end, and turns about its point", "[input][obstacles]") {
+    const WrittenScene written(R"toml(dim = 3
+bodies.cube = {shape = "structured_box", lower = [3, 0, 0.1], upper = [3.2, 0.2, 0.3], counts = [2, 2, 2], young = 1, density = 1}
+obstacles.floor = {shape = "plane", point = [7, -5, 0], normal = [0, 0, 3]}
+obstacles.slope = {shape = "plane", point = [0, 0, -1], normal = [-1, 0, 1], place = [0, 0, -4], spin = [0, 0, 1]}
+run.steps = 1
+)toml");
+    const auto obstacles = input::SceneFile(written.path()).scene<3>().solid.obstacles;
+    const double size = 0.2 * std::sqrt(3.0);
+    for (const auto& obstacle : obstacles) {
+        REQUIRE(obstacle.faces.size() == 1);  // no seam
+        CHECK(obstacle.faces[0].size() == 3);
+    }
+    // It holds what is a thousand sizes of the scene away from the body, in every direction.
+    for (int i = 0; i < 12; ++i) {
+        const Vector<3> away(std::cos(0.5236 * i), std::sin(0.5236 * i), 0.0);
+        const auto& corners = obstacles[0].faces[0];
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(corners[k].z() == 0.0);
+            const Vector<3> edge = corners[(k + 1) % 3] - corners[k];
+            CHECK(edge.cross(Vector<3>(Vector<3>(3.1, 0.1, 0.0) + 1000.0 * size * away - corners[k])).z() > 0.0);
+        }
+    }
+    CHECK((obstacles[1].placement(0.7)(Vector<3>(0.0, 0.0, -5.0)) - Vector<3>(0.0, 0.0, -5.0)).norm() < 1e-14);
+}
+
+TEST_CASE("a body behind a plane without end is a fault that says which normal to give", "[input][obstacles]") {
+    const auto faults = [](const std::string& more) {
+        const WrittenScene written(two_blocks("[obstacles.floor]\nshape = \"plane\"\n" + more));
+        return input::text_of(input::check_scene(written.path()).faults);
+    };
+    const std::string found = faults("point = [0, 0]\nnormal = [0, -1]");
+    for (const char* words : {"body 'left' is behind obstacle 'floor'", "body 'right'", "normal = [0, 1]", "ignored_pairs"})
+        CHECK(found.find(words) != std::string::npos);
+    CHECK(faults("point = [0, 0]\nnormal = [0, 1]").empty());
+    CHECK(faults("point = [1.25, 0]\nnormal = [1, 0]").find("body 'right'") ==
+          std::string::npos);  // one of them is in front
+    CHECK(faults("point = [0, 0]\nnormal = [0, -1]\n[contact]\nignored_pairs = [[\"left\", \"floor\"], [\"right\", "
+                 "\"floor\"]]")
+              .empty());
+}
+
+TEST_CASE("a surface that looks to both sides is no obstacle", "[input][obstacles]") {
+    const auto faults = [](const std::string& obj) {
+        const auto file = std::filesystem::temp_directory_path() / ("both_sides_" + std::to_string(getpid()) + ".obj");
+        std::ofstream(file) << obj;
+        const WrittenScene written(fmt::format(R"toml(dim = 3
+bodies.cube = {{shape = "structured_box", lower = [0, 0, 5], upper = [1, 1, 6], counts = [2, 2, 2], young = 1, density = 1}}
+obstacles.stone = {{surface = "{}"}}
+run.steps = 1
+)toml",
+                                               file.string()));
+        const std::string text = input::text_of(input::check_scene(written.path()).faults);
+        std::filesystem::remove(file);
+        return text;
+    };
+    const auto tetrahedron = [](double x, int first, bool turned) {
+        std::string text;
+        for (const auto& [y, z] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1)})
+            text += fmt::format("v {} {} {}\n", x, y, z);
+        text += fmt::format("v {} 0 0\n", x + 1.0);
+        for (const auto& [a, b, c] : {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{0, 3, 2}, std::array{1, 2, 3}})
+            text += fmt::format("f {} {} {}\n", first + a, first + (turned ? c : b), first + (turned ? b : c));
+        return text;
+    };
+    CHECK(faults(tetrahedron(0.0, 1, false) + tetrahedron(4.0, 5, false)).empty());
+    CHECK(faults(tetrahedron(0.0, 1, true) + tetrahedron(4.0, 5, true)).empty());  // all of it the other way round
+    const std::string found = faults(tetrahedron(0.0, 1, false) + tetrahedron(8.0, 5, false) + tetrahedron(4.0, 9, true));
+    CHECK(found.find("looks inwards") != std::string::npos);
+    // Two triangles of an open sheet that disagree along their edge.
+    CHECK(faults("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n").find("different sides") != std::string::npos);
+    CHECK(faults("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n").empty());
 }
