@@ -95,6 +95,8 @@ const Keys<Settings>& contact_keys() {
                          [](Reader& reader, const Node& node, const std::string& key) { return reader.pairs(node, key); }),
         Of::word("law", option(&RunOptions::law), run::law_words,
                  "the modified reconstruction for bodies that do not turn; the pair potential for all, and by default"),
+        Of::truth("self", search(&CandidateOptions::self_contact),
+                  "also between parts of one body; of the modified reconstruction"),
         Of::word("broad_phase", search(&CandidateOptions::broad_phase), broad_phase_words(),
                  "what finds faces that are near"),
         Of::word("overlap", contact(&ContactOptions::overlap), run::overlap_words,

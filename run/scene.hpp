@@ -12,6 +12,7 @@
 #include "abut/run/outputs.hpp"
 #include "abut/run/pilot_report.hpp"
 #include "abut/run/rebalancing.hpp"
+#include "abut/run/sightings.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/solid.hpp"
@@ -84,6 +85,8 @@ struct RunResult {
     std::vector<solid::BodyMotion<Dim>> end;
     solid::FiniteExtremes finite;         ///< of all steps: Solid::finite_extremes
     std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
+    std::vector<PastRim> past_rims;       ///< at records
+    std::vector<NearItself<Dim>> near_themselves;  ///< at records, where contact does not look at it
     solid::SolidTimes times;              ///< of the steps
     RunSeconds seconds;
     Rebalancing rebalancing;        ///< on several ranks

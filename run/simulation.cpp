@@ -21,10 +21,12 @@
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/divergence.hpp"
 #include "abut/run/frame_piece.hpp"
+#include "abut/run/obstacle_watch.hpp"
 #include "abut/run/of_all_ranks.hpp"
 #include "abut/run/pilot.hpp"
 #include "abut/run/rank_balance.hpp"
 #include "abut/run/run_identity.hpp"
+#include "abut/run/self_watch.hpp"
 #include "abut/run/start.hpp"
 #include "abut/run/start_contact.hpp"
 #include "abut/run/user_words.hpp"
@@ -54,6 +56,8 @@ public:
           solid_(*start.solid),
           result_(start.result),
           filter_(solid_),
+          obstacle_watch_(scene_),
+          self_watch_(scene_, solid_),
           make_(std::move(make)),
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
@@ -340,6 +344,8 @@ private:
             result_.contact = solid_.contact_report();
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+            obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.past_rims);
+            self_watch_.look(solid_, integrator_->q(), integrator_->time(), integrator_->steps(), result_.near_themselves);
         }
         const auto& entries = result_.ledger.entries();
         if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
@@ -376,6 +382,8 @@ private:
     RunResult<Dim>& result_;
     dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
+    ObstacleWatch<Dim> obstacle_watch_;
+    SelfWatch<Dim> self_watch_;
     std::function<Integrator(Start<Dim>&)> make_;
     std::optional<Integrator> integrator_;  // always there
     dynamics::IntegratorState sound_;       // Failure::sound, except what only the scheme knows

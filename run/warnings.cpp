@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "abut/run/obstacle_watch.hpp"
 #include "abut/run/user_words.hpp"
 
 namespace abut::run {
@@ -76,6 +77,41 @@ void add_edges(Counts& counts, const std::optional<contact::EdgePair<Dim>>& edge
          edges->facing(), -facing_cosine});
 }
 
+/// That a body, or all of them, lie where an obstacle does nothing for them.
+template <int Dim>
+void add_behind(Counts& counts, const Scene<Dim>& scene) {
+    for (const Behind& behind : behind_at_start(scene))
+        counts.warnings.push_back(
+            {WarningKind::behind_obstacle, Severity::warning,
+             fmt::format(
+                 "{} behind obstacle '{}', where nothing touches it: contact acts on the side that it faces. Turn it "
+                 "around (normal of a plane, inside of a surface), or let the two pass through each other by name "
+                 "(ignored_pairs)",
+                 behind.body < 0 ? "all bodies are" : fmt::format("body '{}' is", scene.mesh.body_names[behind.body]),
+                 name_of_obstacle(scene, static_cast<std::size_t>(behind.obstacle))),
+             std::numeric_limits<double>::quiet_NaN(), 0.0});
+}
+
+/// What was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
+template <int Dim>
+void add_sightings(Counts& counts, const RunResult<Dim>& result) {
+    for (const PastRim& past : result.past_rims)
+        counts.warnings.push_back(
+            {WarningKind::past_rim, Severity::warning,
+             fmt::format("by t = {:.4g} s body '{}' is past the rim of obstacle '{}', and nothing is below it there. A "
+                         "plane without half_width has no end",
+                         past.time, past.body, past.obstacle),
+             past.time, 0.0});
+    for (const NearItself<Dim>& near : result.near_themselves)
+        counts.warnings.push_back(
+            {WarningKind::near_itself, Severity::warning,
+             fmt::format("by t = {:.4g} s body '{}' has come together with itself at ({:.4g}): two parts of its surface, "
+                         "{:.3g} m apart at rest, have a gap of {:.3g} m, and no contact acts within a body. {}",
+                         near.time, near.body, fmt::join(near.position, ", "), near.gap_at_rest, near.gap,
+                         "contact.self = true lets it act, under law = \"reconstruction\""),
+             near.gap, 0.0});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -89,6 +125,7 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
                            stencils.extrapolated, stencils.faces, stencils.worst_weight));
     add_corners<Dim>(counts, result.blind_corners);
     add_edges<Dim>(counts, result.unseen_edges, result.options.contact.search.facing_cosine);
+    add_behind(counts, scene);
     if (const auto& options = result.options; options.restart > 0 && options.interval % options.restart == 0)
         counts.warnings.push_back(
             {WarningKind::hidden_mode, Severity::warning,
@@ -154,6 +191,7 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
                         "if noise grows, a lower --cfl and --restart 50 help",
                         result.finite.strain, large_strain, result.finite.determinant));
+    add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));
     counts.add(WarningKind::inadmissible_overlaps, Severity::note, result.inadmissible_overlaps_max,

@@ -26,17 +26,20 @@ enum class Severity {
 
 /// What a warning is about, with what its `value` counts; what is counted has the threshold 0.
 enum class WarningKind {
-    mesh_file,             ///< Gmsh warned while it read a file; no value
-    unused_vertices,       ///< note: vertices that belong to no cell
-    ignored_elements,      ///< note: elements of a file that are neither cells nor named faces
-    cut_cells,             ///< note: cells that were cut because of faces that are not planar
-    coincident_vertices,   ///< vertices at the place of one of another body
-    extrapolated_faces,    ///< faces that extrapolate from the cells around them: the stable step is shorter
-    blind_corners,         ///< corners too sharp for contact to see
-    unseen_edges,    ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
+    mesh_file,            ///< Gmsh warned while it read a file; no value
+    unused_vertices,      ///< note: vertices that belong to no cell
+    ignored_elements,     ///< note: elements of a file that are neither cells nor named faces
+    cut_cells,            ///< note: cells that were cut because of faces that are not planar
+    coincident_vertices,  ///< vertices at the place of one of another body
+    extrapolated_faces,   ///< faces that extrapolate from the cells around them: the stable step is shorter
+    blind_corners,        ///< corners too sharp for contact to see
+    unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
+    behind_obstacle,  ///< a body, or all of them, behind an obstacle at the start; no value
     hidden_mode,     ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart
     compression,     ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
     stiff_sliding,   ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
+    past_rim,        ///< time at which a body was past the rim of a flat obstacle [s]
+    near_itself,     ///< gap of a body with itself [m]; threshold: that at which it is said
     deep_slip,       ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation

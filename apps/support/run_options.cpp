@@ -112,6 +112,8 @@ void add_contact_options(CLI::App& app, run::RunOptions& options) {
         laws));
     grouped(add_choice(app, "--broad-phase", contact.search.broad_phase,
                        "what finds faces that are near; all give the same bits", broad_phases));
+    grouped(add_choice(app, "--self-contact", contact.search.self_contact,
+                       "contact acts between parts of one body, too, by the modified reconstruction", switches));
     grouped(add_choice(app, "--overlap", contact.overlap,
                        "area that follows the motion in a step (energy exact) or is frozen (cheaper)", overlap_modes));
     grouped(add_choice(app, "--events", contact.events,

@@ -59,6 +59,7 @@ const std::map<std::string, Take>& known_options() {
         {"events", take_word(run::event_words, ABUT_OPTION(contact.events))},
         {"quadrature", take_value<int>(ABUT_OPTION(contact.quadrature))},
         {"skin", take_value<double>(ABUT_OPTION(contact.search.skin))},
+        {"self_contact", take_value<bool>(ABUT_OPTION(contact.search.self_contact))},
         {"facing_cosine", take_value<double>(ABUT_OPTION(contact.search.facing_cosine))},
         {"compression_limit", take_value<double>(ABUT_OPTION(contact.compression_limit))},
         {"neumann", take_word(run::free_face_words, ABUT_OPTION(neumann))},

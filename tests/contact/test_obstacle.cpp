@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "abut/contact/obstacle_side.hpp"
 #include "contact/surfaces.hpp"
 
 using namespace abut;
@@ -67,4 +68,30 @@ TEMPLATE_TEST_CASE_SIG("an endless plane is one face around a circle of its reac
         for (const Vector<Dim>& corner : surface.vertices) CHECK(std::abs(n.dot(corner - point)) < 1e-13 * reach);
         CHECK(surface.area[0] == Approx(Dim == 2 ? 2.0 * reach : 3.0 * std::sqrt(3.0) * reach * reach).epsilon(1e-12));
     }
+}
+
+TEST_CASE("a point is in front of an obstacle or behind it by the nearest of its faces", "[contact][obstacle]") {
+    // A step: a tread from (-1, 0) to (0, 0), a riser down to (0, -1), and ground from there. The outside is above.
+    const std::vector<std::vector<Vector<2>>> step{
+        {{0.0, 0.0}, {-1.0, 0.0}}, {{0.0, -1.0}, {0.0, 0.0}}, {{1.0, -1.0}, {0.0, -1.0}}};
+    const auto side = [&](double x, double y) { return contact::side_of<2>(step, Vector<2>(x, y)); };
+    CHECK(side(-0.5, 0.3) == Approx(0.3));
+    CHECK(side(-0.5, -0.2) == Approx(-0.2));
+    CHECK(side(0.2, -0.4) == Approx(0.2));
+    CHECK(side(0.3, 0.4) == Approx(0.5));  // beyond its edge
+    CHECK(side(-0.1, -0.9) == Approx(-0.1));
+    CHECK(side(0.5, -1.5) == Approx(-0.5));
+    CHECK(side(-3.0, 0.1) > 0.0);  // beside the tread
+    CHECK(std::isinf(contact::side_of<2>({}, Vector<2>(0.0, 0.0))));
+
+    std::vector<std::vector<Vector<3>>> tetrahedron{{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}},
+                                                    {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}},
+                                                    {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}},
+                                                    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    CHECK(contact::side_of<3>(tetrahedron, Vector<3>(0.1, 0.1, 0.05)) == Approx(-0.05));
+    CHECK(contact::side_of<3>(tetrahedron, Vector<3>(0.2, 0.2, -0.3)) == Approx(0.3));
+    CHECK(contact::side_of<3>(tetrahedron, Vector<3>(2.0, 0.0, 0.0)) == Approx(1.0));    // beyond a corner
+    CHECK(contact::side_of<3>(tetrahedron, Vector<3>(-0.3, -0.4, 0.5)) == Approx(0.5));  // beyond an edge
+    for (auto& face : tetrahedron) std::reverse(face.begin(), face.end());
+    CHECK(contact::side_of<3>(tetrahedron, Vector<3>(2.0, 0.0, 0.0)) == Approx(-1.0));
 }

@@ -1,0 +1,36 @@
+#pragma once
+// Private to the sources of this layer.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "abut/run/scene.hpp"
+
+namespace abut::run {
+
+/// Looks at records whether a body comes together with itself, where contact does not see that: two faces of its boundary
+/// that look at each other, share area, and are no farther apart than a tenth of the depth of their cells, nor deeper in each
+/// other than it, though they were more than twice as far from each other at rest.
+///
+/// A look takes as long as some steps. The next one is due when the body, seen from the rotation that fits it best, has
+/// deformed by as much as the faces that it found need to meet; what is never bent much is looked at once. Said once per body.
+template <int Dim>
+class SelfWatch {
+public:
+    /// Watches the bodies of the scene that deform; none where there are ranks, or where contact acts within bodies.
+    SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
+    ~SelfWatch();
+    SelfWatch(const SelfWatch&) = delete;
+    SelfWatch& operator=(const SelfWatch&) = delete;
+
+    /// `solid` has been evaluated in q last.
+    void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
+              std::vector<NearItself<Dim>>& found);
+
+private:
+    class Body;
+    std::vector<std::unique_ptr<Body>> bodies_;
+};
+
+}  // namespace abut::run
