@@ -4,13 +4,13 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
+#include "abut/base/error.hpp"
+#include "abut/base/input_file.hpp"
 #include "abut/base/text.hpp"
 #include "abut/input/fault.hpp"
 
@@ -191,10 +191,15 @@ std::string description(const Node& node) {
 }
 
 Node read_document(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path))
-        throw SceneError({{path.string(), "the file cannot be read. Give a TOML file, or make one with abut new."}});
-    return parse({std::istreambuf_iterator<char>(file), {}}, Places(path.string(), true));
+    std::string text;
+    try {
+        text = file_bytes(path);
+    } catch (const BadInput& error) {
+        const std::string what = error.what(), start = path.string() + ": ";
+        throw SceneError({{path.string(), (what.starts_with(start) ? what.substr(start.size()) : what) +
+                                              " The file cannot be read: give a TOML file, or make one with abut new."}});
+    }
+    return parse(text, Places(path.string(), true));
 }
 
 Node read_override(const std::string& text) {

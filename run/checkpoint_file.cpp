@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include <type_traits>
 
 #include "abut/base/error.hpp"
+#include "abut/base/input_file.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/run/files.hpp"
 
@@ -62,9 +62,7 @@ void write_file(const fs::path& path, const std::string& head, std::span<const s
 /// What is behind the head.
 Bytes read_file(const fs::path& path) {
     const auto refuse = [&](const std::string& why) { throw BadInput(fmt::format("{}: {}", path.string(), why)); };
-    std::ifstream file(path, std::ios::binary);
-    const std::string all{std::istreambuf_iterator<char>(file), {}};
-    if (!file) refuse(fmt::format("cannot be read: {}.", std::strerror(errno)));
+    const std::string all = file_bytes(path);
     if (!all.starts_with("Abut checkpoint, format ") || all.size() < head_size) refuse("no checkpoint of Abut.");
     if (!all.starts_with(title))
         refuse(fmt::format("not the \"{}\" that is needed. Go on with the Abut that has written it.", title));

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "abut/base/error.hpp"
+#include "abut/base/input_file.hpp"
 #include "abut/run/checkpoint_file.hpp"
 #include "abut/run/files.hpp"
 
@@ -79,14 +80,13 @@ CheckpointFolder::Found CheckpointFolder::last() const {
 }
 
 std::string CheckpointFolder::text(const std::string& name) const {
-    std::ifstream file(directory_ / name, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file)
+    try {
+        return file_bytes(directory_ / name);
+    } catch (const BadInput& error) {
         throw BadInput(
-            fmt::format("{}: cannot be read. Programs other than abut go on with --resume beside the options of the "
-                        "run that was stopped.",
-                        (directory_ / name).string()));
-    return text;
+            fmt::format("{} Programs other than abut go on with --resume beside the options of the run that was stopped.",
+                        error.what()));
+    }
 }
 
 void CheckpointFolder::remove(const std::vector<std::string>& texts) const {

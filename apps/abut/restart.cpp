@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "abut/base/error.hpp"
+#include "abut/base/input_file.hpp"
 #include "abut/base/text.hpp"
 #include "abut/input/changes.hpp"
 #include "abut/input/fault.hpp"
@@ -40,9 +39,7 @@ std::string text_in(const Json& json) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> files_for_restart(const Restart& restart, const fs::path& copy) {
-    std::ifstream file(copy, std::ios::binary);
-    const std::string scene{std::istreambuf_iterator<char>(file), {}};
-    if (!file) throw BadInput(fmt::format("{}: cannot be read any more. Put it back.", copy.string()));
+    const std::string scene = file_bytes(copy);
     Json command = {{"scene", json_of(restart.scene.string())}, {"arguments", Json::array()}};
     for (const std::string& argument : restart.arguments) command["arguments"].push_back(json_of(argument));
     if (restart.until) command["until"] = *restart.until;

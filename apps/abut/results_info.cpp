@@ -4,12 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/input_file.hpp"
 #include "apps/abut/info_lines.hpp"
 
 namespace abut::apps {
@@ -19,8 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 Json read_summary(const fs::path& path) {
-    std::ifstream file(path);
-    const Json summary = Json::parse(file, nullptr, false);
+    const Json summary = Json::parse(file_bytes(path), nullptr, false);
     if (!summary.is_object()) throw BadInput(fmt::format("{}: not a summary of a run: no object of JSON.", path.string()));
     return summary;
 }
@@ -72,7 +72,7 @@ std::string finished_lines(const Json& summary) {
 
 /// Rows of a table that a run writes as it goes.
 std::string unfinished_lines(const fs::path& path) {
-    std::ifstream file(path);
+    std::istringstream file(file_bytes(path));
     std::string line, last;
     std::int64_t records = -1;  // the first line has the names
     while (std::getline(file, line)) ++records, last = line;

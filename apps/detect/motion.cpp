@@ -8,12 +8,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
 
+#include "abut/base/error.hpp"
 #include "abut/base/index.hpp"
+#include "abut/base/input_file.hpp"
 #include "apps/support/command_line.hpp"
 
 namespace abut::apps {
@@ -161,10 +162,20 @@ void Motion::add_rotation(const std::string& text, const Bodies& bodies) {
     if (values.size() == 7) even.centre = vector_at(values, 4);
 }
 
+namespace {
+
+std::string script_text(const std::string& path) {
+    try {
+        return file_bytes(path);
+    } catch (const BadInput& error) {
+        throw std::runtime_error(fmt::format("--script {}: the file cannot be read: {}", path, error.what()));
+    }
+}
+
+}  // namespace
+
 void Motion::read_script(const std::string& path, const Bodies& bodies) {
-    std::ifstream file(path);
-    if (!file)
-        throw std::runtime_error(fmt::format("--script {}: the file cannot be read. Check name and permissions.", path));
+    std::istringstream file(script_text(path));
     int number = 0;
     for (std::string line; std::getline(file, line);) {
         line = without_return(line);

@@ -2,24 +2,21 @@
 
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
+#include "abut/base/error.hpp"
+#include "abut/base/input_file.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
 
 std::string file_contents(const std::filesystem::path& path) {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::not_found)
-        throw MeshError(path.string() + ": there is no such file. Check the path.");
-    if (error) throw MeshError(path.string() + ": cannot be read: " + error.message() + ". Check the path.");
-    if (std::filesystem::is_directory(status))
-        throw MeshError(path.string() + ": is a folder, a mesh file is needed. Check the path.");
-    std::ifstream file(path, std::ios::binary);
-    std::string contents{std::istreambuf_iterator<char>(file), {}};
-    if (!file) throw MeshError(path.string() + ": cannot be read. Check its permissions.");
+    std::string contents;
+    try {
+        contents = file_bytes(path);
+    } catch (const BadInput& error) {
+        throw MeshError(error.what());
+    }
     if (contents.empty()) throw MeshError(path.string() + ": the file is empty (0 bytes). Write the mesh again.");
     return contents;
 }

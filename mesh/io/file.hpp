@@ -6,7 +6,7 @@
 
 namespace abut::mesh {
 
-/// The bytes of a file. Throws MeshError if it is missing, a folder, unreadable or empty.
+/// The bytes of a file (base/input_file.hpp). Throws MeshError if it is missing, no regular file, unreadable or empty.
 [[nodiscard]] std::string file_contents(const std::filesystem::path& path);
 
 /// Makes the folder and its parents. Throws MeshError if that fails.
