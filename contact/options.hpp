@@ -5,6 +5,7 @@
 
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
+#include "abut/geometry/planarity.hpp"
 
 namespace abut::contact {
 
@@ -39,6 +40,8 @@ struct CandidateOptions {
     int self_contact_rings = 1;
     /// [-] > 0: a face that moves farther within a step than this times the extent of all surfaces together has diverged
     double largest_motion = 1.0;
+    /// [-] >= 0: largest distance of a corner from the plane of its face, over the face size
+    double planarity_tolerance = geometry::planarity_tolerance;
     /// Pairs: of the whole list. Memory: of each pair of bodies that is searched, beside the list; where parts share a search
     /// (Sharing), of each of them
     geometry::SearchLimits limits;

@@ -120,26 +120,27 @@ void check_measures(const SurfaceView<Dim>& surface, std::int32_t face) {
                    "normal from them.");
 }
 
-void check_shape(const SurfaceView<3>& surface, std::int32_t face) {
+void check_shape(const SurfaceView<3>& surface, std::int32_t face, double planarity_tolerance) {
     const Corners corners(surface, face);
     if (corners.size() == 3) return;
     const double size = std::sqrt(surface.area[face]);
     const double allowed = tolerance(surface, face);
     const double deviation = geometry::planarity_deviation<3>(corners);
-    if (!(deviation <= allowed * size))
+    const double from_plane = std::max(allowed, planarity_tolerance);
+    if (!(deviation <= from_plane * size))
         refuse(surface, face,
-               "is not flat: a corner lies " + number(deviation / size) + " face sizes off its plane, " + number(allowed) +
-                   " is allowed. Cut it into triangles.");
+               "is not flat: a corner lies " + number(deviation / size) + " face sizes off its plane, " +
+                   number(from_plane) + " is allowed. Cut it into triangles, or raise the tolerance of planarity.");
     if (!geometry::is_convex<3>(corners, allowed * size)) refuse(surface, face, "is not convex. Cut it into triangles.");
 }
 
-void check_shape(const SurfaceView<2>&, std::int32_t) {}
+void check_shape(const SurfaceView<2>&, std::int32_t, double) {}
 
 template <int Dim>
-void check_face(const SurfaceView<Dim>& surface, std::int32_t face) {
+void check_face(const SurfaceView<Dim>& surface, std::int32_t face, double planarity_tolerance) {
     check_corners(surface, face);
     check_values(surface, face);
-    check_shape(surface, face);
+    check_shape(surface, face, planarity_tolerance);
     check_measures(surface, face);
 }
 
@@ -197,20 +198,20 @@ void check_sizes(const SurfaceView<Dim>& surface) {
 }
 
 template <int Dim>
-void check(const SurfaceView<Dim>& surface) {
+void check(const SurfaceView<Dim>& surface, double planarity_tolerance) {
     check_sizes(surface);
     std::atomic<std::int32_t> first_bad = surface.size();  // so that the message does not depend on the threads
     parallel_ranges(surface.size(), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
         for (auto face = static_cast<std::int32_t>(begin); face < end && face < first_bad; ++face) {
             try {
-                check_face(surface, face);
+                check_face(surface, face, planarity_tolerance);
             } catch (const BadInput&) {
                 for (std::int32_t known = first_bad; face < known && !first_bad.compare_exchange_weak(known, face);) {
                 }
             }
         }
     });
-    if (first_bad < surface.size()) check_face<Dim>(surface, first_bad);
+    if (first_bad < surface.size()) check_face<Dim>(surface, first_bad, planarity_tolerance);
 }
 
 template <int Dim>
@@ -233,8 +234,8 @@ template struct Surface<2>;
 template struct Surface<3>;
 template void check_sizes<2>(const SurfaceView<2>&);
 template void check_sizes<3>(const SurfaceView<3>&);
-template void check<2>(const SurfaceView<2>&);
-template void check<3>(const SurfaceView<3>&);
+template void check<2>(const SurfaceView<2>&, double);
+template void check<3>(const SurfaceView<3>&, double);
 template std::uint64_t fingerprint<2>(const SurfaceView<2>&);
 template std::uint64_t fingerprint<3>(const SurfaceView<3>&);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abut/base/vector.hpp"
+#include "abut/geometry/planarity.hpp"
 
 namespace abut::contact {
 
@@ -79,11 +80,12 @@ void check_sizes(const SurfaceView<Dim>& surface);
 
 /// Throws BadInput naming the face, the value, the limit and the remedy: array sizes that disagree, an index
 /// out of range, a number of corners that is not 2 (2D) or 3 to geometry::max_polygon_vertices (3D), NaN, zero area, a
-/// normal that is not unit, a face that is not flat or not convex, area, centroid or normal that are not those of the
-/// corners (all within 1e-10 of the face, and what rounding adds far from the origin), a cell depth that is not > 0
+/// normal that is not unit, a face that is not flat (within `planarity_tolerance` of its size) or not convex, area, centroid or
+/// normal that are not those of the corners (within 1e-10 of the face, and what rounding adds far from the origin), a cell
+/// depth that is not > 0
 /// (rigid: >= 0), a stiffness that is not > 0, more steps to a sharp edge than are counted.
 template <int Dim>
-void check(const SurfaceView<Dim>& surface);
+void check(const SurfaceView<Dim>& surface, double planarity_tolerance = geometry::planarity_tolerance);
 
 /// A 64-bit checksum of corners, cell depths, stiffnesses, bodies and steps to sharp edges, to the last bit: tells whether a
 /// saved state fits. Two different surfaces share one by accident only.

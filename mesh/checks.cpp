@@ -131,7 +131,8 @@ void check_bodies_apart(const CellSoup<Dim>& soup) {
                 throw MeshError(soup.name + ": bodies '" + soup.body_names[other] + "' and '" + soup.body_names[body] +
                                 "' share vertex " + text(soup.vertex_label, vertex) + " (cells " +
                                 text(soup.cell_label, first) + "|" + text(soup.cell_label, cell) +
-                                "). Give each body its own vertices on the interface, or make them one body.");
+                                "). Give each body its own vertices on the interface, or make them one body, of one material: "
+                                "several materials bonded in one body are not supported.");
         }
 }
 
@@ -212,12 +213,9 @@ void check_cells(const CellSoup<Dim>& soup, std::span<const double> cell_measure
         const double limit =
             smallest_relative_measure * std::pow(diameter<Dim>(soup.vertices, soup.cell_vertices[cell]), Dim);
         if (cell_measure[c] > limit) continue;
-        const bool inverted = cell_measure[c] < -limit;
         throw MeshError(soup.name + ": cell " + text(soup.cell_label, cell) + " (" + std::string(name(soup.cell_shape[c])) +
-                        ") " + (inverted ? "is inverted" : "is flat") + ": its measure is " + number(cell_measure[c]) +
-                        " m^" + std::to_string(Dim) + ", more than " + number(limit) + " is needed. " +
-                        (inverted ? "Give its vertices in the order of its shape, counter-clockwise."
-                                  : "Remove it or mesh the part again."));
+                        ") is flat: its measure is " + number(cell_measure[c]) + " m^" + std::to_string(Dim) +
+                        ", more than " + number(limit) + " is needed. Remove it or mesh the part again.");
     }
 }
 

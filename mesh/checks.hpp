@@ -18,7 +18,7 @@ namespace abut::mesh {
 template <int Dim>
 void check_soup(const CellSoup<Dim>& soup);
 
-/// The checks of `build_mesh` on cells: measure above 1e-12 (diameter)^Dim; no cell inside out.
+/// The checks of `build_mesh` on cells: measure above 1e-12 (diameter)^Dim.
 template <int Dim>
 void check_cells(const CellSoup<Dim>& soup, std::span<const double> cell_measure);
 

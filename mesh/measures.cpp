@@ -16,6 +16,8 @@ Vector<Dim> mean_vertex(const CellSoup<Dim>& soup, std::int32_t cell) {
     return first + sum / static_cast<double>(vertices.size());
 }
 
+}  // namespace
+
 template <int Dim>
 void measure_cell(const CellSoup<Dim>& soup, std::int32_t cell, double& measure, Vector<Dim>& centroid) {
     const Vector<Dim> origin = mean_vertex(soup, cell);
@@ -31,8 +33,6 @@ void measure_cell(const CellSoup<Dim>& soup, std::int32_t cell, double& measure,
     }
     centroid = measure != 0.0 ? Vector<Dim>(origin + moment / measure) : origin;
 }
-
-}  // namespace
 
 template <int Dim>
 CellMeasures<Dim> measure_cells(const CellSoup<Dim>& soup) {
@@ -71,6 +71,8 @@ double relative_planarity(std::span<const Vector<Dim>> face) {
     return size > 0.0 ? geometry::planarity_deviation<Dim>(face) / size : 0.0;
 }
 
+template void measure_cell<2>(const CellSoup<2>&, std::int32_t, double&, Vector<2>&);
+template void measure_cell<3>(const CellSoup<3>&, std::int32_t, double&, Vector<3>&);
 template CellMeasures<2> measure_cells<2>(const CellSoup<2>&);
 template CellMeasures<3> measure_cells<3>(const CellSoup<3>&);
 template void measure_faces<2>(Mesh<2>&);

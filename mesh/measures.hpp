@@ -36,6 +36,9 @@ struct CellMeasures {
 };
 template <int Dim>
 [[nodiscard]] CellMeasures<Dim> measure_cells(const CellSoup<Dim>& soup);
+/// The same of one cell.
+template <int Dim>
+void measure_cell(const CellSoup<Dim>& soup, std::int32_t cell, double& measure, Vector<Dim>& centroid);
 
 /// Fills face_measure, face_centroid and face_normal from vertices and face_vertices.
 template <int Dim>

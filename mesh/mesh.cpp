@@ -1,6 +1,7 @@
 #include "abut/mesh/mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -59,6 +60,50 @@ std::vector<std::int32_t> faces_of_one_cell(const std::vector<std::array<std::in
     for (std::size_t face = 0; face < face_cells.size(); ++face)
         if (face_cells[face][1] < 0) faces.push_back(static_cast<std::int32_t>(face));
     return faces;
+}
+
+/// The order of a cell's vertices that makes its mirror image: the way round in the plane, the base seen from the other
+/// side in space.
+std::span<const std::int8_t> mirrored(CellShape shape) {
+    static constexpr std::array<std::int8_t, 3> triangle = {0, 2, 1};
+    static constexpr std::array<std::int8_t, 4> quadrangle = {0, 3, 2, 1}, tetrahedron = {0, 2, 1, 3};
+    static constexpr std::array<std::int8_t, 8> hexahedron = {4, 5, 6, 7, 0, 1, 2, 3};
+    static constexpr std::array<std::int8_t, 6> prism = {3, 4, 5, 0, 1, 2};
+    static constexpr std::array<std::int8_t, 5> pyramid = {0, 3, 2, 1, 4};
+    switch (shape) {
+        case CellShape::triangle:
+            return triangle;
+        case CellShape::quadrangle:
+            return quadrangle;
+        case CellShape::tetrahedron:
+            return tetrahedron;
+        case CellShape::hexahedron:
+            return hexahedron;
+        case CellShape::prism:
+            return prism;
+        case CellShape::pyramid:
+            break;
+    }
+    return pyramid;
+}
+
+/// Turns the cells of negative measure and measures them again; returns their number.
+template <int Dim>
+std::int32_t turn_cells_inside_out(CellSoup<Dim>& soup, CellMeasures<Dim>& cells) {
+    std::int32_t count = 0;
+    std::array<std::int32_t, max_cell_vertices> given{};
+    for (std::int32_t cell = 0; cell < soup.cell_vertices.size(); ++cell) {
+        const auto c = static_cast<std::size_t>(cell);
+        if (!(cells.measure[c] < 0.0)) continue;
+        const auto order = mirrored(soup.cell_shape[c]);
+        std::ranges::copy(soup.cell_vertices[cell], given.begin());
+        for (std::size_t i = 0; i < order.size(); ++i)
+            soup.cell_vertices.values[static_cast<std::size_t>(soup.cell_vertices.offsets[c]) + i] =
+                given[static_cast<std::size_t>(order[i])];
+        measure_cell(soup, cell, cells.measure[c], cells.centroid[c]);
+        ++count;
+    }
+    return count;
 }
 
 /// A mesh out of a soup that is checked and in its final order.
@@ -123,6 +168,7 @@ void append_cells_and_faces(Mesh<Dim>& to, const Mesh<Dim>& from) {
 void append_report(BuildReport& to, const BuildReport& from) {
     to.n_unused_vertices += from.n_unused_vertices;
     to.n_ignored_elements += from.n_ignored_elements;
+    to.n_turned_cells += from.n_turned_cells;
     to.n_non_planar_faces += from.n_non_planar_faces;
     to.n_cut_cells += from.n_cut_cells;
     append(to.warnings, from.warnings);
@@ -249,8 +295,10 @@ Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options) {
     BuildReport report;
     report.n_ignored_elements = soup.n_ignored_elements;
     report.warnings = soup.warnings;
-    handle_non_planar_faces(soup, options, report);
     auto cells = measure_cells(soup);
+    report.n_turned_cells = turn_cells_inside_out(soup, cells);
+    handle_non_planar_faces(soup, options, report);
+    if (report.n_cut_cells > 0) cells = measure_cells(soup);
     check_cells<Dim>(soup, cells.measure);
 
     const auto order = cell_order<Dim>(soup, cells.centroid, options.reorder);

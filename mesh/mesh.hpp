@@ -2,12 +2,14 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "abut/base/vector.hpp"
+#include "abut/geometry/planarity.hpp"
 
 namespace abut::mesh {
 
@@ -44,13 +46,14 @@ struct BoundaryGroup {
 struct BuildReport {
     std::int32_t n_unused_vertices = 0;   ///< vertices of the input that no cell uses, dropped
     std::int32_t n_ignored_elements = 0;  ///< elements of a file that are neither cells nor named boundary faces
-    std::vector<std::string> warnings;    ///< what Gmsh warned of while it read the file
+    std::vector<std::string> warnings;    ///< what the reader of the file warned of
     /// Boundary vertices at the place of a vertex of another body, up to 1e-6 of the smallest boundary face. More than a
     /// few are bodies whose meshes match node by node: legal, but such contact is a special case, and often an accident
     /// (see `variant` in mesh/shapes/shapes.hpp).
     std::int32_t n_coincident_vertices = 0;
     std::int32_t n_non_planar_faces = 0;  ///< faces beyond MeshOptions::planarity_tolerance (NonPlanarFaces::split only)
     std::int32_t n_cut_cells = 0;         ///< cells of the input that were cut into tetrahedra because of them
+    std::int32_t n_turned_cells = 0;      ///< cells given inside out, whose vertices were put in the order of their shape
     double worst_planarity = 0.0;  ///< largest distance of a vertex from its face's plane / face size, before cutting [-]
     std::int64_t worst_face_cell = -1;  ///< number in its input of a cell with that face; -1 if every face has Dim vertices
 };
@@ -101,7 +104,7 @@ struct CellSoup {
     std::string name;
     std::vector<Vector<Dim>> vertices;
     std::vector<CellShape> cell_shape;
-    Rows cell_vertices;  ///< in Gmsh's order (see CellShape); an inverted cell is an error, not mended
+    Rows cell_vertices;  ///< in Gmsh's order (see CellShape); a cell inside out is turned, and counted
     std::vector<std::int32_t> cell_body;
     std::vector<std::string> body_names;
     struct NamedFace {
@@ -124,16 +127,18 @@ enum class NonPlanarFaces : std::uint8_t {
 };
 
 struct MeshOptions {
-    bool reorder = true;                 ///< renumber cells (within each body) and vertices row by row and layer by layer
-    double planarity_tolerance = 1e-10;  ///< largest distance of a face's vertex from its plane, in units of the face size
+    bool reorder = true;  ///< renumber cells (within each body) and vertices row by row and layer by layer
+    /// Largest distance of a face's vertex from its plane, in units of the face size
+    double planarity_tolerance = geometry::planarity_tolerance;
     NonPlanarFaces non_planar = NonPlanarFaces::fail;
+    std::optional<double> most_cells{};  ///< that a shape may get by its estimate; unset: see mesh/shapes/shapes.hpp
 };
 
 /// Finds the faces, computes all measures, checks, renumbers. Throws MeshError (mesh/quality.hpp) naming mesh, cell or
-/// face, value, limit and remedy: index out of range, NaN coordinate, zero or negative measure (inverted cell), degenerate
+/// face, value, limit and remedy: index out of range, NaN coordinate, zero measure, degenerate
 /// face, face of more than two cells, non-planar face, non-convex face, empty mesh, body without cells, two bodies or two
 /// groups of one name, named face that is no boundary face.
-/// Vertices used by no cell are dropped and counted in the report.
+/// Vertices used by no cell are dropped and cells inside out (of negative measure) are turned: both are counted in the report.
 template <int Dim>
 [[nodiscard]] Mesh<Dim> build_mesh(CellSoup<Dim> soup, const MeshOptions& options = {});
 

@@ -61,13 +61,12 @@ std::vector<Quadrangle> measured_quadrangles(const CellSoup<3>& soup) {
         cells += (n_cells++ > 0 ? "|" : "") + std::to_string(soup.cell_label[static_cast<std::size_t>(q.cell)]);
     }
     const double size = std::sqrt(geometry::face_measure<3>(face_corners<3>(soup.vertices, worst.vertices).view()));
-    throw MeshError(soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
-                    " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
-                    number(options.planarity_tolerance * size) +
-                    " m is allowed. Have such cells cut: non-planar faces \"split\" (MeshOptions::non_planar)" +
-                    (n_cells > 1
-                         ? ", or raise MeshOptions::planarity_tolerance."
-                         : "; a larger MeshOptions::planarity_tolerance would not do, contact needs plane boundary faces."));
+    throw MeshError(
+        soup.name + ": face " + vertex_list(worst.vertices, soup.vertex_label) + " of cell " + cells +
+        " is not planar: a vertex lies " + number(worst.deviation * size) + " m off its plane, " +
+        number(options.planarity_tolerance * size) +
+        " m is allowed. Have such cells cut into tetrahedra (non_planar = \"split\"), or raise planarity_tolerance, now " +
+        number(options.planarity_tolerance) + " of the size of a face, above " + number(worst.deviation) + ".");
 }
 
 /// Spreads the mark to all cells that are linked to a marked one through quadrangles.

@@ -214,6 +214,9 @@ SurfaceMesh boundary_of(const Mesh<3>& mesh, std::span<const Vector<3>> displace
     surface.body_names = mesh.body_names;
     surface.n_ignored_elements = mesh.report.n_ignored_elements;
     surface.warnings = mesh.report.warnings;
+    if (mesh.report.n_turned_cells > 0)
+        surface.warnings.push_back(std::to_string(mesh.report.n_turned_cells) +
+                                   " cells are given inside out (clockwise) and are turned");
     std::vector<std::int32_t> number(mesh.vertices.size(), -1);
     std::vector<std::int32_t> corners;
     for (const std::int32_t face : mesh.boundary_faces) {

@@ -126,6 +126,7 @@ Json mesh_json(const mesh::BuildReport& report) {
             {"coincident_vertices", report.n_coincident_vertices},
             {"non_planar_faces", report.n_non_planar_faces},
             {"cut_cells", report.n_cut_cells},
+            {"turned_cells", report.n_turned_cells},
             {"worst_planarity", report.worst_planarity},
             {"warnings", report.warnings}};
 }

@@ -34,13 +34,15 @@ public:
 
 void add_mesh(Counts& counts, const mesh::BuildReport& report) {
     for (const std::string& warning : report.warnings)
-        counts.warnings.push_back({WarningKind::mesh_file, Severity::warning, fmt::format("Gmsh: {}", warning),
+        counts.warnings.push_back({WarningKind::mesh_file, Severity::warning, fmt::format("mesh file: {}", warning),
                                    std::numeric_limits<double>::quiet_NaN(), 0.0});
     counts.add(WarningKind::unused_vertices, Severity::note, report.n_unused_vertices,
                fmt::format("{} vertices belong to no cell and are left out", report.n_unused_vertices));
     counts.add(
         WarningKind::ignored_elements, Severity::note, report.n_ignored_elements,
         fmt::format("{} elements are neither cells nor faces of a named group and are left out", report.n_ignored_elements));
+    counts.add(WarningKind::turned_cells, Severity::note, report.n_turned_cells,
+               fmt::format("{} cells are given inside out (clockwise) and are turned", report.n_turned_cells));
     counts.add(WarningKind::cut_cells, Severity::note, report.n_cut_cells,
                fmt::format("{} cells are cut into tetrahedra, for {} faces that are not planar", report.n_cut_cells,
                            report.n_non_planar_faces));

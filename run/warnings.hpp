@@ -26,9 +26,10 @@ enum class Severity {
 
 /// What a warning is about, with what its `value` counts; what is counted has the threshold 0.
 enum class WarningKind {
-    mesh_file,            ///< Gmsh warned while it read a file; no value
+    mesh_file,            ///< the reader of a file warned; no value
     unused_vertices,      ///< note: vertices that belong to no cell
     ignored_elements,     ///< note: elements of a file that are neither cells nor named faces
+    turned_cells,         ///< note: cells that were given inside out, and are turned
     cut_cells,            ///< note: cells that were cut because of faces that are not planar
     coincident_vertices,  ///< vertices at the place of one of another body
     extrapolated_faces,   ///< faces that extrapolate from the cells around them: the stable step is shorter

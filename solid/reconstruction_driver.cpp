@@ -18,9 +18,11 @@ namespace {
 
 /// Bodies and obstacles have the numbers of the mesh.
 template <int Dim>
-contact::ContactOptions contact_options(const SolidOptions<Dim>& options) {
+contact::ContactOptions contact_options(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
     contact::ContactOptions contact = *options.contact;
     contact.search.ignored_bodies = options.ignored_pairs;
+    // Faces that the mesh was allowed to have.
+    contact.search.planarity_tolerance = std::max(contact.search.planarity_tolerance, 1.001 * mesh.report.worst_planarity);
     return contact;
 }
 
@@ -30,7 +32,7 @@ template <int Dim>
 ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
                                                 const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>* part)
     : mesh_(mesh),
-      options_(contact_options(options)),
+      options_(contact_options(mesh, options)),
       ccg_(ccg),
       loads_(loads),
       times_(times),

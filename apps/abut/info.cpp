@@ -80,6 +80,8 @@ std::string mesh_info(const fs::path& path) {
             info_line("not planar", fmt::format("{} faces, by up to {:.2g} of their size: a run refuses them unless they "
                                                 "are split (non_planar = \"split\")",
                                                 mesh.report.n_non_planar_faces, mesh.report.worst_planarity));
+    if (mesh.report.n_turned_cells > 0)
+        text += info_line("turned", fmt::format("{} cells, given inside out (clockwise)", mesh.report.n_turned_cells));
     for (const std::string& warning : mesh.report.warnings) text += info_line("warning", warning);
     return text;
 }
@@ -148,10 +150,15 @@ std::string info(const fs::path& path) {
     if (extension == ".msh" || extension == ".vtu") return mesh_or_surface_info(path);
     for (const char* surface : {".stl", ".obj", ".off", ".ply", ".vtp"})
         if (extension == surface) return surface_info(path);
-    throw BadInput(
-        fmt::format("{}: not a file that Abut knows. Give a scene (.toml), a mesh (.msh, .vtu), a surface (.stl, "
-                    ".obj, .off, .ply, .vtp) or a folder of results.",
-                    path.string()));
+    try {
+        return mesh_info<3>(path);  // says what is wrong with the extension, and what converts the file
+    } catch (const Error& error) {
+        throw BadInput(
+            fmt::format("{} A scene (.toml), a mesh (.msh, .vtu), a surface (.stl, .obj, .off, .ply, .vtp) or a folder of "
+                        "results can be "
+                        "looked at.",
+                        error.what()));
+    }
 }
 
 }  // namespace abut::apps

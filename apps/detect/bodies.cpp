@@ -25,8 +25,10 @@ using mesh::SurfaceMesh;
 
 SurfaceMesh read_one(const std::string& input, const DetectOptions& options) {
     if (!is_shape(input))
-        return mesh::read_surface(
-            input, {.weld = {}, .displacement = options.displacement, .connected_bodies = options.connected, .volume = {}});
+        return mesh::read_surface(input, {.weld = {},
+                                          .displacement = options.displacement,
+                                          .connected_bodies = options.connected,
+                                          .volume = {.planarity_tolerance = options.planarity_tolerance}});
     SurfaceMesh shape = make_shape(input);
     if (options.connected) mesh::name_connected_bodies(shape);
     return shape;
@@ -39,11 +41,13 @@ std::vector<std::int64_t> labels_of(const SurfaceMesh& surface) {
 }
 
 InputReport examined(const SurfaceMesh& surface, const DetectOptions& options) {
-    InputReport report{.name = surface.name,
-                       .health = geometry::check_surface(surface.soup(), {.self_intersections = options.self_intersections}),
-                       .lines = {},
-                       .n_ignored_elements = surface.n_ignored_elements,
-                       .warnings = surface.warnings};
+    InputReport report{
+        .name = surface.name,
+        .health = geometry::check_surface(surface.soup(), {.self_intersections = options.self_intersections,
+                                                           .planarity_tolerance = options.planarity_tolerance}),
+        .lines = {},
+        .n_ignored_elements = surface.n_ignored_elements,
+        .warnings = surface.warnings};
     report.lines = geometry::describe(surface.soup(), report.health, labels_of(surface));
     if (surface.n_ignored_elements > 0)
         report.lines.push_back(fmt::format("{} elements of the file are no faces: ignored", surface.n_ignored_elements));

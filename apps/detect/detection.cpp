@@ -22,6 +22,7 @@ contact::CandidateOptions search_options(const DetectOptions& options, const Nea
     contact::CandidateOptions search = options.search;
     search.distance = near.distance;
     search.skin = near.skin;
+    search.planarity_tolerance = options.planarity_tolerance;
     if (!std::isnan(options.max_pairs)) search.limits.pairs = static_cast<std::int64_t>(options.max_pairs);
     if (!std::isnan(options.max_memory))
         search.limits.bytes = static_cast<std::size_t>(std::min(options.max_memory * bytes_a_megabyte, 1e18));

@@ -27,6 +27,11 @@ void add_bodies(CLI::App& app, DetectOptions& options) {
     add_choice(app, "--unusable", options.unusable, "faces that cannot be used end the run, or are left out and counted",
                policies)
         ->group("Bodies");
+    add_number(app, "--planarity-tolerance", options.planarity_tolerance,
+               "how far a corner may lie off the plane of its face, over the size of the face: beyond it polygons are cut "
+               "into triangles, and cells are refused",
+               {.above = 0.0, .zero = true})
+        ->group("Bodies");
     app.add_flag("--self-intersections", options.self_intersections, "look for them in every surface as it comes")
         ->default_str("off")
         ->group("Bodies");
@@ -136,6 +141,7 @@ nlohmann::ordered_json to_json(const DetectOptions& options) {
     return {{"inputs", options.inputs},
             {"connected", options.connected},
             {"unusable", name_of(policies, options.unusable)},
+            {"planarity_tolerance", options.planarity_tolerance},
             {"self_intersections", options.self_intersections},
             {"translate", options.translations},
             {"rotate", options.rotations},

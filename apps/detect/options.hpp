@@ -22,6 +22,7 @@ struct DetectOptions {
     bool connected = false;
     mesh::UnusableFaces unusable = mesh::UnusableFaces::fail;
     bool self_intersections = false;
+    double planarity_tolerance = geometry::planarity_tolerance;  ///< of cells and polygons that count as flat [-]
 
     std::vector<std::string> translations, rotations;
     std::string script;

@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, py::object>> blocks_of(const py::object& cell
 template <int Dim>
 Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::object& body,
                   std::vector<std::string> body_names, const std::map<std::string, py::object>& groups,
-                  const std::string& name, const std::string& non_planar) {
+                  const std::string& name, const std::string& non_planar, double planarity_tolerance) {
     mesh::CellSoup<Dim> soup;
     soup.name = name;
     soup.vertices = vectors_of<Dim>(points, "points");
@@ -113,17 +113,18 @@ Mesh<Dim> mesh_of(const py::handle& points, const py::object& cells, const py::o
             soup.named_faces.push_back({{table.data(f, 0), table.data(f, 0) + table.shape(1)}, index});
         soup.group_names.push_back(group);
     }
-    return mesh::build_mesh<Dim>(std::move(soup), {.non_planar = non_planar_of(non_planar)});
+    return mesh::build_mesh<Dim>(std::move(soup),
+                                 {.planarity_tolerance = planarity_tolerance, .non_planar = non_planar_of(non_planar)});
 }
 
 py::object mesh_of_arrays(const py::object& points, const py::object& cells, const py::object& body,
                           const std::vector<std::string>& body_names, const std::map<std::string, py::object>& groups,
-                          const std::string& name, const std::string& non_planar) {
+                          const std::string& name, const std::string& non_planar, double planarity_tolerance) {
     const auto array = py::array::ensure(points);
     if (array && array.ndim() == 2 && array.shape(1) == 2)
-        return py::cast(mesh_of<2>(array, cells, body, body_names, groups, name, non_planar));
+        return py::cast(mesh_of<2>(array, cells, body, body_names, groups, name, non_planar, planarity_tolerance));
     if (array && array.ndim() == 2 && array.shape(1) == 3)
-        return py::cast(mesh_of<3>(array, cells, body, body_names, groups, name, non_planar));
+        return py::cast(mesh_of<3>(array, cells, body, body_names, groups, name, non_planar, planarity_tolerance));
     PyErr_Clear();
     throw py::value_error("points must have the shape (n, 2) or (n, 3)");
 }
@@ -283,18 +284,22 @@ void add_meshes(py::module_& module) {
     module.def(
         "mesh", &mesh_of_arrays, "points"_a, "cells"_a, "body"_a = py::none(), "body_names"_a = std::vector<std::string>(),
         "groups"_a = std::map<std::string, py::object>(), "name"_a = "mesh", "non_planar"_a = "fail",
+        "planarity_tolerance"_a = MeshOptions{}.planarity_tolerance,
         "A mesh of arrays. cells: {\"triangle\": (n, 3), ...}, pairs, or the blocks of meshio: triangle, quad; tetra, "
         "hexahedron, wedge, pyramid. body: one number per cell. groups: {name: points of each face (n, corners)}. "
-        "non_planar: 'fail' or 'split'.");
+        "non_planar: 'fail' or 'split', for faces with a corner farther off their plane than planarity_tolerance times "
+        "their "
+        "size.");
     module.def(
         "read_mesh",
-        [](const std::filesystem::path& path, int dim, const std::string& non_planar) {
-            const MeshOptions options{.non_planar = non_planar_of(non_planar)};
+        [](const std::filesystem::path& path, int dim, const std::string& non_planar, double planarity_tolerance) {
+            const MeshOptions options{.planarity_tolerance = planarity_tolerance, .non_planar = non_planar_of(non_planar)};
             if (dim == 2) return py::cast(mesh::read_mesh<2>(path, options));
             if (dim == 3) return py::cast(mesh::read_mesh<3>(path, options));
             throw py::value_error("dim is " + std::to_string(dim) + "; 2 and 3 are allowed");
         },
-        "path"_a, "dim"_a, "non_planar"_a = "fail", "A .msh or .vtu file.");
+        "path"_a, "dim"_a, "non_planar"_a = "fail", "planarity_tolerance"_a = MeshOptions{}.planarity_tolerance,
+        "A .msh or .vtu file. See mesh for the last two.");
     module.def(
         "disc",
         [](const std::array<double, 2>& centre, double radius, double size, int variant, const std::string& name) {

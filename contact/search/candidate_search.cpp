@@ -82,7 +82,7 @@ public:
         : surface_(surface),
           options_(checked(options)),
           shared_(sharing),
-          skin_(Dim, options.skin, checked_face_size(surface)),
+          skin_(Dim, options.skin, checked_face_size(surface, options)),
           translated_(surface_, options_) {
         if (options_.self_contact && options_.self_contact_rings > 0)
             neighbours_.emplace(surface_, options_.self_contact_rings);
@@ -114,8 +114,8 @@ public:
     [[nodiscard]] const CandidateReport& report() const { return report_; }
 
 private:
-    static double checked_face_size(const SurfaceView<Dim>& surface) {
-        check(surface);
+    static double checked_face_size(const SurfaceView<Dim>& surface, const CandidateOptions& options) {
+        check(surface, options.planarity_tolerance);
         return mean_face_size(surface);
     }
 

@@ -42,7 +42,8 @@ inline constexpr double min_length = 1e-75;
 [[nodiscard]] std::vector<std::int32_t> distinct_corners(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices,
                                                          std::int32_t face);
 
-/// The allowed distance of a corner from the plane of its polygon, or outside its edges, in units of sqrt(area):
+/// The allowed distance of a corner outside the edges of its polygon, in units of sqrt(area), and the least that is
+/// allowed from its plane:
 /// face_tolerance, as contact::check has it.
 [[nodiscard]] double shape_tolerance(std::span<const Vector<3>> corners);
 

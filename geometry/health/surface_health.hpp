@@ -10,6 +10,7 @@
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/health/face_faults.hpp"
 #include "abut/geometry/health/face_soup.hpp"
+#include "abut/geometry/planarity.hpp"
 
 namespace abut::geometry {
 
@@ -17,6 +18,7 @@ struct HealthOptions {
     double sliver_aspect = 100.0;            ///< faces beyond this aspect ratio are listed as slivers [-]
     bool self_intersections = false;         ///< look for them: the only part that costs more than sorting
     std::int32_t max_listed_pairs = 100000;  ///< of faces that intersect; their count is complete
+    double planarity_tolerance = geometry::planarity_tolerance;  ///< of polygons that count as flat [-], >= 0
 };
 
 /// An edge by its ends (SurfaceReport::merged_vertices), first < second.
@@ -62,7 +64,7 @@ struct SurfaceReport {
 
     std::vector<FlippedFace> flipped_duplicates;      ///< usable; in the order of the faces
     std::vector<std::int32_t> repeated_corner_faces;  ///< usable, but name a vertex twice in a row; increasing
-    std::vector<std::int32_t> non_planar_faces;       ///< to be cut into triangles; increasing
+    std::vector<std::int32_t> non_planar_faces;       ///< beyond the tolerance: to be cut into triangles; increasing
     double worst_planarity = 0.0;                     ///< distance of a corner from the plane of its face / sqrt(area)
     std::int32_t worst_planarity_face = -1;
 

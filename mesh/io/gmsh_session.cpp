@@ -12,10 +12,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "abut/geometry/box.hpp"
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/connected_bodies.hpp"
-#include "abut/mesh/io/plane_input.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
@@ -114,19 +112,11 @@ private:
     std::unordered_map<std::size_t, std::int32_t> sparse_;  ///< instead, where tags have large gaps
 };
 
-geometry::Box<3> box_of(const std::vector<double>& coordinates) {
-    geometry::Box<3> box;
-    for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
-        box.extend(Vector<3>(coordinates[i], coordinates[i + 1], coordinates[i + 2]));
-    return box;
-}
-
 template <int Dim>
 std::vector<std::size_t> read_nodes(CellSoup<Dim>& soup) {
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parameters;
     gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-    if (Dim == 2) check_lies_in_plane(soup.name, box_of(coordinates));
     soup.vertices.resize(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i)
         for (std::size_t k = 0; k < Dim; ++k) soup.vertices[i][static_cast<Eigen::Index>(k)] = coordinates[3 * i + k];
@@ -172,9 +162,9 @@ void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumb
     }
 }
 
-/// Elements of `dimension`: Dim, or those of a surface in space.
 template <int Dim>
-void read_cells(CellSoup<Dim>& soup, const NodeNumbers& number, int dimension = Dim) {
+void read_cells(CellSoup<Dim>& soup, const NodeNumbers& number) {
+    constexpr int dimension = Dim;
     gmsh::vectorpair groups, entities;
     gmsh::model::getPhysicalGroups(groups, dimension);
     std::vector<int> tags;
@@ -306,17 +296,6 @@ CellSoup<Dim> soup_of_gmsh_model(const std::string& name) {
     soup.n_ignored_elements = n_ignored_elements<Dim>();
     return soup;
 }
-
-CellSoup<3> surface_of_gmsh_model(const std::string& name) {
-    CellSoup<3> soup;
-    soup.name = name;
-    const NodeNumbers number(read_nodes(soup));
-    read_cells(soup, number, 2);
-    soup.n_ignored_elements = n_elements(0) + n_elements(1);
-    return soup;
-}
-
-bool has_gmsh_elements(int dimension) { return has_elements(dimension); }
 
 template CellSoup<2> soup_of_gmsh_model<2>(const std::string&);
 template CellSoup<3> soup_of_gmsh_model<3>(const std::string&);

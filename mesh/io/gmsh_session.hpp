@@ -1,6 +1,5 @@
 #pragma once
 // Private to the layer; not installed.
-#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -34,19 +33,8 @@ private:
 
 /// The cells of dimension Dim of Gmsh's current model. A body is a physical group of dimension Dim; cells outside any group
 /// make one body for each connected component. Boundary groups are the physical groups of dimension Dim - 1. A group without
-/// a name is called "physical_<tag>". Labels are Gmsh's element and node tags. Throws MeshError: see read_gmsh.
+/// a name is called "physical_<tag>". Labels are Gmsh's element and node tags. Throws MeshError.
 template <int Dim>
 [[nodiscard]] CellSoup<Dim> soup_of_gmsh_model(const std::string& name);
-
-/// The triangles and quadrangles of Gmsh's current model, in space. A body is a physical group of dimension 2; elements
-/// outside any group have the body -1. Empty if there are none. Throws MeshError: see read_gmsh.
-[[nodiscard]] CellSoup<3> surface_of_gmsh_model(const std::string& name);
-
-/// Whether Gmsh's current model has elements of that dimension.
-[[nodiscard]] bool has_gmsh_elements(int dimension);
-
-/// Opens a .msh file in a session and, when all is there that its head promises, calls `read`. Throws MeshError: see
-/// read_gmsh.
-void in_gmsh_file(const std::filesystem::path& path, const std::function<void()>& read);
 
 }  // namespace abut::mesh

@@ -1,8 +1,8 @@
 #include <algorithm>
+#include <utility>
 
 #include "abut/base/sort_unique.hpp"
-#include "abut/mesh/io/gmsh_session.hpp"
-#include "abut/mesh/io/read_gmsh.hpp"
+#include "abut/mesh/io/msh_soup.hpp"
 #include "abut/mesh/io/surface_readers.hpp"
 
 namespace abut::mesh {
@@ -22,14 +22,10 @@ void take_bodies(SurfaceMesh& mesh, const CellSoup<3>& soup, const std::string& 
 }  // namespace
 
 SurfaceMesh read_gmsh_surface(const std::filesystem::path& path, const SurfaceOptions& options) {
-    bool has_volume = false;
-    CellSoup<3> soup;
-    in_gmsh_file(path, [&] {
-        has_volume = has_gmsh_elements(3);
-        if (!has_volume) soup = surface_of_gmsh_model(path.string());
-        soup.warnings = GmshSession::warnings();
-    });
-    if (has_volume) return boundary_of(read_gmsh<3>(path, options.volume));
+    MshFile file = read_msh_file(path);
+    if (file.n_elements(3) > 0)
+        return boundary_of(build_mesh(soup_of_msh<3>(std::move(file), options.volume.planarity_tolerance), options.volume));
+    CellSoup<3> soup = surface_soup_of_msh(std::move(file));
     SurfaceMesh mesh;
     mesh.name = path.string();
     take_bodies(mesh, soup, path.stem().string());

@@ -1,23 +1,15 @@
 #include "abut/mesh/io/read_surface.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <limits>
 #include <new>
 #include <stdexcept>
 
+#include "abut/mesh/io/other_formats.hpp"
 #include "abut/mesh/io/surface_readers.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
 namespace {
-
-std::string small_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension;
-}
 
 SurfaceMesh read_by_extension(const std::filesystem::path& path, const std::string& extension,
                               const SurfaceOptions& options) {
@@ -28,9 +20,8 @@ SurfaceMesh read_by_extension(const std::filesystem::path& path, const std::stri
     if (extension == ".vtp") return read_vtp_surface(path, options);
     if (extension == ".vtu") return read_vtu_surface(path, options);
     if (extension == ".msh") return read_gmsh_surface(path, options);
-    throw MeshError(path.string() + ": the extension '" + path.extension().string() +
-                    "' is none of a surface file, .obj, .off, .ply, .stl, .vtp, .vtu and .msh can be read. Convert the file "
-                    "or rename it.");
+    throw MeshError(path.string() + ": " +
+                    about_extension(path, ".vtu", "a surface file, .obj, .off, .ply, .stl, .vtp, .vtu and .msh"));
 }
 
 SurfaceMesh read_or_refuse(const std::filesystem::path& path, const SurfaceOptions& options) {

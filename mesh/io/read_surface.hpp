@@ -31,7 +31,7 @@ struct SurfaceOptions {
 ///
 /// Throws MeshError with the file, the line (of text) or the byte (of binary .ply), the reason and the remedy: missing, empty,
 /// truncated, garbage, no face, an unknown extension, a displacement that is not finite or has not three components. Memory is
-/// taken for what a file holds, not for what it promises. Of .msh see also read_gmsh: Gmsh reads it in this process.
+/// taken for what a file holds, not for what it promises.
 [[nodiscard]] SurfaceMesh read_surface(const std::filesystem::path& path, const SurfaceOptions& options = {});
 
 }  // namespace abut::mesh

@@ -17,6 +17,7 @@
 
 #include "abut/geometry/box.hpp"
 #include "abut/mesh/connected_bodies.hpp"
+#include "abut/mesh/io/other_formats.hpp"
 #include "abut/mesh/io/plane_input.hpp"
 #include "abut/mesh/io/vtk_input.hpp"
 #include "abut/mesh/quality.hpp"
@@ -27,6 +28,7 @@ namespace {
 struct VtkShape {
     CellShape shape;
     std::array<int, max_cell_vertices> order;  ///< VTK's index of our vertex
+    bool is_curved = false;                    ///< of order 2: more points behind its corners
 };
 
 std::optional<VtkShape> shape_of_vtk(int type) {
@@ -49,6 +51,22 @@ std::optional<VtkShape> shape_of_vtk(int type) {
             return VtkShape{CellShape::prism, same};
         case VTK_PYRAMID:
             return VtkShape{CellShape::pyramid, same};
+        case VTK_QUADRATIC_TRIANGLE:
+        case VTK_BIQUADRATIC_TRIANGLE:
+            return VtkShape{CellShape::triangle, same, true};
+        case VTK_QUADRATIC_QUAD:
+        case VTK_BIQUADRATIC_QUAD:
+            return VtkShape{CellShape::quadrangle, same, true};
+        case VTK_QUADRATIC_TETRA:
+            return VtkShape{CellShape::tetrahedron, same, true};
+        case VTK_QUADRATIC_HEXAHEDRON:
+        case VTK_TRIQUADRATIC_HEXAHEDRON:
+            return VtkShape{CellShape::hexahedron, same, true};
+        case VTK_QUADRATIC_WEDGE:
+        case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+            return VtkShape{CellShape::prism, same, true};
+        case VTK_QUADRATIC_PYRAMID:
+            return VtkShape{CellShape::pyramid, same, true};
         default:
             return std::nullopt;
     }
@@ -56,14 +74,15 @@ std::optional<VtkShape> shape_of_vtk(int type) {
 
 bool has_lower_dimension(int type, int dimension) {
     const bool point = type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX;
-    const bool line = type == VTK_LINE || type == VTK_POLY_LINE;
-    const bool surface =
-        type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL || type == VTK_POLYGON || type == VTK_TRIANGLE_STRIP;
+    const bool line = type == VTK_LINE || type == VTK_POLY_LINE || type == VTK_QUADRATIC_EDGE;
+    const bool surface = type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL || type == VTK_POLYGON ||
+                         type == VTK_TRIANGLE_STRIP || type == VTK_QUADRATIC_TRIANGLE || type == VTK_BIQUADRATIC_TRIANGLE ||
+                         type == VTK_QUADRATIC_QUAD || type == VTK_BIQUADRATIC_QUAD;
     return point || line || (dimension == 3 && surface);
 }
 
 template <int Dim>
-void read_points(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
+void read_points(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid, double planarity_tolerance) {
     geometry::Box<3> box;
     soup.vertices.resize(static_cast<std::size_t>(grid.GetNumberOfPoints()));
     for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
@@ -72,7 +91,7 @@ void read_points(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
         box.extend(point);
         soup.vertices[i] = point.head<Dim>();
     }
-    if (Dim == 2) check_lies_in_plane(soup.name, box);
+    if (Dim == 2) check_lies_in_plane(soup.name, box, planarity_tolerance);
 }
 
 /// Files hold wedges in both orders: turns a prism that is inside out in ours.
@@ -102,6 +121,7 @@ template <int Dim>
 void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
     const auto values = body_values(soup.name, grid);
     std::vector<std::int64_t> bodies;
+    std::size_t n_curved = 0;
     vtkNew<vtkIdList> ids;
     for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
         const int type = grid.GetCellType(cell);
@@ -117,7 +137,7 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
                 " here. Convert it to straight-sided triangles, quadrangles, tetrahedra, hexahedra, wedges or pyramids.");
         grid.GetCellPoints(cell, ids);
         const auto n_ids = ids->GetNumberOfIds();
-        if (n_ids != n_vertices(shape->shape))
+        if (shape->is_curved ? n_ids < n_vertices(shape->shape) : n_ids != n_vertices(shape->shape))
             throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + std::to_string(n_ids) + " points, a " +
                             std::string(name(shape->shape)) + " has " + std::to_string(n_vertices(shape->shape)) +
                             ". Write the mesh again.");
@@ -127,8 +147,10 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
                                 std::to_string(ids->GetId(i)) + ", the file has " +
                                 std::to_string(grid.GetNumberOfPoints()) + ". Write the mesh again.");
         append_cell(soup, *shape, *ids, cell, -1);
+        n_curved += shape->is_curved;
         if (!values.empty()) bodies.push_back(values[static_cast<std::size_t>(cell)]);
     }
+    if (n_curved > 0) soup.warnings.push_back(about_order_2(n_curved));
     soup.body_names = names_of_bodies(bodies);
     for (std::size_t cell = 0; cell < bodies.size(); ++cell) soup.cell_body[cell] = static_cast<std::int32_t>(bodies[cell]);
     name_connected_bodies(soup);
@@ -141,7 +163,7 @@ Mesh<Dim> read_vtu(const std::filesystem::path& path, const MeshOptions& options
     CellSoup<Dim> soup;
     soup.name = path.string();
     const auto grid = read_unstructured_grid(path);
-    read_points(soup, *grid);
+    read_points(soup, *grid, options.planarity_tolerance);
     read_cells(soup, *grid);
     return build_mesh(std::move(soup), options);
 }

@@ -9,7 +9,7 @@ namespace abut::mesh {
 ///
 /// A body is a value of the cell array "body" (whole numbers), called "body_<value>", in increasing order; without that
 /// array, a connected component. Boundary groups do not exist in this format. VTK's pixels and voxels come in as
-/// quadrangles and hexahedra. Wedges are accepted in the order that VTK documents and in Gmsh's, as files use both. Cells
+/// quadrangles and hexahedra, quadratic cells by their corners (with a warning). Wedges are accepted in the order that VTK documents and in Gmsh's, as files use both. Cells
 /// of lower dimension are counted in BuildReport::n_ignored_elements. Labels are VTK's cell and point numbers.
 ///
 /// What the attributes promise is weighed against the size of the file before VTK makes room for it: a value takes 2 bytes as

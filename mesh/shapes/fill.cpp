@@ -2,8 +2,11 @@
 
 #include <gmsh.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -11,6 +14,7 @@
 #include "abut/geometry/health/surface_health.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/estimate.hpp"
 
 namespace abut::mesh {
 namespace {
@@ -36,6 +40,23 @@ void check_closed(const SurfaceMesh& surface) {
     require_none(health.non_manifold_edges.size(), "edges belong to more than two faces");
     require_none(health.inconsistent_edges.size(), "edges are run along the same way by both of their faces");
     if (health.components.size() != 1) refuse(surface, "it is in " + std::to_string(health.components.size()) + " parts.");
+}
+
+/// Cells grow from the triangles around them to `size` where these are smaller.
+double expected_cells(const SurfaceMesh& surface, double size) {
+    double volume = 0.0, area = 0.0;
+    const Vector<3>& origin = surface.vertices[static_cast<std::size_t>(surface.faces.values.front())];
+    const auto corner = [&](std::int32_t face, std::size_t i) {
+        return Vector<3>(surface.vertices[static_cast<std::size_t>(surface.faces[face][i])] - origin);
+    };
+    for (std::int32_t face = 0; face < surface.faces.size(); ++face) {
+        const Vector<3> a = corner(face, 0), b = corner(face, 1), c = corner(face, 2);
+        volume += a.dot(b.cross(c)) / 6.0;
+        area += 0.5 * (b - a).cross(c - a).norm();
+    }
+    // Of equilateral triangles of the mean area.
+    const double edge = std::sqrt(4.0 / std::numbers::sqrt3 * area / surface.faces.size());
+    return cells_in_unit<3> * std::abs(volume) / std::pow(std::min(size, edge), 3);
 }
 
 /// Gmsh measures with lengths of its own: it gets the surface about the origin and of about unit size.
@@ -84,6 +105,9 @@ Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshO
         throw MeshError(options.name + ": size is " + number(options.size) +
                         " m, a finite length above 0 is needed. Change the option.");
     check_closed(surface);
+    check_estimate(
+        options.name, expected_cells(surface, options.size), most_filled_cells, mesh_options,
+        "Raise size, see that scale is the length of the file's unit (1e-3 for millimetres), or coarsen " + surface.name);
     const Frame frame = frame_of(surface);
     CellSoup<3> soup;
     {

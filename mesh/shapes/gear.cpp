@@ -7,6 +7,8 @@
 
 #include "abut/base/messages.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/estimate.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::mesh {
 namespace {
@@ -115,6 +117,16 @@ void check(const Gear& gear) {
                 " m wide, above 0 m is needed. Give a smaller pressure_angle or backlash, or more teeth.");
 }
 
+/// As many as GearGrid makes, up to rounding.
+double expected_cells(const Gear& gear) {
+    const double module = 2.0 * gear.radius / gear.teeth, pitch = 2.0 * std::numbers::pi / gear.teeth;
+    const double root = gear.radius - 1.25 * module, tip = gear.radius + module;
+    const double side = 2.0 * half_tooth(gear, root) * root / gear.cells;
+    const double of_gap = std::max(2.0, pitch * root / side - gear.cells);
+    const double rows = std::max(2.0, (tip - root) / side), layers = std::max(2.0, (root - gear.bore) / side);
+    return gear.teeth * (layers * (gear.cells + of_gap) + rows * gear.cells);
+}
+
 }  // namespace
 
 double half_tooth(const Gear& gear, double radius) {
@@ -124,9 +136,11 @@ double half_tooth(const Gear& gear, double radius) {
     return thickness + involute(gear.pressure_angle) - (radius > base ? involute(std::acos(base / radius)) : 0.0);
 }
 
-Mesh<2> gear(const Gear& gear) {
+Mesh<2> gear(const Gear& gear, const MeshOptions& mesh_options) {
     check(gear);
-    return build_mesh(GearGrid(gear).soup());
+    check_estimate(gear.name, expected_cells(gear), most_structured_cells, mesh_options,
+                   "Lower cells_per_tooth or the number of teeth");
+    return build_mesh(GearGrid(gear).soup(), mesh_options);
 }
 
 }  // namespace abut::mesh

@@ -19,8 +19,9 @@ struct Gear {
     int cells = 4;                ///< across a tooth; even
     std::string name = "gear";
 };
-/// Boundary groups: teeth, bore. Throws MeshError naming the value, the limit and the remedy for sizes that make no gear.
-[[nodiscard]] Mesh<2> gear(const Gear& gear);
+/// Boundary groups: teeth, bore. Throws MeshError naming the value, the limit and the remedy for sizes that make no gear,
+/// and more cells than most_structured_cells (mesh/shapes/shapes.hpp) or MeshOptions::most_cells.
+[[nodiscard]] Mesh<2> gear(const Gear& gear, const MeshOptions& mesh_options = {});
 /// By which angle the right flank of a tooth lies from its middle at this distance from the centre [rad].
 [[nodiscard]] double half_tooth(const Gear& gear, double radius);
 

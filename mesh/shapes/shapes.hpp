@@ -9,13 +9,18 @@
 /// program must not have Gmsh open itself (gmsh::initialize) during a call, which would end that session. The same options
 /// give the same bits up to about 400,000 tetrahedra per part. Larger parts are meshed by Gmsh's HXT, which is fast but
 /// gives another mesh of the same size every time: save such a mesh where results must be repeatable. All throw MeshError
-/// when a length or count is not positive, a coordinate not finite, the cells would be more than 100 million (of
-/// `structured_box` and `fan_disc`: more than a Mesh can number, 268,435,455), or when Gmsh fails.
+/// when a length or count is not positive, a coordinate not finite, or when Gmsh fails; and, before anything is made, when the
+/// number of cells by its estimate is beyond MeshOptions::most_cells. Unless that is set, what Gmsh meshes may have
+/// `most_meshed_cells`, which take minutes, and what is made without it `most_structured_cells`.
 ///
 /// `variant` makes equal parts differ in their meshes, so that two of them in contact do not match node by node by accident:
-/// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the
-/// unstructured box gets a cell size that puts at least `variant` cells more on each edge. The refined place does not move.
+/// disc, cylinder and sphere are turned by `variant` golden angles (about z; the sphere about a skew axis); the wanted edge
+/// length of the unstructured box rises and falls by a tenth along its edges, in waves that are shifted by `variant` golden
+/// angles (0: no waves). The number of cells stays the same to a few percent, and the refined place does not move.
 namespace abut::mesh {
+
+inline constexpr double most_meshed_cells = 1e7;
+inline constexpr double most_structured_cells = 5e7;
 
 /// Smaller cells near a point: `size` [m], no more than the part's own size, up to `uniform` [m] from it, then growing
 /// linearly to the part's own size over `distance` [m].

@@ -8,6 +8,7 @@
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/local_faces.hpp"
 #include "abut/mesh/quality.hpp"
+#include "abut/mesh/shapes/estimate.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 
 namespace abut::mesh {
@@ -161,7 +162,7 @@ private:
 
 template <int Dim>
 void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts, CellShape shape,
-                const std::string& name) {
+                const std::string& name, const MeshOptions& options) {
     for (std::size_t i = 0; i < Dim; ++i) {
         if (counts[i] < 1)
             throw MeshError(name + ": counts[" + std::to_string(i) + "] is " + std::to_string(counts[i]) +
@@ -172,10 +173,8 @@ void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::a
                             ", a finite length above 0 is needed. Swap lower and upper.");
     }
     const double bricks = std::accumulate(counts.begin(), counts.end(), 1.0, std::multiplies<>());
-    if (bricks * static_cast<double>(pieces_of_brick(shape).size()) > max_cells)
-        throw MeshError(name + ": " + number(bricks) + " bricks make " +
-                        number(bricks * static_cast<double>(pieces_of_brick(shape).size())) + " cells, at most " +
-                        std::to_string(max_cells) + " are allowed. Lower the counts.");
+    check_estimate(name, bricks * static_cast<double>(pieces_of_brick(shape).size()), most_structured_cells, options,
+                   "Lower the counts");
     if (dimension(shape) != Dim)
         throw MeshError(name + ": a " + std::string(abut::mesh::name(shape)) + " cannot fill a box of dimension " +
                         std::to_string(Dim) + ". Choose another shape.");
@@ -186,15 +185,16 @@ void check_grid(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::a
 template <int Dim>
 Mesh<Dim> structured_box(const Vector<Dim>& lower, const Vector<Dim>& upper, const std::array<int, Dim>& counts,
                          CellShape shape, const std::string& name, const MeshOptions& mesh_options) {
-    check_grid<Dim>(lower, upper, counts, shape, name);
+    check_grid<Dim>(lower, upper, counts, shape, name, mesh_options);
     return build_mesh(Grid<Dim>(lower, upper, counts, shape, name).filled(), mesh_options);
 }
 
 Mesh<2> fan_disc(const Vector<2>& centre, double radius, int n_sectors, double turn, const std::string& name,
                  const MeshOptions& mesh_options) {
-    if (n_sectors < 3 || n_sectors > max_cells)
-        throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) + ", at least 3 and at most " +
-                        std::to_string(max_cells) + " are needed. Change the argument.");
+    if (n_sectors < 3)
+        throw MeshError(name + ": n_sectors is " + std::to_string(n_sectors) +
+                        ", at least 3 are needed. Change the argument.");
+    check_estimate(name, n_sectors, most_structured_cells, mesh_options, "Lower the number of sectors");
     if (!(radius > 0.0) || !std::isfinite(radius))
         throw MeshError(name + ": radius is " + number(radius) +
                         " m, a finite length above 0 is needed. Change the argument.");

@@ -155,6 +155,20 @@ std::vector<std::string> msh_files() {
             gmsh::finalize();
             files.push_back(bytes_of(file.path()));
         }
+    // In the plane, of order 2, in parts, with data behind; and several elements of a kind.
+    files.emplace_back(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 2 \"edge\"\n2 7 \"a plate\"\n$EndPhysicalNames\n"
+        "$Nodes\n9\n1 0 0 0\n2 0.5 0 0\n3 1 0 0\n4 0 0.5 0\n5 0.5 0.5 0\n6 1 0.5 0\n7 0 1 0\n8 0.5 1 0\n9 1 1 0\n"
+        "$EndNodes\n$Elements\n6\n1 1 2 2 1 1 2\n2 1 2 2 1 2 3\n3 3 2 7 1 1 2 5 4\n4 3 2 7 1 2 3 6 5\n"
+        "5 2 2 7 1 4 5 8\n6 3 2 7 1 5 6 9 8\n$EndElements\n$ElementData\n1\n\"p\"\n0\n3\n0\n1\n1\n6 2.5\n"
+        "$EndElementData");
+    files.emplace_back(
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3 2 \"body\"\n$EndPhysicalNames\n"
+        "$PartitionedEntities\n1\n1\n5 1\n0 0 1 1\n3 2 1 1 1 0 0 0 1 1 1 0 0\n1 3 1 1 1 0 0 0 1 1 1 1 2 1 3\n"
+        "$EndPartitionedEntities\n$Entities\n1 0 0 1\n9 0 0 0 0\n1 0 0 0 1 1 1 1 -2 0\n$EndEntities\n"
+        "$Nodes\n2 10 1 10\n2 3 1 1\n1\n0 0 0 0.5 0.5\n3 1 0 9\n2\n3\n4\n5\n6\n7\n8\n9\n10\n2 0 0\n0 2 0\n0 0 2\n"
+        "1 0 0\n1 1 0\n0 1 0\n0 0 1\n0 1 1\n1 0 1\n$EndNodes\n$Elements\n2 2 1 2\n2 3 2 1\n1 1 2 3\n3 1 11 1\n"
+        "2 1 2 3 4 5 6 7 8 9 10\n$EndElements\n$Periodic\n0\n$EndPeriodic\n");
     return files;
 }
 

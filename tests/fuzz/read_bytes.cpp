@@ -7,6 +7,7 @@
 #include <random>
 
 #include "abut/base/error.hpp"
+#include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 
 namespace abut::fuzz {
@@ -17,6 +18,24 @@ long peak_memory() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss / 1024;
+}
+
+template <class Read>
+Outcome outcome_of(const std::filesystem::path& path, Read read) {
+    Outcome outcome{false, "read"};
+    try {
+        (void)read(path);
+    } catch (const Error& error) {
+        outcome.text = error.what();
+        if (outcome.text.find(path.string()) == std::string::npos)
+            outcome = {true, "an error that does not name the file: " + outcome.text};
+        else if (outcome.text.find("memory of this machine") != std::string::npos ||
+                 outcome.text.find("bad_alloc") != std::string::npos)
+            outcome = {true, "memory ran out: " + outcome.text};
+    } catch (const std::exception& error) {
+        outcome = {true, std::string("an exception that is none of ours: ") + error.what()};
+    }
+    return outcome;
 }
 
 }  // namespace
@@ -36,18 +55,10 @@ ScratchFile::~ScratchFile() {
 
 Outcome read_file(const std::filesystem::path& path) {
     const long before = peak_memory();
-    Outcome outcome{false, "read"};
-    try {
-        (void)mesh::read_surface(path);
-    } catch (const Error& error) {
-        outcome.text = error.what();
-        if (outcome.text.find(path.string()) == std::string::npos)
-            outcome = {true, "an error that does not name the file: " + outcome.text};
-        else if (outcome.text.find("memory of this machine") != std::string::npos ||
-                 outcome.text.find("bad_alloc") != std::string::npos)
-            outcome = {true, "memory ran out: " + outcome.text};
-    } catch (const std::exception& error) {
-        outcome = {true, std::string("an exception that is none of ours: ") + error.what()};
+    Outcome outcome = outcome_of(path, [](const auto& p) { return mesh::read_surface(p); });
+    if (path.extension() == ".msh" && !outcome.is_fault) {  // a mesh in the plane goes another way
+        const Outcome in_plane = outcome_of(path, [](const auto& p) { return mesh::read_mesh<2>(p); });
+        if (in_plane.is_fault) outcome = in_plane;
     }
     if (const long taken = peak_memory() - before; taken > memory_limit)
         outcome = {true, "it took " + std::to_string(taken) + " MB; " + outcome.text};

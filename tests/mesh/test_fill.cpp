@@ -5,6 +5,7 @@
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes/fill.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/mesh/shapes/surface_shapes.hpp"
 #include "mesh/laws.hpp"
 
 namespace {
@@ -35,6 +36,23 @@ TEST_CASE("a closed surface is filled: its volume, its triangles, and the laws o
 TEST_CASE("smaller cells fill a surface with more of them", "[mesh][fill]") {
     const SurfaceMesh surface = box_of_triangles();
     CHECK(fill(surface, {.size = 0.2}).n_cells() > 2 * fill(surface, {.size = 1.0}).n_cells());
+}
+
+TEST_CASE("a surface in another unit is refused before it is filled, and the estimate is near what is made",
+          "[mesh][fill]") {
+    SurfaceMesh in_millimetres = sphere_surface({.n_subdivisions = 2});
+    const auto made = fill(in_millimetres, {.size = 0.1}).n_cells();
+    CHECK_THROWS_AS(fill(in_millimetres, {.size = 0.1}, {.most_cells = 0.4 * made}), MeshError);
+    CHECK_NOTHROW(fill(in_millimetres, {.size = 0.1}, {.most_cells = 4.0 * made}));
+    for (Vector<3>& x : in_millimetres.vertices) x *= 1000.0;
+    try {
+        (void)fill(in_millimetres, {.size = 0.1, .name = "ball"});
+        FAIL("it is filled");
+    } catch (const MeshError& error) {
+        CHECK_THAT(error.what(),
+                   Catch::Matchers::Contains("ball: its sizes make about 1.") &&
+                       Catch::Matchers::Contains("cells, at most 5000000 are made. Raise size, see that scale"));
+    }
 }
 
 TEST_CASE("what is not one closed surface of triangles is refused", "[mesh][fill]") {

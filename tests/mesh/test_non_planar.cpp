@@ -28,9 +28,8 @@ TEST_CASE("cutting cells with warped faces conserves the volume and conforms", "
         REQUIRE_THROWS_WITH(
             build_mesh(soup),
             Catch::Contains("is not planar: a vertex lies ") &&
-                Catch::Contains(
-                    " m is allowed. Have such cells cut: non-planar faces \"split\" (MeshOptions::non_planar), or raise "
-                    "MeshOptions::planarity_tolerance."));
+                Catch::Contains(" m is allowed. Have such cells cut into tetrahedra (non_planar = \"split\"), or raise "
+                                "planarity_tolerance, now 1e-06 of the size of a face"));
         const auto mesh = build_mesh(soup, {.non_planar = NonPlanarFaces::split});
         CHECK(test::total_measure(mesh) == Approx(6.0).epsilon(1e-13));
         test::check_two_sides(mesh);

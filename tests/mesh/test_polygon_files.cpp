@@ -165,7 +165,7 @@ TEST_CASE("files that are missing, empty, garbage or of no known kind are refuse
         save(folder / ("garbage" + extension), garbage);
         CHECK_THAT(complaint_about(folder / ("garbage" + extension)), Contains("garbage" + extension + ": "));
     }
-    CHECK_THAT(complaint_about(folder / "a.step"), Contains("a.step: the extension '.step' is none of a surface file"));
+    CHECK_THAT(complaint_about(folder / "a.xyz"), Contains("a.xyz: the extension '.xyz' is none of a surface file"));
     CHECK_THAT(complaint_about(folder.path()), !Contains("nothing"));
 }
 

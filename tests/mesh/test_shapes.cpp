@@ -6,6 +6,8 @@
 #include <numbers>
 #include <thread>
 
+#include "abut/mesh/shapes/gear.hpp"
+
 using namespace abut;
 using namespace abut::mesh;
 using Catch::Matchers::Contains;
@@ -146,10 +148,41 @@ TEST_CASE("equal parts of different variants do not match", "[mesh][shapes]") {
     CHECK(n_common_boundary_vertices<2>(one, two, Vector<2>(0, -3)) == 0);
     const auto a = cylinder({.size = 0.3}), b = cylinder({.size = 0.3, .variant = 1});
     CHECK(n_common_boundary_vertices<3>(a, b, Vector<3>::Zero()) == 0);
-    // Boxes always share their corners; nothing else may coincide on an edge of L / h = 5 against 6 cells.
-    const auto c = box<2>({.size = 0.2}), d = box<2>({.size = 0.2, .variant = 1});
-    CHECK(c.group("ymin").faces.size() == 5);
-    CHECK(d.group("ymin").faces.size() == 6);
+    // Boxes always share their corners, and nothing else.
+    std::vector<Mesh<2>> boxes;
+    for (const int variant : {0, 1, 2, 7, 20}) boxes.push_back(box<2>({.size = 0.2, .variant = variant}));
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) CHECK(n_common_boundary_vertices<2>(boxes[i], boxes[j], Vector<2>::Zero()) == 4);
+    const auto solid = box<3>({.size = 0.34}), other = box<3>({.size = 0.34, .variant = 3});
+    int n_common = 0;
+    for (const auto& x : solid.vertices)
+        for (const auto& y : other.vertices) n_common += (x - y).norm() < 1e-6;
+    CHECK(n_common == 8);
+}
+
+TEST_CASE("a variant has as many cells as another, to a few percent", "[mesh][shapes]") {
+    const auto n = box<2>({.upper = {0.15, 0.1}, .size = 0.003}).n_cells();
+    const auto n_solid = box<3>({.size = 0.1}).n_cells();
+    for (const int variant : {1, 2, 20}) {
+        CAPTURE(variant);
+        CHECK(box<2>({.upper = {0.15, 0.1}, .size = 0.003, .variant = variant}).n_cells() == Approx(n).epsilon(0.04));
+        CHECK(box<3>({.size = 0.1, .variant = variant}).n_cells() == Approx(n_solid).epsilon(0.08));
+    }
+}
+
+TEST_CASE("a shape with more cells than it may have is refused before anything is made", "[mesh][shapes]") {
+    CHECK_THROWS_WITH(gear({.cells = 2'000'000'000}),
+                      Contains("gear: its sizes make about ") && Contains(" cells, at most 50000000 are made. Lower "
+                                                                          "cells_per_tooth or the number of teeth, or raise "
+                                                                          "most_cells"));
+    CHECK_THROWS_WITH(structured_box<2>({0, 0}, {1, 1}, {100, 100}, CellShape::triangle, "box", {.most_cells = 19'999.0}),
+                      Contains("box: its sizes make about 20000 cells, at most 19999 are made."));
+    CHECK(structured_box<2>({0, 0}, {1, 1}, {10, 10}, CellShape::triangle, "box", {.most_cells = 200.0}).n_cells() == 200);
+    CHECK_THROWS_WITH(disc({.size = 0.01}, {.most_cells = 1000.0}), Contains("at most 1000 are made. Raise size"));
+    // The estimate of a gear is what it gets.
+    const auto made = gear({.cells = 8}).n_cells();
+    CHECK_THROWS_AS(gear({.cells = 8}, {.most_cells = 0.9 * made}), MeshError);
+    CHECK_NOTHROW(gear({.cells = 8}, {.most_cells = 1.1 * made}));
 }
 
 TEST_CASE("a fan is a regular polygon of cells that are all neighbours on the boundary", "[mesh][shapes]") {
@@ -175,8 +208,9 @@ TEST_CASE("impossible shapes are refused by name, value and limit", "[mesh][shap
                       Contains("a prism cannot fill a box of dimension 2"));
     CHECK_THROWS_WITH((structured_box<2>({0, 0}, {1, -1}, {2, 2}, CellShape::triangle)),
                       Contains("the box is -1 m long along y"));
-    CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 2), Contains("n_sectors is 2, at least 3 and at most 268435455 are needed."));
-    CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 268435456), Contains("n_sectors is 268435456"));
+    CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 2), Contains("n_sectors is 2, at least 3 are needed."));
+    CHECK_THROWS_WITH(fan_disc({0, 0}, 1, 268435456),
+                      Contains("disc: its sizes make about 2.68435e+08 cells, at most 50000000 are made."));
     CHECK_THROWS_WITH(fan_disc({0, 0}, 0, 5), Contains("radius is 0 m"));
 }
 
@@ -191,12 +225,11 @@ TEST_CASE("sizes and places that make no mesh are refused before Gmsh tries", "[
                       Contains("disc: refinement.size is 0.2 m, at most size = 0.1 m is allowed. Lower it"));
     CHECK_THROWS_WITH(disc({.size = 0.1, .refinement = Refinement<2>{{0, -1}, 0.01, 0.5, -0.1}}),
                       Contains("disc: refinement.uniform is -0.1 m, 0 or more is needed"));
-    CHECK_THROWS_WITH(
-        cylinder({.size = 1e-4}),
-        Contains("cylinder: the sizes asked for make about 1.44513e+13 cells, at most 1e+08 are meshed. Raise size"));
-    CHECK_THROWS_WITH(disc({.size = 1e-6}), Contains("at most 1e+08 are meshed."));
+    CHECK_THROWS_WITH(cylinder({.size = 1e-4}),
+                      Contains("cylinder: its sizes make about 1.44513e+13 cells, at most 10000000 are made. Raise size"));
+    CHECK_THROWS_WITH(disc({.size = 1e-6}), Contains("at most 10000000 are made."));
     CHECK_THROWS_WITH(sphere({.size = 0.1, .refinement = Refinement<3>{{0, 0, 1}, 1e-3, 1e3}}),
-                      Contains("at most 1e+08 are meshed."));
+                      Contains("at most 10000000 are made."));
 }
 
 TEST_CASE("meshing leaves the locale of the program as it was", "[mesh][shapes]") {

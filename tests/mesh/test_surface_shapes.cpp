@@ -13,8 +13,6 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 geometry::SurfaceReport checked(const SurfaceMesh& mesh) {
     return geometry::check_surface(mesh.soup(), {.self_intersections = true});
 }
@@ -48,7 +46,7 @@ TEST_CASE("a torus is closed, of genus 1, and its volume tends to 2 pi^2 R r^2",
     };
     check_closed(torus(12), 1);
     CHECK(torus(12).faces.size() == 2 * 24 * 12);
-    const double exact = 2.0 * pi * pi * 1.5 * 0.4 * 0.4;
+    const double exact = 2.0 * std::numbers::pi * std::numbers::pi * 1.5 * 0.4 * 0.4;
     const double coarse = exact - volume_of(torus(16)), fine = exact - volume_of(torus(32));
     CHECK(coarse > 0.0);
     CHECK(coarse / fine == Approx(4.0).epsilon(0.02));
@@ -64,7 +62,7 @@ TEST_CASE("a gear is closed, of genus 1, and holds what outline and bore enclose
     CHECK(gear.faces.size() == 16 * 12 * options.n_flank * (3 + 4));
     if (options.n_flank > 1) return;
     // Triangles from the axis to each line of the outline, less the same of the bore: r1 r2 sin(angle) / 2.
-    const double pitch = 2.0 * pi / 12, tip = 0.3 * pitch, flank = 0.15 * pitch, root = 0.4 * pitch;
+    const double pitch = 2.0 * std::numbers::pi / 12, tip = 0.3 * pitch, flank = 0.15 * pitch, root = 0.4 * pitch;
     const double outline = 12 * 0.5 * (std::sin(tip) + 2 * 0.8 * std::sin(flank) + 0.8 * 0.8 * std::sin(root));
     const double bore = 12 * 0.5 * 0.3 * 0.3 * (std::sin(tip) + 2 * std::sin(flank) + std::sin(root));
     CHECK(volume_of(gear) == Approx(0.2 * (outline - bore)));
@@ -76,7 +74,7 @@ TEST_CASE("a barrel is closed, of genus 0, and holds its polygon times its lengt
     const SurfaceMesh barrel = barrel_surface(options);
     check_closed(barrel, 0);
     CHECK(barrel.faces.size() == 8 * n * 6 + 4 * n * n);
-    CHECK(volume_of(barrel) == Approx(3.0 * 0.5 * 4 * n * 0.7 * 0.7 * std::sin(2.0 * pi / (4 * n))));
+    CHECK(volume_of(barrel) == Approx(3.0 * 0.5 * 4 * n * 0.7 * 0.7 * std::sin(2.0 * std::numbers::pi / (4 * n))));
     CHECK(checked(barrel).worst_aspect < 10.0);  // no fan, no cut-off corner
 }
 
@@ -91,13 +89,13 @@ TEST_CASE("a barrel without caps has two rims", "[mesh][surface][shapes]") {
 TEST_CASE("a sphere is closed, of genus 0, and its volume tends to 4/3 pi r^3", "[mesh][surface][shapes]") {
     check_closed(sphere_surface({.n_subdivisions = 3}), 0);
     CHECK(sphere_surface({.n_subdivisions = 3}).faces.size() == 20 * 64);
-    const double exact = 4.0 / 3.0 * pi * 8.0;
+    const double exact = 4.0 / 3.0 * std::numbers::pi * 8.0;
     const auto lacking = [&](int n) { return exact - volume_of(sphere_surface({.radius = 2.0, .n_subdivisions = n})); };
     CHECK(lacking(3) > 0.0);
     CHECK(lacking(3) / lacking(4) == Approx(4.0).epsilon(0.02));
     CHECK(checked(sphere_surface({.n_subdivisions = 4})).worst_aspect < 2.0);
     // The icosahedron of circumradius 1: edge a, volume 5 (3 + sqrt 5) a^3 / 12.
-    const double a = 1.0 / std::sin(2.0 * pi / 5);
+    const double a = 1.0 / std::sin(2.0 * std::numbers::pi / 5);
     CHECK(volume_of(sphere_surface({.n_subdivisions = 0})) == Approx(5.0 * (3.0 + std::sqrt(5.0)) * a * a * a / 12.0));
 }
 
@@ -110,7 +108,9 @@ TEST_CASE("a sheet is one open piece that faces z and follows its waves", "[mesh
     CHECK(euler(health) == 1);
     CHECK(health.inconsistent_edges.empty());
     for (const Vector<3>& x : sheet.vertices)
-        CHECK(x.z() == Approx(0.1 * std::sin(3.0 * pi * x.x()) * std::cos(6.0 * pi * x.y())).margin(1e-14));
+        CHECK(
+            x.z() ==
+            Approx(0.1 * std::sin(3.0 * std::numbers::pi * x.x()) * std::cos(6.0 * std::numbers::pi * x.y())).margin(1e-14));
     const auto flat = sheet_surface({.amplitude = 0.0});
     CHECK(geometry::check_surface(flat.soup()).area == Approx(1.0));
     std::vector<Vector<3>> corners;

@@ -104,15 +104,16 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     report.warnings = {"node 3 is lonely"};
     report.n_unused_vertices = 1;
     report.n_ignored_elements = 2;
-    report.n_cut_cells = 3;
-    report.n_coincident_vertices = 4;
-    result.stencils.extrapolated = 5;
-    result.blind_corners.assign(6, Vector<2>(0.5, 0.25));
+    report.n_turned_cells = 3;
+    report.n_cut_cells = 4;
+    report.n_coincident_vertices = 5;
+    result.stencils.extrapolated = 6;
+    result.blind_corners.assign(7, Vector<2>(0.5, 0.25));
     const auto warnings = run::warnings_before(scene, result);
     CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
-                                         WarningKind::cut_cells, WarningKind::coincident_vertices,
+                                         WarningKind::turned_cells, WarningKind::cut_cells, WarningKind::coincident_vertices,
                                          WarningKind::extrapolated_faces, WarningKind::blind_corners});
-    CHECK(warnings.front().text == "Gmsh: node 3 is lonely");
+    CHECK(warnings.front().text == "mesh file: node 3 is lonely");
     for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
     CHECK(warnings.back().text.find("0.5, 0.25") != std::string::npos);
     CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices,
