@@ -35,7 +35,11 @@ Key<Body> radius() { return required(Of::number("radius", &Body::radius, a_lengt
 Key<Body> size() { return required(Of::number("size", &Body::size, a_length, "wanted edge length of cells")); }
 Key<Body> variant() {
     return Of::count("variant", &Body::variant, 0, Of::many,
-                     "makes equal shapes differ in their meshes: give each body another");
+                     "makes equal shapes differ in their meshes, not in their number of cells: give each body another");
+}
+Key<Body> most_cells() {
+    return Of::number("most_cells", &Body::most_cells, {.above = 0.0},
+                      "that may be made; an estimate beyond it is refused before anything is made");
 }
 Key<Body> lower() { return required(Of::vector("lower", &Body::lower, "m", "", "corner with the smallest coordinates")); }
 Key<Body> upper() { return required(Of::vector("upper", &Body::upper, "m", "", "corner with the largest coordinates")); }
@@ -110,13 +114,27 @@ const Keys<Body>& body_keys() {
     return keys;
 }
 
+const Keys<Body>& part_keys() {
+    static const Keys<Body> keys = [] {
+        Keys<Body> chosen;
+        for (const Key<Body>& key : body_keys())
+            if (key.name != "place" && key.name != "turn") {
+                chosen.push_back(key);
+                chosen.back().required = false;
+            }
+        return chosen;
+    }();
+    return keys;
+}
+
 const std::vector<Variety<Body, Shape>>& body_varieties() {
     static const std::vector<Variety<Body, Shape>> varieties = with_all_keys<Body, Shape>(
-        {{"disc", Shape::disc, {2}, {radius(), size(), refinement(), variant()}},
+        {{"disc", Shape::disc, {2}, {radius(), size(), refinement(), variant(), most_cells()}},
          {"fan_disc",
           Shape::fan_disc,
           {2},
-          {radius(), required(Of::count("sectors", &Body::sectors, 3, Of::many, "triangles around the centre"))}},
+          {radius(), required(Of::count("sectors", &Body::sectors, 3, Of::many, "triangles around the centre")),
+           most_cells()}},
          {"gear",
           Shape::gear,
           {2},
@@ -127,22 +145,26 @@ const std::vector<Variety<Body, Shape>>& body_varieties() {
                       "two gears mesh where theirs are equal, and radius over teeth, too"),
            Of::number("backlash", &Body::backlash, {.unit = "m", .above = 0.0, .zero = true},
                       "half of what a tooth is thinner than a gap on the pitch circle"),
-           Of::count("cells_per_tooth", &Body::cells_per_tooth, 2, Of::many, "across a tooth; an even number")}},
-         {"box", Shape::box, {2, 3}, {lower(), upper(), size(), refinement(), variant()}},
+           Of::count("cells_per_tooth", &Body::cells_per_tooth, 2, Of::many, "across a tooth; an even number"),
+           most_cells()}},
+         {"box", Shape::box, {2, 3}, {lower(), upper(), size(), refinement(), variant(), most_cells()}},
          {"structured_box",
           Shape::structured_box,
           {2, 3},
           {lower(), upper(), counts(),
-           Of::word("cells", &Body::cells, cell_words, "shape of cells; by default quadrangles in 2D, hexahedra in 3D")}},
-         {"cylinder", Shape::cylinder, {3}, {radius(), length(), size(), refinement(), variant()}},
-         {"sphere", Shape::sphere, {3}, {radius(), size(), refinement(), variant()}},
+           Of::word("cells", &Body::cells, cell_words, "shape of cells; by default quadrangles in 2D, hexahedra in 3D"),
+           most_cells()}},
+         {"cylinder", Shape::cylinder, {3}, {radius(), length(), size(), refinement(), variant(), most_cells()}},
+         {"sphere", Shape::sphere, {3}, {radius(), size(), refinement(), variant(), most_cells()}},
          {"file",
           Shape::file,
           {2, 3},
           {required(
                Of::text("mesh", &Body::mesh, "path", ".msh or .vtu file, from the folder of the scene; no shape is needed")),
            Of::word("non_planar", &Body::non_planar, non_planar_words,
-                    "cells with faces that are not planar: refuse them, or split them into tetrahedra")}},
+                    "cells with faces that are not planar: refuse them, or split them into tetrahedra"),
+           Of::number("planarity_tolerance", &Body::planarity_tolerance, {.above = 0.0, .zero = true},
+                      "how far a corner may lie off the plane of its face, over the size of the face")}},
          {"surface",
           Shape::surface,
           {3},
@@ -150,7 +172,8 @@ const std::vector<Variety<Body, Shape>>& body_varieties() {
                Of::text("surface", &Body::surface, "path",
                         ".stl, .obj, .off, .ply or .vtp file with one closed surface of triangles, which is filled with "
                         "tetrahedra; no shape is needed")),
-           size(), Of::number("scale", &Body::scale, a_length, "length of the file's unit, 1e-3 for millimetres")}}});
+           size(), Of::number("scale", &Body::scale, a_length, "length of the file's unit, 1e-3 for millimetres"),
+           most_cells()}}});
     return varieties;
 }
 

@@ -1,13 +1,18 @@
 #include "abut/input/make_body.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "abut/base/error.hpp"
 #include "abut/base/text.hpp"
+#include "abut/input/nearest_word.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/io/read_mesh.hpp"
 #include "abut/mesh/io/read_surface.hpp"
 #include "abut/mesh/place.hpp"
+#include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes/fill.hpp"
 #include "abut/mesh/shapes/gear.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
@@ -33,6 +38,12 @@ std::optional<mesh::Refinement<Dim>> refinement(const BodySettings& body, const 
                                  body.refinement->distance, body.refinement->uniform};
 }
 
+mesh::MeshOptions mesh_options(const BodySettings& body) {
+    mesh::MeshOptions options{.planarity_tolerance = body.planarity_tolerance, .non_planar = body.non_planar};
+    if (std::isfinite(body.most_cells)) options.most_cells = body.most_cells;
+    return options;
+}
+
 template <int Dim>
 mesh::CellShape cells_of(const BodySettings& body) {
     return body.cells.value_or(Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron);
@@ -45,13 +56,14 @@ mesh::Mesh<Dim> box(const BodySettings& body) {
                            .size = body.size,
                            .refinement = refinement<Dim>(body, Vector<3>::Zero()),
                            .variant = body.variant,
-                           .name = body.name});
+                           .name = body.name},
+                          mesh_options(body));
 }
 
 template <int Dim>
 mesh::Mesh<Dim> structured_box(const BodySettings& body) {
     return mesh::structured_box<Dim>(head<Dim>(body.lower), head<Dim>(body.upper), counts_in<Dim>(body.counts),
-                                     cells_of<Dim>(body), body.name);
+                                     cells_of<Dim>(body), body.name, mesh_options(body));
 }
 
 mesh::Mesh<2> round_body_in_plane(const BodySettings& body) {
@@ -64,14 +76,17 @@ mesh::Mesh<2> round_body_in_plane(const BodySettings& body) {
                            .pressure_angle = body.pressure_angle,
                            .backlash = body.backlash,
                            .cells = body.cells_per_tooth,
-                           .name = body.name});
-    if (body.shape == Shape::fan_disc) return mesh::fan_disc(middle, body.radius, body.sectors, 0.0, body.name);
+                           .name = body.name},
+                          mesh_options(body));
+    if (body.shape == Shape::fan_disc)
+        return mesh::fan_disc(middle, body.radius, body.sectors, 0.0, body.name, mesh_options(body));
     return mesh::disc({.centre = middle,
                        .radius = body.radius,
                        .size = body.size,
                        .refinement = refinement<2>(body, centre(body)),
                        .variant = body.variant,
-                       .name = body.name});
+                       .name = body.name},
+                      mesh_options(body));
 }
 
 mesh::Mesh<3> round_body_in_space(const BodySettings& body) {
@@ -81,14 +96,16 @@ mesh::Mesh<3> round_body_in_space(const BodySettings& body) {
                              .size = body.size,
                              .refinement = refinement<3>(body, centre(body)),
                              .variant = body.variant,
-                             .name = body.name});
+                             .name = body.name},
+                            mesh_options(body));
     return mesh::cylinder({.centre = centre(body),
                            .radius = body.radius,
                            .length = body.length,
                            .size = body.size,
                            .refinement = refinement<3>(body, centre(body)),
                            .variant = body.variant,
-                           .name = body.name});
+                           .name = body.name},
+                          mesh_options(body));
 }
 
 bool has_centre(Shape shape) {
@@ -107,7 +124,7 @@ mesh::Mesh<Dim> round_body(const BodySettings& body) {
 mesh::Mesh<3> filled_surface(const BodySettings& body, const std::filesystem::path& folder) {
     mesh::SurfaceMesh surface = mesh::read_surface(folder / body.surface);
     for (Vector<3>& x : surface.vertices) x *= body.scale;
-    return mesh::fill(surface, {.size = body.size, .name = body.name});
+    return mesh::fill(surface, {.size = body.size, .name = body.name}, mesh_options(body));
 }
 
 template <int Dim>
@@ -117,7 +134,16 @@ mesh::Mesh<Dim> unplaced(const BodySettings& body, const std::filesystem::path& 
     if (body.shape == Shape::structured_box) return structured_box<Dim>(body);
     if constexpr (Dim == 3)
         if (body.shape == Shape::surface) return filled_surface(body, folder);
-    return mesh::read_mesh<Dim>(folder / body.mesh, {.non_planar = body.non_planar});
+    return mesh::read_mesh<Dim>(folder / body.mesh, mesh_options(body));
+}
+
+/// Every table of a body of the file has its body.
+template <int Dim>
+void check_parts(const mesh::Mesh<Dim>& mesh, const BodySettings& body) {
+    for (const BodySettings& part : body.parts)
+        if (std::ranges::find(mesh.body_names, part.name) == mesh.body_names.end())
+            throw mesh::MeshError(fmt::format("bodies.{}.{}: {} has no body of this name.{}", body.name, part.name,
+                                              body.mesh.string(), hint(part.name, mesh.body_names)));
 }
 
 template <int Dim>
@@ -140,8 +166,17 @@ mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path&
     const bool turns = !body.turn.isZero(0.0);
     if (turns || (!has_centre(body.shape) && !body.place.isZero(0.0)))
         mesh::place(mesh, turns ? rotation<Dim>(body.turn) : Matrix<Dim>(Matrix<Dim>::Identity()), head<Dim>(body.place));
+    check_parts(mesh, body);
     name_parts(mesh, body.name);
     return mesh;
+}
+
+const BodySettings& settings_of(const BodySettings& body, const std::string& name) {
+    // A file with one body gives it the name of the table.
+    if (name == body.name && body.parts.size() == 1) return body.parts.front();
+    for (const BodySettings& part : body.parts)
+        if (name == body.name + "." + part.name) return part;
+    return body;
 }
 
 template mesh::Mesh<2> make_body<2>(const BodySettings&, const std::filesystem::path&);

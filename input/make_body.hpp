@@ -8,8 +8,12 @@
 namespace abut::input {
 
 /// The mesh of a body in its place; bodies "<name>", of a file with several "<name>.<body of the file>"; groups
-/// "<name>.<group>". Files are looked for from `folder`. Throws MeshError.
+/// "<name>.<group>". Files are looked for from `folder`. Throws MeshError, also where a table of BodySettings::parts has no
+/// body of the file.
 template <int Dim>
 [[nodiscard]] mesh::Mesh<Dim> make_body(const BodySettings& body, const std::filesystem::path& folder);
+
+/// What of a file with several bodies holds for the one of this name in the mesh of make_body: its own table, or `body`.
+[[nodiscard]] const BodySettings& settings_of(const BodySettings& body, const std::string& name);
 
 }  // namespace abut::input

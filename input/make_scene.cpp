@@ -20,28 +20,35 @@
 namespace abut::input {
 namespace {
 
-/// Appends what belongs to the bodies of one table, of which a file may hold several.
 template <int Dim>
-void append_body(run::Scene<Dim>& scene, const BodySettings& body, std::int32_t n_bodies, const Vector<3>& gravity) {
-    for (std::int32_t i = 0; i < n_bodies; ++i) {
-        scene.solid.materials.push_back(body.material);
-        scene.solid.kinematics.push_back(body.kinematics);
-        scene.velocity.push_back(head<Dim>(body.velocity));
-        if (!gravity.isZero(0.0)) scene.solid.acceleration.push_back(head<Dim>(gravity));
-    }
+void append_body(run::Scene<Dim>& scene, const BodySettings& body, const Vector<3>& gravity) {
+    scene.solid.materials.push_back(body.material);
+    scene.solid.kinematics.push_back(body.kinematics);
+    scene.velocity.push_back(head<Dim>(body.velocity));
+    if (!gravity.isZero(0.0)) scene.solid.acceleration.push_back(head<Dim>(gravity));
 }
 
-/// Angular velocities of all bodies; none if nothing spins.
+bool spins(const BodySettings& body) { return !body.spin.isZero(0.0) || std::ranges::any_of(body.parts, spins); }
+
+/// Appends what belongs to the bodies of one table, of which a file may hold several, some with tables of their own.
 template <int Dim>
-void append_spins(run::Scene<Dim>& scene, const BodySettings& body, std::int32_t n_bodies) {
-    for (std::int32_t i = 0; i < n_bodies; ++i) scene.spin.push_back(axial<Dim>(body.spin));
+void append_bodies(run::Scene<Dim>& scene, const BodySettings& body, const std::vector<std::string>& names,
+                   const Settings& settings, std::vector<Fault>& faults) {
+    const bool any_spins = std::ranges::any_of(settings.bodies, spins);
+    for (const std::string& name : names) {
+        const BodySettings& own = settings_of(body, name);
+        if (!own.has_material)
+            faults.push_back({own.where, fmt::format("body '{}' has no material. Give young and density, or material, in "
+                                                     "[bodies.{}].",
+                                                     name, name)});
+        append_body(scene, own, settings.gravity);
+        if (any_spins) scene.spin.push_back(axial<Dim>(own.spin));
+    }
 }
 
 template <int Dim>
 void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     std::vector<mesh::Mesh<Dim>> meshes;
-    const bool any_spins =
-        std::ranges::any_of(settings.bodies, [](const BodySettings& body) { return !body.spin.isZero(0.0); });
     for (const BodySettings& body : settings.bodies) {
         if (body.shape == Shape::none) continue;
         try {
@@ -50,8 +57,7 @@ void add_bodies(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fa
             faults.push_back({body.where, error.what()});
             continue;
         }
-        append_body(scene, body, meshes.back().n_bodies(), settings.gravity);
-        if (any_spins) append_spins(scene, body, meshes.back().n_bodies());
+        append_bodies(scene, body, meshes.back().body_names, settings, faults);
     }
     if (!meshes.empty()) scene.mesh = mesh::combine<Dim>(meshes);
 }

@@ -81,12 +81,42 @@ void take_material(BodySettings& body, const Node& name, const std::string& path
                                    known.empty() ? " Give [materials." + name.text + "]." : hint(name.text, known)));
 }
 
-/// A material is complete, so that nothing of it is required of a body that has one.
-Keys<BodySettings> keys_of(const Node& body) {
+/// Tables within that of a body that are none of its keys: each of a body of its file.
+std::vector<std::size_t> part_tables(const Node& body, const Variety<BodySettings, Shape>& variety) {
+    std::vector<std::size_t> tables;
+    if (variety.choice != Shape::file) return tables;
+    const auto known = [&](const std::string& name) {
+        return std::ranges::find(variety.keys, name, &Key<BodySettings>::name) != variety.keys.end() ||
+               std::ranges::find(body_keys(), name, &Key<BodySettings>::name) != body_keys().end();
+    };
+    for (std::size_t i = 0; i < body.items.size(); ++i)
+        if (body.items[i].type == Node::Type::table && !known(body.names[i])) tables.push_back(i);
+    return tables;
+}
+
+/// A material is complete, so that nothing of it is required of a body that has one, nor of bodies with tables of their own.
+Keys<BodySettings> keys_of(const Node& body, const std::vector<std::size_t>& parts) {
     Keys<BodySettings> keys = body_keys();
-    if (body.find("material"))
+    if (body.find("material") || !parts.empty())
         for (auto& key : keys) key.required = false;
+    for (const std::size_t part : parts)
+        keys.push_back({.name = body.names[part], .take = [](BodySettings&, const Node&, const std::string&, Reader&) {}});
     return keys;
+}
+
+bool gives_material(const Node& table) { return table.find("material") || (table.find("young") && table.find("density")); }
+
+/// Values that a body of a file does not give are those of the table around it.
+BodySettings read_part(const BodySettings& around, const Node& table, const std::string& name, const std::string& path,
+                       const std::vector<MaterialSettings>& materials, Reader& reader) {
+    BodySettings part = around;
+    part.parts.clear();
+    part.name = name;
+    part.where = table.where;
+    if (const Node* material = table.find("material")) take_material(part, *material, path, materials, reader);
+    read_table(part, table, path, part_keys(), reader);
+    part.has_material = around.has_material || gives_material(table);
+    return part;
 }
 
 void read(BodySettings& body, const Node& table, const std::string& path, const std::vector<MaterialSettings>& materials,
@@ -95,7 +125,14 @@ void read(BodySettings& body, const Node& table, const std::string& path, const 
     if (const Node* name = table.find("material")) take_material(body, *name, path, materials, reader);
     const auto& variety = variety_of<BodySettings, Shape>(table, path, body_varieties(),
                                                           {{Shape::file, "mesh"}, {Shape::surface, "surface"}}, reader);
-    read_varied(body, table, path, variety, keys_of(table), reader);
+    const std::vector<std::size_t> parts = part_tables(table, variety);
+    read_varied(body, table, path, variety, keys_of(table, parts), reader);
+    body.has_material = gives_material(table);
+    std::vector<BodySettings> read_parts;  // each a copy of the body, which has none of them yet
+    for (const std::size_t part : parts)
+        read_parts.push_back(
+            read_part(body, table.items[part], table.names[part], path + "." + table.names[part], materials, reader));
+    body.parts = std::move(read_parts);
     if (reader.faults().size() != before) body.shape = Shape::none;  // not to be made
 }
 
@@ -222,8 +259,11 @@ void merge_overrides(Node& document, const std::vector<std::string>& set, std::v
 /// The first body or obstacle that may turn, as the file calls it; empty: none.
 std::string first_that_turns(const Settings& settings) {
     const auto of_all = run::kinematics_of_all(settings.options.kinematics);
-    for (const BodySettings& body : settings.bodies)
+    for (const BodySettings& body : settings.bodies) {
         if (of_all.value_or(body.kinematics) != solid::Kinematics::small) return "bodies." + body.name;
+        for (const BodySettings& part : body.parts)
+            if (part.kinematics != solid::Kinematics::small) return "bodies." + body.name + "." + part.name;
+    }
     for (const ObstacleSettings& obstacle : settings.obstacles)
         if (obstacle.rotation || !obstacle.spin.isZero(0.0)) return "obstacles." + obstacle.name;
     return "";

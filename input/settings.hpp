@@ -56,6 +56,8 @@ struct BodySettings : Named {
     std::filesystem::path surface;
     double scale = 1.0;  ///< of the lengths of `surface` [m]
     mesh::NonPlanarFaces non_planar = mesh::NonPlanarFaces::fail;
+    double planarity_tolerance = mesh::MeshOptions{}.planarity_tolerance;  ///< [-]
+    double most_cells = run::not_given;
     double radius = 1.0;                  ///< [m]
     double length = 1.0;                  ///< [m]
     double size = 0.1;                    ///< [m]
@@ -78,6 +80,8 @@ struct BodySettings : Named {
     solid::Kinematics kinematics = solid::Kinematics::small;
     Vector<3> velocity = Vector<3>::Zero();  ///< [m/s]
     Vector<3> spin = Vector<3>::Zero();      ///< [rad/s]
+    bool has_material = false;               ///< Young's modulus and density are given
+    std::vector<BodySettings> parts;         ///< bodies of `mesh` with a table of their own, by their names in the file
 };
 
 enum class ObstacleShape { none, plane, box, polygon, surface };
