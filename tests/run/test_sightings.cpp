@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
 
