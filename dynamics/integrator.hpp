@@ -178,8 +178,9 @@ protected:
         scheme().start(p);
     }
 
-    /// p^{-+1/2} = p -+ dt/2 F(q)
+    /// p^{-+1/2} = p -+ dt/2 F(q), F with what acts on the rates of p; those of p^{-1/2} are the last ones afterwards.
     void split_momentum(std::span<const double> p) {
+        if constexpr (RateSystem<S>) system_.set_rates(q_, p);
         system_.force(q_, force_);
         for (std::size_t i = 0; i < q_.size(); ++i) {
             p_before_[i] = p[i] - 0.5 * step_of(i) * force_[i];
@@ -189,6 +190,7 @@ protected:
             system_.constrain_at(q_, -dt_, p_before_);
             system_.constrain_at(q_, dt_, p_after_);
         }
+        if constexpr (RateSystem<S>) system_.set_rates(q_, p_before_);
     }
     /// a . M^-1 b
     [[nodiscard]] double mass_product(std::span<const double> a, std::span<const double> b) const {

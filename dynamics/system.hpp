@@ -50,6 +50,12 @@ concept ConstrainedSystem = System<S> &&
     system.constrain_at(q, dt, p);     ///< the same along the lines in q; dt < 0: of the half step before
 };
 
+/// A system with forces on rates, as of dashpots: it knows those of its steps, and is told them where a run starts.
+template <class S>
+concept RateSystem = System<S> && requires(S& system, std::span<const double> q, std::span<const double> p) {
+    system.set_rates(q, p);  ///< those of the last step, from momenta p in q
+};
+
 /// F(q_1), where a step from q_0 at time t has ended.
 template <System S>
 void force_after_step(S& system, std::span<const double> q_0, std::span<const double> q_1, double t, double dt,

@@ -10,6 +10,7 @@
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/obstacles.hpp"
+#include "abut/solid/rank_part.hpp"
 
 namespace abut::solid {
 namespace {
@@ -48,8 +49,8 @@ Matrix<Dim> least_rotation(const Matrix<Dim>& moment) {
 }  // namespace
 
 template <int Dim>
-Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning)
-    : mesh_(mesh), options_(options), turning_tractions_(std::move(turning)) {
+Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<TractionHold> holds)
+    : mesh_(mesh), options_(options), traction_holds_(std::move(holds)) {
     check();
     std::vector<std::int32_t> rigid;
     for (std::int32_t body = 0; body < mesh.n_bodies(); ++body)
@@ -61,7 +62,10 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
     part_options_.acceleration = chosen(options.acceleration, deformable_bodies_);
     part_options_.boundary.traction.clear();
     for (std::size_t i = 0; i < options.boundary.traction.size(); ++i)
-        if (!turning_tractions_[i]) part_options_.boundary.traction.push_back(options.boundary.traction[i]);
+        if (traction_holds_[i] != TractionHold::points)
+            part_options_.boundary.traction.push_back(options.boundary.traction[i]);
+        else  // its faces are no free ones for cells of finite bodies
+            part_options_.boundary.traction.push_back({.group = options.boundary.traction[i].group});
     if (part_) keep_groups();
     rigid_.emplace(mesh, rigid, options.materials, n_cells());
 
@@ -78,6 +82,64 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
             body_.push_back(rigid_->mesh_body(i));
         }
     for (const double mass : masses_) inverse_masses_.insert(inverse_masses_.end(), Dim, 1.0 / mass);
+}
+
+template <int Dim>
+void Bodies<Dim>::place_cell_points(const RankPart<Dim>* part) {
+    cell_points_.resize(deformable_bodies_.size());
+    for (std::size_t i = 0; i < deformable_bodies_.size(); ++i) {
+        if (kinematics(deformable_bodies_[i]) != Kinematics::floating) continue;
+        const auto body = static_cast<std::int32_t>(i);
+        const auto cells = cells_of_body(deformable(), body);
+        cell_points_[i] = find_cell_points<Dim>(deformable(), body, cells, part_options_.materials[i].density, part);
+        if (!cell_points_[i]) continue;
+        if (!part_) part_ = mesh_;
+        std::vector<Vector<Dim>> places;
+        for (std::int32_t c = cells.first; c < cells.second; ++c) places.push_back(cell_points_[i]->place(*part_, c));
+        std::ranges::copy(places, part_->cell_centroid.begin() + cells.first);
+        std::ranges::copy(places, rest_.begin() + cells.first);
+    }
+}
+
+/// What is given at the points of the cells, in the order of the whole mesh.
+template <int Dim>
+void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const {
+    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
+        if (!cell_points_[i]) continue;
+        const CellPoints<Dim>& points = *cell_points_[i];
+        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
+        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
+        const Matrix<Dim> slope =
+            sum_over_body(rank_part_, static_cast<std::ptrdiff_t>(i), cells, Matrix<Dim>(Matrix<Dim>::Zero()),
+                          [&](std::int32_t c) -> Matrix<Dim> {
+                              return masses_[c] * of_mesh_cells[c + on] * (rest_[c] - points.centre).transpose();
+                          }) *
+            points.inverse_y;
+        for (std::int32_t c = cells.first; c < cells.second; ++c)
+            of_mesh_cells[c + on] += slope * (mesh_.cell_centroid[c + on] - rest_[c]);
+    }
+}
+
+/// The other way round.
+template <int Dim>
+std::vector<Vector<Dim>> Bodies<Dim>::to_points(std::span<const Vector<Dim>> of_mesh_cells) const {
+    std::vector<Vector<Dim>> at_points(of_mesh_cells.begin(), of_mesh_cells.end());
+    for (std::size_t i = 0; i < cell_points_.size(); ++i) {
+        if (!cell_points_[i]) continue;
+        const CellPoints<Dim>& points = *cell_points_[i];
+        const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
+        const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
+        const Matrix<Dim> slope =
+            sum_over_body(rank_part_, static_cast<std::ptrdiff_t>(i), cells, Matrix<Dim>(Matrix<Dim>::Zero()),
+                          [&](std::int32_t c) -> Matrix<Dim> {
+                              return masses_[c] * of_mesh_cells[c + on] *
+                                     (mesh_.cell_centroid[c + on] - points.centre).transpose();
+                          }) *
+            points.inverse_x;
+        for (std::int32_t c = cells.first; c < cells.second; ++c)
+            at_points[c + on] += slope * (rest_[c] - mesh_.cell_centroid[c + on]);
+    }
+    return at_points;
 }
 
 /// The group of a condition may have no face in the part of a rank, and mesh::extract_bodies leaves such groups out.
@@ -152,14 +214,14 @@ void Bodies<Dim>::refuse_on_turning_bodies(const DirichletCondition<Dim>& condit
     }
 }
 
-/// Nothing says how far a face of a body of Kinematics::finite has turned.
+/// What turns with a face of a body of Kinematics::finite is what acts along its normal; a program outside knows normals.
 template <int Dim>
 void Bodies<Dim>::refuse_following(const TractionCondition<Dim>& condition) const {
-    if (!condition.follows) return;
+    if (!condition.follows || !condition.from_outside) return;
     for (const std::int32_t face : mesh_.group(condition.group).faces)
         if (const std::int32_t body = mesh_.cell_body[mesh_.face_cells[face][0]]; is_finite(body))
             throw BadInput(mesh_.name + ": body '" + mesh_.body_names[body] +
-                           "' is of Kinematics::finite, and the traction on '" + condition.group +
+                           "' is of Kinematics::finite, and the traction from outside on '" + condition.group +
                            "' follows. Give one that keeps its direction in space.");
 }
 
@@ -238,6 +300,7 @@ std::vector<Vector<Dim>> Bodies<Dim>::of_deformable_cells(std::span<const Vector
 template <int Dim>
 std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) const {
     std::vector<Vector<Dim>> result = of_deformable_cells(q);
+    to_centroids(result);
     for (std::size_t i = 0; i < rigid_->size(); ++i) {
         const RigidPlace<Dim> place = rigid_->place(i, q);
         const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));
@@ -249,10 +312,11 @@ std::vector<Vector<Dim>> Bodies<Dim>::of_cells(std::span<const Vector<Dim>> q) c
 
 template <int Dim>
 std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> displacement) const {
+    const std::vector<Vector<Dim>> at_points = to_points(displacement);
     std::vector<Vector<Dim>> q;
     for (const std::int32_t body : deformable_bodies_) {
         const auto [begin, end] = cells_of_body(mesh_, body);
-        q.insert(q.end(), displacement.begin() + begin, displacement.begin() + end);
+        q.insert(q.end(), at_points.begin() + begin, at_points.begin() + end);
     }
     q.resize(rest_.size());
     for (std::size_t i = 0; i < rigid_->size(); ++i) {
@@ -274,10 +338,11 @@ std::vector<Vector<Dim>> Bodies<Dim>::of_points(std::span<const Vector<Dim>> dis
 
 template <int Dim>
 std::vector<Vector<Dim>> Bodies<Dim>::momenta(std::span<const Vector<Dim>> velocity) const {
+    const std::vector<Vector<Dim>> at_points = to_points(velocity);
     std::vector<Vector<Dim>> p;
     for (const std::int32_t body : deformable_bodies_) {
         const auto [begin, end] = cells_of_body(mesh_, body);
-        for (std::int32_t c = begin; c < end; ++c) p.push_back(cell_mass(c) * velocity[c]);
+        for (std::int32_t c = begin; c < end; ++c) p.push_back(cell_mass(c) * at_points[c]);
     }
     p.resize(rest_.size());
     for (std::size_t i = 0; i < rigid_->size(); ++i) {
@@ -301,6 +366,7 @@ std::vector<Vector<Dim>> Bodies<Dim>::velocities(std::span<const Vector<Dim>> p)
     std::vector<Vector<Dim>> of_points(p.begin(), p.end());
     for (std::size_t i = 0; i < of_points.size(); ++i) of_points[i] /= masses_[i];
     std::vector<Vector<Dim>> result = of_deformable_cells(of_points);
+    to_centroids(result);
     for (std::size_t i = 0; i < rigid_->size(); ++i) {
         const RigidPlace<Dim> velocity = rigid_->velocity(i, of_points);
         const auto [begin, end] = cells_of_body(mesh_, rigid_->mesh_body(i));

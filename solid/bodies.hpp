@@ -7,31 +7,43 @@
 #include <vector>
 
 #include "abut/mesh/mesh.hpp"
+#include "abut/solid/cell_points.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
 #include "abut/solid/kinematics/rigid_bodies.hpp"
 #include "abut/solid/options.hpp"
+#include "abut/solid/turning_tractions.hpp"
 
 namespace abut::solid {
+
+template <int Dim>
+class RankPart;
 
 /// The bodies of a solid, by how they move. Its points are the cells of those that deform, then the points of those that are
 /// rigid; both in the order of the mesh.
 template <int Dim>
 class Bodies {
 public:
-    /// The mesh must outlive it; `turning` as `turning_tractions` returns it (n_tractions). Throws BadInput for options that do
+    /// The mesh must outlive it; `holds` as `traction_holds` returns it (n_tractions). Throws BadInput for options that do
     /// not fit the mesh or each other.
-    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<bool> turning);
+    Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<TractionHold> holds);
+
+    /// From now on the masses of cells of floating bodies are where these have their moments of inertia (CellPoints), which
+    /// `deformable` takes as their centroids; to be called before anything is made of it. `part`: null on one rank, else a part
+    /// of these bodies; a call of all ranks.
+    void place_cell_points(const RankPart<Dim>* part);
+    /// Who brings ranks together from then on, in what is said to be a call of all.
+    void take_part(const RankPart<Dim>* part) { rank_part_ = part; }
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
-    /// Of the bodies that deform: `mesh` itself where all do.
+    /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
     [[nodiscard]] const mesh::Mesh<Dim>& deformable() const { return part_ ? *part_ : mesh_; }
     [[nodiscard]] const SolidOptions<Dim>& options() const { return options_; }
     [[nodiscard]] bool turns(std::int32_t body) const;  ///< whether it may: it is not `small`
     [[nodiscard]] bool is_rigid(std::int32_t body) const { return kinematics(body) == Kinematics::rigid; }
     [[nodiscard]] bool is_finite(std::int32_t body) const { return kinematics(body) == Kinematics::finite; }
     [[nodiscard]] bool any_finite() const;
-    /// Whether a traction of `options` acts on bodies that may turn.
-    [[nodiscard]] bool is_turning_traction(std::size_t condition) const { return turning_tractions_[condition]; }
+    /// Of a traction of `options`.
+    [[nodiscard]] TractionHold traction_hold(std::size_t condition) const { return traction_holds_[condition]; }
     /// Its points are [first, second).
     [[nodiscard]] std::pair<std::int32_t, std::int32_t> points_of(std::int32_t body) const;
     /// The options of these bodies, by their numbers in `deformable`.
@@ -50,6 +62,9 @@ public:
     [[nodiscard]] BodyFrames<Dim> frames(const RankPart<Dim>* part) const;
     /// The law of contact, `automatic` resolved. Throws BadInput for one that does not know bodies or obstacles that turn.
     [[nodiscard]] ContactLaw law() const;
+
+    // At the centroids of the cells of the whole mesh, whose points may be beside them: floating bodies are taken as moving
+    // affinely from one to the other. Calls of all ranks.
 
     /// A displacement of the cells of the whole mesh [m], from that of the points.
     [[nodiscard]] std::vector<Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
@@ -100,10 +115,15 @@ private:
     [[nodiscard]] double cell_mass(std::int32_t cell) const;
     [[nodiscard]] std::vector<Vector<Dim>> of_deformable_cells(std::span<const Vector<Dim>> of_points) const;
 
+    void to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const;
+    [[nodiscard]] std::vector<Vector<Dim>> to_points(std::span<const Vector<Dim>> of_mesh_cells) const;
+
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
-    std::vector<bool> turning_tractions_;
-    std::optional<mesh::Mesh<Dim>> part_;  // none: all bodies deform
+    std::vector<TractionHold> traction_holds_;
+    std::optional<mesh::Mesh<Dim>> part_;  // none: all bodies deform, and no cell has its point beside its centroid
+    std::vector<std::optional<CellPoints<Dim>>> cell_points_;  // by body that deforms; none: at the centroids
+    const RankPart<Dim>* rank_part_ = nullptr;
     SolidOptions<Dim> part_options_;
     std::vector<std::int32_t> deformable_bodies_;
     std::optional<RigidBodies<Dim>> rigid_;

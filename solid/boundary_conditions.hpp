@@ -47,14 +47,16 @@ struct DirichletCondition {
     Field<Dim> history;                       ///< u_D(t, x) [m] if it varies; then `value` is not used
 };
 
-/// On a body that may turn it is a force at the centroid of each face, whose work is booked; the reconstruction of the face
-/// takes it as free.
+/// On a body that may turn its work is booked, and it is a force at the centroid of each face, which the reconstruction takes as
+/// free; where it follows a floating body the cells behind the face bear it. docs/method.md, Bodies that turn.
 template <int Dim>
 struct TractionCondition {
     std::string group;
     Vector<Dim> value = Vector<Dim>::Zero();  ///< t [Pa]
     Field<Dim> history;                       ///< t(t, x) [Pa] if it varies; constant within a step, taken at its start
-    bool follows = false;  ///< it turns with the body, as a pressure does: of bodies of Kinematics::small no difference
+    /// It turns with the body; on one of Kinematics::finite with its face, and is along its normal: a pressure, which acts on the
+    /// area that the face has then. On bodies of Kinematics::small no difference
+    bool follows = false;
     /// It is set by face between steps (Solid::set_traction): a fluid. Until then it is `value`; it has no `history`.
     bool from_outside = false;
 };

@@ -16,6 +16,20 @@ constexpr std::size_t first_choice = 32;  // cells that are sorted by distance a
 
 }  // namespace
 
+template <>
+Vector<2> area_vector<2>(std::span<const Vector<2>> corners) {
+    const Vector<2> along = corners[1] - corners[0];
+    return {along[1], -along[0]};
+}
+
+template <>
+Vector<3> area_vector<3>(std::span<const Vector<3>> corners) {
+    Vector<3> sum = Vector<3>::Zero();
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        sum += 0.5 * moment<3>(Vector<3>(corners[i - 1] - corners[0]), Vector<3>(corners[i] - corners[0]));
+    return sum;
+}
+
 /// Mass, centre and second moments of some points.
 template <int Dim>
 struct HeldPlaces<Dim>::Cloud {
@@ -148,9 +162,11 @@ auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Fa
     for (std::size_t i = 0; i < in_group.size(); ++i) {
         const auto f = static_cast<std::size_t>(in_group[i]);
         const std::int32_t cell = mesh.face_cells[f][0], body = mesh.cell_body[cell];
-        const Face face{in_group[i], body, i, mesh.face_measure[f], mesh.face_centroid[f]};
+        Face face{in_group[i], body, i, mesh.face_measure[f], mesh.face_centroid[f], mesh.face_normal[f], {}};
+        for (const std::int32_t vertex : mesh.face_vertices[in_group[i]]) face.corners.push_back(mesh.vertices[vertex]);
+        if (area_vector<Dim>(face.corners).dot(face.normal) < 0.0) std::ranges::reverse(face.corners);
         if (!part_ || bodies_.is_rigid(body)) {
-            faces.push_back(face);
+            faces.push_back(std::move(face));
             continue;
         }
         const std::int32_t deformable = bodies_.deformable_cell(cell).first;
@@ -158,13 +174,26 @@ auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Fa
         const auto position = std::ranges::find(mesh.cell_faces[cell], in_group[i]) - mesh.cell_faces[cell].begin();
         mine.insert(mine.end(),
                     {static_cast<double>(part_->key_of(deformable, position)), static_cast<double>(body), face.area});
-        mine.insert(mine.end(), face.centroid.begin(), face.centroid.end());
+        mine.push_back(static_cast<double>(face.corners.size()));
+        for (const Vector<Dim>* vector : {&face.centroid, &face.normal})
+            mine.insert(mine.end(), vector->begin(), vector->end());
+        for (const Vector<Dim>& corner : face.corners) mine.insert(mine.end(), corner.begin(), corner.end());
     }
     if (part_) {
         const std::vector<double> all = part_->ranks().gather(mine);
-        for (std::size_t i = 0; i < all.size(); i += 3 + Dim)
-            faces.push_back({static_cast<std::int64_t>(all[i]), static_cast<std::int32_t>(all[i + 1]), 0, all[i + 2],
-                             Vector<Dim>(all.data() + i + 3)});
+        for (auto next = all.begin(); next != all.end();) {
+            Face face{static_cast<std::int64_t>(next[0]), static_cast<std::int32_t>(next[1]), 0, next[2], {}, {}, {}};
+            face.corners.resize(static_cast<std::size_t>(next[3]));
+            next += 4;
+            const auto take = [&](Vector<Dim>& vector) {
+                std::copy_n(next, Dim, vector.begin());
+                next += Dim;
+            };
+            take(face.centroid);
+            take(face.normal);
+            for (Vector<Dim>& corner : face.corners) take(corner);
+            faces.push_back(std::move(face));
+        }
     }
     std::ranges::sort(faces, {}, [](const Face& face) { return std::pair(face.body, face.key); });
     return faces;

@@ -33,6 +33,10 @@ struct HeldPlace {
     }
 };
 
+/// The area of a face with these corners times its normal, whether they lie in a plane or not [m^(Dim-1)].
+template <int Dim>
+[[nodiscard]] Vector<Dim> area_vector(std::span<const Vector<Dim>> corners);
+
 /// Finds the points that hold a place: on several ranks by their numbers among those of all. Every function is a call of all
 /// ranks.
 template <int Dim>
@@ -45,6 +49,8 @@ public:
         std::size_t in_group;  // its position in the group; on one rank only
         double area;
         Vector<Dim> centroid;
+        Vector<Dim> normal;                // out of the body
+        std::vector<Vector<Dim>> corners;  // in the order in which the normal sees them run to the left
     };
 
     /// All must outlive it; `part` is null on one rank.

@@ -1,6 +1,7 @@
 #include "abut/solid/point_loads.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -14,6 +15,9 @@
 namespace abut::solid {
 namespace {
 
+constexpr double along_normal = 1e-12;    // what a pressure may have across, over all of it
+constexpr std::size_t most_corners = 12;  // of a face, without memory of its own
+
 /// The discrete gradient of k/2 (|r| - L)^2: along the mean of r, so that it has no moment about the mean positions.
 template <int Dim>
 Vector<Dim> mean_tension(const Spring<Dim>& law, const Vector<Dim>& r_0, const Vector<Dim>& r_1) {
@@ -22,12 +26,10 @@ Vector<Dim> mean_tension(const Spring<Dim>& law, const Vector<Dim>& r_0, const V
     return 0.5 * law.stiffness * share * (r_0 + r_1);
 }
 
-/// Of a dashpot at this rate: along the spring, or in all directions where it has no length.
-template <int Dim>
-Vector<Dim> damping_tension(const Spring<Dim>& law, const Vector<Dim>& r, const Vector<Dim>& rate) {
-    if (law.length == 0.0) return law.damping * rate;
-    const Vector<Dim> along = r.normalized();
-    return law.damping * along.dot(rate) * along;
+/// What a dashpot acts on in a step with the rate `now`: docs/method.md, Bodies that turn.
+template <class Rate>
+Rate acting(contact::TakenForce take, const std::optional<Rate>& before, const Rate& now) {
+    return take == contact::TakenForce::mean && before ? Rate(0.5 * (*before + now)) : now;
 }
 
 }  // namespace
@@ -63,10 +65,21 @@ void PointLoads<Dim>::hold_tractions(HeldPlaces<Dim>& places) {
     for (std::size_t i = 0; i < conditions.size(); ++i) {
         const std::size_t n_faces = bodies_.mesh().group(conditions[i].group).faces.size();
         outside_.emplace_back(conditions[i].from_outside ? n_faces : 0, conditions[i].value);
-        if (!bodies_.is_turning_traction(i)) continue;
-        for (const auto& face : places.faces_of(conditions[i].group))
-            tractions_.push_back(
-                {places.of({.body = face.body, .position = face.centroid}), face.area, face.body, i, face.in_group});
+        if (bodies_.traction_hold(i) == TractionHold::cells) continue;
+        for (const auto& face : places.faces_of(conditions[i].group)) {
+            if (bodies_.traction_hold(i) == TractionHold::frames && !bodies_.is_rigid(face.body)) continue;
+            HeldTraction traction{places.of({.body = face.body, .position = face.centroid}),
+                                  face.area,
+                                  face.body,
+                                  i,
+                                  face.in_group,
+                                  face.normal,
+                                  {}};
+            if (conditions[i].follows && bodies_.is_finite(face.body))
+                for (const Vector<Dim>& corner : face.corners)
+                    traction.corners.push_back(places.of({.body = face.body, .position = corner}));
+            tractions_.push_back(std::move(traction));
+        }
     }
 }
 
@@ -75,7 +88,10 @@ template <int Dim>
 void PointLoads<Dim>::take_held_points() {
     std::vector<HeldPlace<Dim>*> places;
     for (HeldSpring& spring : springs_) places.insert(places.end(), {&spring.first, &spring.second});
-    for (HeldTraction& traction : tractions_) places.push_back(&traction.place);
+    for (HeldTraction& traction : tractions_) {
+        places.push_back(&traction.place);
+        for (HeldPlace<Dim>& corner : traction.corners) places.push_back(&corner);
+    }
     std::vector<std::int32_t> numbers;
     for (const HeldPlace<Dim>* place : places) numbers.insert(numbers.end(), place->points.begin(), place->points.end());
     sort_unique(numbers);
@@ -111,9 +127,14 @@ void PointLoads<Dim>::check_moments() const {
 }
 
 template <int Dim>
+bool PointLoads<Dim>::damp() const {
+    return std::ranges::any_of(springs_, [](const HeldSpring& spring) { return spring.law.damping > 0.0; }) ||
+           std::ranges::any_of(moments_, [](const HeldMoment& moment) { return moment.law.damping > 0.0; });
+}
+
+template <int Dim>
 bool PointLoads<Dim>::do_work() const {
-    return !moments_.empty() || !tractions_.empty() ||
-           std::ranges::any_of(springs_, [](const HeldSpring& spring) { return spring.law.damping > 0.0; });
+    return !moments_.empty() || !tractions_.empty() || damp();
 }
 
 template <int Dim>
@@ -136,10 +157,23 @@ void PointLoads<Dim>::add(std::span<const Vector<Dim>> q_0, std::span<const Vect
     work += add_tractions(held[0], held[1], time, turn_of, force);
     for (HeldMoment& moment : moments_) {
         const Middle middle = middle_of(moment, q_0, q_1);
-        const AxialVector<Dim> spin = spin_of<Dim>(middle.second_moment, middle.angular) / dt;
-        const bool takes_last = take == contact::TakenForce::mean && moment.spin;
-        work += add_moment(moment.law, takes_last ? *moment.spin : spin, middle, q_0, q_1, force);
+        const AxialVector<Dim> spin =
+            spin_at(moment, middle, q_0, q_1, [&](std::int32_t i) -> Vector<Dim> { return q_1[i] - q_0[i]; }) / dt;
+        work += add_moment(moment.law, acting(take, moment.spin, spin), middle, q_0, q_1, force);
         moment.spin = spin;
+    }
+}
+
+template <int Dim>
+void PointLoads<Dim>::set_rates(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v) {
+    if (!damp()) return;
+    const auto held = held_.take({q, v});
+    for (HeldSpring& spring : springs_)
+        spring.rate = rate_of(spring.law, spring.second.at(held[0]) - spring.first.at(held[0]),
+                              spring.second.displacement(held[1]) - spring.first.displacement(held[1]));
+    for (HeldMoment& moment : moments_) {
+        const Middle middle = middle_of(moment, q, q);
+        moment.spin = spin_at(moment, middle, q, q, [&](std::int32_t i) -> Vector<Dim> { return v[i]; });
     }
 }
 
@@ -150,12 +184,23 @@ void PointLoads<Dim>::add_at(std::span<const Vector<Dim>> q, double time, const 
     for (const HeldSpring& spring : springs_) {
         const Vector<Dim> r = spring.second.at(held) - spring.first.at(held);
         push(spring,
-             mean_tension(spring.law, r, r) + damping_tension(spring.law, r, spring.rate.value_or(Vector<Dim>::Zero())),
+             mean_tension(spring.law, r, r) + damping_tension(spring.law, r, spring.rate.value_or(Rate(Rate::Zero()))),
              force);
     }
     add_tractions(held, held, time, turn_of, force);
     for (const HeldMoment& moment : moments_)
         add_moment(moment.law, moment.spin.value_or(AxialVector<Dim>::Zero()), middle_of(moment, q, q), q, q, force);
+}
+
+template <int Dim>
+auto PointLoads<Dim>::rate_of(const Spring<Dim>& law, const Vector<Dim>& r, const Vector<Dim>& velocity) -> Rate {
+    return law.length == 0.0 ? velocity : Rate(r.normalized().dot(velocity) * Rate::Unit(0));
+}
+
+/// Along the spring, or in all directions where it has no length.
+template <int Dim>
+Vector<Dim> PointLoads<Dim>::damping_tension(const Spring<Dim>& law, const Vector<Dim>& r, const Rate& rate) {
+    return law.damping * (law.length == 0.0 ? rate : Vector<Dim>(rate[0] * r.normalized()));
 }
 
 template <int Dim>
@@ -170,11 +215,10 @@ void PointLoads<Dim>::add_springs(std::span<const Vector<Dim>> q_0, std::span<co
     for (HeldSpring& spring : springs_) {
         const Vector<Dim> r_0 = spring.second.at(q_0) - spring.first.at(q_0);
         const Vector<Dim> r_1 = spring.second.at(q_1) - spring.first.at(q_1);
-        const bool mean = take == contact::TakenForce::mean;
-        const Vector<Dim> rate = (r_1 - r_0) / dt;
-        const Vector<Dim> damping =
-            damping_tension<Dim>(spring.law, 0.5 * (r_0 + r_1), mean && spring.rate ? *spring.rate : rate);
-        push(spring, mean_tension(spring.law, mean ? r_0 : r_1, r_1) + damping, force);
+        const Vector<Dim> middle = 0.5 * (r_0 + r_1);
+        const Rate rate = rate_of(spring.law, middle, Vector<Dim>((r_1 - r_0) / dt));
+        const Vector<Dim> damping = damping_tension(spring.law, middle, acting(take, spring.rate, rate));
+        push(spring, mean_tension(spring.law, take == contact::TakenForce::mean ? r_0 : r_1, r_1) + damping, force);
         work -= damping.dot(r_1 - r_0);
         spring.rate = rate;
     }
@@ -198,10 +242,64 @@ double PointLoads<Dim>::add_tractions(std::span<const Vector<Dim>> q_0, std::spa
                                       const TurnOf& turn_of, std::span<Vector<Dim>> force) const {
     double work = 0.0;
     for (const HeldTraction& traction : tractions_) {
+        if (!traction.corners.empty()) {
+            work += add_pressure(traction, value_of(traction, time), q_0, q_1, force);
+            continue;
+        }
         Vector<Dim> push = traction.area * value_of(traction, time);
         if (options_.boundary.traction[traction.condition].follows) push = turn_of(traction.body) * push;
         held_.push(traction.place, push, force);
         work += push.dot(traction.place.at(q_1) - traction.place.at(q_0));
+    }
+    return work;
+}
+
+/// Of a face of a body of Kinematics::finite: along its area vector in the middle of the step, half of it (in space a third of that
+/// of each triangle with the middle of the face) on each corner. Faces share their corners, so that an equal pressure all
+/// round has no force and no moment about the mean positions. Its work [J].
+template <int Dim>
+double PointLoads<Dim>::add_pressure(const HeldTraction& traction, const Vector<Dim>& value,
+                                     std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
+                                     std::span<Vector<Dim>> force) const {
+    const double along = value.dot(traction.normal);
+    if (!((value - along * traction.normal).norm() <= along_normal * value.norm()))
+        throw BadInput(
+            "traction on '" + options_.boundary.traction[traction.condition].group +
+            "': it follows a body of Kinematics::finite, and is not along the normals of its faces: only a pressure "
+            "turns with these. Leave follows out, or give a pressure.");
+    const auto n = traction.corners.size();
+    std::array<Vector<Dim>, most_corners> room_x, room_push;
+    std::vector<Vector<Dim>> more_x, more_push;
+    if (n > most_corners) {
+        more_x.resize(n);
+        more_push.resize(n);
+    }
+    const std::span<Vector<Dim>> x = n > most_corners ? std::span(more_x) : std::span(room_x).first(n);
+    const std::span<Vector<Dim>> push = n > most_corners ? std::span(more_push) : std::span(room_push).first(n);
+    Vector<Dim> middle = Vector<Dim>::Zero();
+    for (std::size_t i = 0; i < n; ++i) {
+        x[i] = 0.5 * (traction.corners[i].at(q_0) + traction.corners[i].at(q_1));
+        middle += x[i] / static_cast<double>(n);
+        push[i] = Vector<Dim>::Zero();
+    }
+    if constexpr (Dim == 2) {
+        push[0] = push[1] = 0.5 * along * area_vector<2>(x);
+    } else {
+        Vector<Dim> on_middle = Vector<Dim>::Zero();
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t j = (i + 1) % n;
+            const std::array<Vector<Dim>, 3> triangle{middle, x[i], x[j]};
+            const Vector<Dim> third = along / 3.0 * area_vector<3>(triangle);
+            push[i] += third;
+            push[j] += third;
+            on_middle += third / static_cast<double>(n);
+        }
+        for (Vector<Dim>& of_corner : push) of_corner += on_middle;
+    }
+    double work = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        held_.push(traction.corners[i], push[i], force);
+        work += push[i].dot(traction.corners[i].at(q_1) - traction.corners[i].at(q_0));
     }
     return work;
 }
@@ -233,15 +331,24 @@ typename PointLoads<Dim>::Middle PointLoads<Dim>::middle_of(const HeldMoment& he
     const auto at = [&](std::int32_t i) -> Vector<Dim> { return bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]); };
     const Vector<Dim> moment_of_mass = sum_of(body, Vector<Dim>(Vector<Dim>::Zero()),
                                               [&](std::int32_t i) -> Vector<Dim> { return bodies_.masses()[i] * at(i); });
-    Middle middle{moment_of_mass / held.mass, Matrix<Dim>::Zero(), AxialVector<Dim>::Zero()};
+    Middle middle{moment_of_mass / held.mass, Matrix<Dim>::Zero()};
     middle.second_moment = sum_of(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t i) -> Matrix<Dim> {
         const Vector<Dim> arm = at(i) - middle.centre;
         return bodies_.masses()[i] * arm * arm.transpose();
     });
-    middle.angular = sum_of(body, AxialVector<Dim>(AxialVector<Dim>::Zero()), [&](std::int32_t i) -> AxialVector<Dim> {
-        return bodies_.masses()[i] * moment<Dim>(Vector<Dim>(at(i) - middle.centre), Vector<Dim>(q_1[i] - q_0[i]));
-    });
     return middle;
+}
+
+template <int Dim>
+template <class Velocity>
+AxialVector<Dim> PointLoads<Dim>::spin_at(const HeldMoment& held, const Middle& middle, std::span<const Vector<Dim>> q_0,
+                                          std::span<const Vector<Dim>> q_1, const Velocity& velocity) const {
+    const AxialVector<Dim> angular =
+        sum_of(held.law.body, AxialVector<Dim>(AxialVector<Dim>::Zero()), [&](std::int32_t i) -> AxialVector<Dim> {
+            const Vector<Dim> arm = bodies_.rest()[i] + 0.5 * (q_0[i] + q_1[i]) - middle.centre;
+            return bodies_.masses()[i] * moment<Dim>(arm, Vector<Dim>(velocity(i)));
+        });
+    return spin_of<Dim>(middle.second_moment, angular);
 }
 
 /// Forces m alpha × x' that have this moment, x' being arms about the centre in the middle of the step. Their work [J].

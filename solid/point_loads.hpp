@@ -36,10 +36,14 @@ public:
     /// Adds the forces of a step from q_0 at `time` to q_1 [N], and the work of what is booked to `work` [J]: means, or of
     /// springs those at its end. `turn_of(body)`: the mean of its rotations at both ends.
     ///
-    /// With the mean, dashpots act on the rates of the step before: on those of the step itself a two-step scheme answers with
-    /// an alternating mode that grows.
+    /// With the mean, dashpots act on the mean of the rates of this step and of the one before. On those of this step alone a
+    /// two-step scheme answers with an alternating mode that grows; on those of the one before alone with vibrations that grow
+    /// where omega dt is above sqrt 2. docs/method.md, Bodies that turn.
     void add(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt,
              contact::TakenForce take, const TurnOf& turn_of, std::span<Vector<Dim>> force, double& work);
+    /// The last rates are those of velocities v in q (n_points) [m/s].
+    void set_rates(std::span<const Vector<Dim>> q, std::span<const Vector<Dim>> v);
+    [[nodiscard]] bool damp() const;  ///< whether some force depends on rates
     /// Adds the forces of one state [N], dashpots at the last rates.
     void add_at(std::span<const Vector<Dim>> q, double time, const TurnOf& turn_of, std::span<Vector<Dim>> force) const;
     /// Adds what springs resist a displacement with, all in one direction or the other: for the stable step [N].
@@ -56,10 +60,13 @@ public:
     }
 
 private:
+    /// What a dashpot acts on: of a hinge all of it, else the first component alone, which is that of the length [m/s]. Like
+    /// this a rate does not turn with the spring from one step to the next.
+    using Rate = Vector<Dim>;
     struct HeldSpring {
         HeldPlace<Dim> first, second;
         Spring<Dim> law;
-        std::optional<Vector<Dim>> rate = {};  // of r in the last step [m/s]
+        std::optional<Rate> rate = {};  // in the last step
     };
     struct HeldMoment {
         BodyMoment<Dim> law;
@@ -71,7 +78,9 @@ private:
         double area;
         std::int32_t body;
         std::size_t condition;
-        std::size_t face;  // in the group
+        std::size_t face;                     // in the group
+        Vector<Dim> normal;                   // at rest
+        std::vector<HeldPlace<Dim>> corners;  // of a face that a pressure turns with, and stretches; else empty
     };
 
     [[nodiscard]] Vector<Dim> value_of(const HeldTraction& traction, double time) const;
@@ -79,19 +88,26 @@ private:
     void hold_tractions(HeldPlaces<Dim>& places);
     void take_held_points();
     void check_moments() const;
+    [[nodiscard]] static Rate rate_of(const Spring<Dim>& law, const Vector<Dim>& r, const Vector<Dim>& velocity);
+    [[nodiscard]] static Vector<Dim> damping_tension(const Spring<Dim>& law, const Vector<Dim>& r, const Rate& rate);
     void push(const HeldSpring& spring, const Vector<Dim>& tension, std::span<Vector<Dim>> force) const;
     void add_springs(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double dt, contact::TakenForce take,
                      std::span<Vector<Dim>> force, double& work);
     double add_tractions(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time,
                          const TurnOf& turn_of, std::span<Vector<Dim>> force) const;
+    double add_pressure(const HeldTraction& traction, const Vector<Dim>& value, std::span<const Vector<Dim>> q_0,
+                        std::span<const Vector<Dim>> q_1, std::span<Vector<Dim>> force) const;
     /// A body in the middle of a step.
     struct Middle {
         Vector<Dim> centre;
         Matrix<Dim> second_moment;
-        AxialVector<Dim> angular;  ///< sum m x' × (q_1 - q_0)
     };
     [[nodiscard]] Middle middle_of(const HeldMoment& held, std::span<const Vector<Dim>> q_0,
                                    std::span<const Vector<Dim>> q_1) const;
+    /// Of the body where velocity(point) is that of its points.
+    template <class Velocity>
+    [[nodiscard]] AxialVector<Dim> spin_at(const HeldMoment& held, const Middle& middle, std::span<const Vector<Dim>> q_0,
+                                           std::span<const Vector<Dim>> q_1, const Velocity& velocity) const;
     double add_moment(const BodyMoment<Dim>& law, const AxialVector<Dim>& spin, const Middle& middle,
                       std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1,
                       std::span<Vector<Dim>> force) const;

@@ -8,6 +8,7 @@
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
+#include "abut/solid/frame_loads.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/outside_loads.hpp"
@@ -40,8 +41,21 @@ template <int Dim>
 std::unique_ptr<Bodies<Dim>> bodies_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
                                        const dynamics::Ranks* ranks) {
     if (ranks) dynamics::agreed(ranks, [&] { check_for_ranks(ranks, mesh, options); });
-    std::vector<bool> turning = turning_tractions(mesh, options, ranks);
-    return dynamics::agreed(ranks, [&] { return std::make_unique<Bodies<Dim>>(mesh, options, std::move(turning)); });
+    std::vector<TractionHold> holds = traction_holds(mesh, options, ranks);
+    return dynamics::agreed(ranks, [&] { return std::make_unique<Bodies<Dim>>(mesh, options, std::move(holds)); });
+}
+
+/// The points of cells are placed once ranks can be brought together, and are then those of the part. Null on one rank.
+template <int Dim>
+std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks* ranks, Bodies<Dim>& bodies) {
+    if (!ranks) {
+        bodies.place_cell_points(nullptr);
+        return nullptr;
+    }
+    bodies.place_cell_points(std::make_unique<RankPart<Dim>>(*ranks, bodies).get());
+    auto part = std::make_unique<RankPart<Dim>>(*ranks, bodies);
+    bodies.take_part(part.get());
+    return part;
 }
 
 /// Where the cells of each body begin, one more at the end.
@@ -60,7 +74,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     : mesh_(mesh),
       options_(std::move(options)),
       bodies_(bodies_of(mesh, options_, ranks)),
-      part_(ranks ? std::make_unique<RankPart<Dim>>(*ranks, *bodies_) : nullptr),
+      part_(part_of_rank<Dim>(ranks, *bodies_)),
       ccg_(dynamics::agreed(ranks,
                             [&] {
                                 const SolidOptions<Dim>& deformable = bodies_->deformable_options();
@@ -90,6 +104,8 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
         return std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_,
                                             part_.get());
     });
+    frame_loads_ = std::make_unique<FrameLoads<Dim>>(*bodies_, *frames_, part_.get());
+    if (frame_loads_->any()) frame_loads_->take(loads_->end());
     outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
     if (!options_.contact) return;
     if (bodies_->law() == ContactLaw::pair_potential) {
@@ -167,8 +183,8 @@ void Solid<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const Vect
     if (bodies_->any_rigid()) rigid_to_force(gradient);
     const auto cells = gradient.first(static_cast<std::size_t>(bodies_->n_cells()));
     if (!frames_->any_turns()) return loads_->to_force(cells);
-    frames_->to_force(of_cells(q_0), of_cells(q_1), contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{},
-                      loads_->body_force(), cells);
+    const auto pushes = frame_loads_->pushes(contact_ ? contact_->pushes() : std::span<const BodyPush<Dim>>{});
+    frames_->to_force(of_cells(q_0), of_cells(q_1), pushes, loads_->body_force(), cells);
 }
 
 /// On the points of rigid bodies.
@@ -195,6 +211,15 @@ void Solid<Dim>::add_point_loads(std::span<const Vector<Dim>> q_0, std::span<con
 template <int Dim>
 Matrix<Dim> Solid<Dim>::mean_turn(std::int32_t body) const {
     return bodies_->mean_turn(body, *frames_);
+}
+
+template <int Dim>
+void Solid<Dim>::set_rates(std::span<const double> q, std::span<const double> p) {
+    if (!point_loads_->damp()) return;
+    std::vector<double> v(p.begin(), p.end());
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] *= inverse_mass()[i];
+    if (!part_) return point_loads_->set_rates(as_vectors<Dim>(q), as_vectors<Dim>(std::span<const double>(v)));
+    point_loads_->set_rates(part_->filled(as_vectors<Dim>(q)), part_->filled(as_vectors<Dim>(std::span<const double>(v))));
 }
 
 template <int Dim>

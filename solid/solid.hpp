@@ -36,6 +36,8 @@ class BodyRotation;
 template <int Dim>
 class ContactDriver;
 template <int Dim>
+class FrameLoads;
+template <int Dim>
 class Loads;
 template <int Dim>
 class LocalLevels;
@@ -104,6 +106,8 @@ public:
     [[nodiscard]] bool is_constrained(std::int32_t point) const;
     void constrain_along(std::span<const double> q, double dt, std::span<double> p);
     void constrain_at(std::span<const double> q, double dt, std::span<double> p);
+    /// RateSystem: what dashpots and brakes act on next is the mean of the rates of p in q and of those of the next step.
+    void set_rates(std::span<const double> q, std::span<const double> p);
     /// Whether V depends on q alone: no condition has a history and no obstacle a path.
     [[nodiscard]] bool is_autonomous() const;
     /// Local time steps: each cell on the level of its degrees of freedom, with their force evaluated as often as the finest
@@ -147,6 +151,8 @@ public:
 
     /// Largest |g|/D of a pair in contact, in the last step or in the state that was evaluated since; 0 without contact [-].
     [[nodiscard]] double compression() const;
+    /// Throws TooDeep, as a step does, where this is more than `compression_limit`.
+    void require_depth() const;
     /// Mean force of the last step on an obstacle, with local steps of the common one; after `end_force` that at its end
     /// [N]. Throws Misuse where there is no such obstacle.
     [[nodiscard]] Vector<Dim> obstacle_force(std::size_t obstacle) const;
@@ -281,6 +287,7 @@ private:
     FiniteExtremes finite_extremes_;  // the cell in the mesh
     double time_ = 0.0;               // of the state that the last step ended in
     std::unique_ptr<Loads<Dim>> loads_;
+    std::unique_ptr<FrameLoads<Dim>> frame_loads_;
     std::unique_ptr<OutsideLoads<Dim>> outside_;
     std::unique_ptr<ContactDriver<Dim>> contact_;          // null without contact
     ReconstructionDriver<Dim>* reconstruction_ = nullptr;  // the same, under that law

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
@@ -78,6 +79,27 @@ std::vector<dynamics::ContactPatch<Dim>> Solid<Dim>::contact_patches() const {
 template <int Dim>
 double Solid<Dim>::compression() const {
     return contact_ ? contact_->compression() : 0.0;
+}
+
+template <int Dim>
+void Solid<Dim>::require_depth() const {
+    if (!contact_ || contact_->pairs().empty()) return;
+    const auto pair = std::ranges::max_element(contact_->pairs(), {}, &contact::PairStep<Dim>::compression);
+    const double deepest = pair->compression, limit = options_.contact->compression_limit;
+    if (!(deepest > limit)) return;
+    const auto name_of = [&](contact::SurfaceFace face) -> std::string {
+        const BoundaryFace boundary = contact_->mesh_boundary(face);
+        if (boundary == no_face) return "an obstacle";
+        const std::int32_t of_mesh = mesh_face(mesh_, boundary);
+        std::string name = "the face of body '" + mesh_.body_names[mesh_.cell_body[mesh_.face_cells[of_mesh][0]]] + "' at (";
+        for (int i = 0; i < Dim; ++i) name += (i > 0 ? ", " : "") + number(mesh_.face_centroid[of_mesh][i]);
+        return name + ") m";
+    };
+    throw TooDeep(
+        mesh_.name + ": " + name_of(pair->face_1) + " and " + name_of(pair->face_2) + " are pressed " + number(deepest) +
+            " times the depth of their cells into each other, " + number(limit) +
+            " is allowed (compression_limit). Load them less, or refine the mesh at the contact.",
+        {.face_1 = number_of(pair->face_1), .face_2 = number_of(pair->face_2), .value = deepest, .allowed = limit});
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/frame_loads.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/outside_loads.hpp"
 #include "abut/solid/pair_potential_driver.hpp"
@@ -86,6 +87,7 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     for (double* extreme : {&finite_extremes_.strain, &finite_extremes_.determinant}) *extreme = state.get<double>();
     finite_extremes_.cell = state.get<std::int32_t>();
     loads_->restore(state);
+    if (frame_loads_->any()) frame_loads_->take(loads_->end());
     point_loads_->restore(state);
     outside_->restore(state);
     bodies_->rigid().restore(state);

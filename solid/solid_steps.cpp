@@ -6,6 +6,7 @@
 #include "abut/base/processor_stopwatch.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/frame_loads.hpp"
 #include "abut/solid/largest_motion.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
@@ -91,6 +92,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     add_work(is_mean ? 1.0 : 0.5);
     if (contact_) contact_->add_impulses(dt);
     to_force(is_mean ? ends.start : ends.end, ends.end, gradient);
+    work_ += frame_loads_->work();
     add_point_loads(ends.start, ends.end, time, dt, take, gradient);
     outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });
     take_result(force);
@@ -100,7 +102,8 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
 
 template <int Dim>
 bool Solid<Dim>::is_autonomous() const {
-    return !loads_->vary() && !point_loads_->do_work() && !(contact_ && contact_->obstacles().move());
+    return !loads_->vary() && !point_loads_->do_work() && !frame_loads_->any() &&
+           !(contact_ && contact_->obstacles().move());
 }
 
 template <int Dim>
@@ -108,7 +111,8 @@ void Solid<Dim>::require_start(double time, double dt) const {
     if (loads_->is_half_done())
         throw Misuse(
             "solid: the last step ended with an error, and its loads and work are half done: make a Solid for every run.");
-    if (!(std::abs(time - time_) <= same_time * dt) && (contact_ || loads_->vary() || point_loads_->do_work()))
+    if (!(std::abs(time - time_) <= same_time * dt) &&
+        (contact_ || loads_->vary() || point_loads_->do_work() || frame_loads_->any()))
         throw Misuse("solid: a step begins at " + exact_number(time) + " s, but the last one ended at " +
                          exact_number(time_) +
                          " s. Loads, work and contacts go on from step to step: make a Solid for every run.",
@@ -126,6 +130,7 @@ void Solid<Dim>::follow_loads(std::span<const Vector<Dim>> q_0, double time, dou
     const bool tractions_jump = loads_->begin_step(
         time, dt, [&] { return potential_here(q_0); }, follow_jump, change);
     if (!tractions_jump) return;
+    if (frame_loads_->any()) frame_loads_->take(loads_->end());
     work_ += change;
     if (outside_->any()) outside_->add_change(change + held_change);
     if (contact_) contact_->jumped(q_0, time);
@@ -142,6 +147,7 @@ double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<con
         return part_ ? part_->ranks().largest(motion) : motion;
     }
     frames_->follow(q_0, q_1);
+    frame_loads_->follow();
     midpoint_.resize(lane_width<Dim> * q_0.size());
     return frames_->take_midpoints(q_0, q_1, midpoint_);
 }

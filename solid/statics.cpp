@@ -343,6 +343,8 @@ StaticSolution solve_statics(Solid<Dim>& solid, std::vector<double> q_0, const S
     report.converged = ending == Ending::balanced || ending == Ending::lowest;
     report.ending = text(ending, options);
     std::vector<double> q = objective.q();
+    static_cast<void>(solid.potential(q));
+    solid.require_depth();
     if (report.converged) return {std::move(q), std::move(report)};
     if (const auto motion = free_rigid_motion(solid, std::span<const double>(q)))
         throw BadInput("statics: after " + std::to_string(report.iterations.size()) + " iterations " + *motion +

@@ -7,7 +7,21 @@ namespace {
 
 /// Which bodies the faces of a group are of; 1: there are such.
 struct Sides {
-    double turning = 0.0, others = 0.0;
+    double small = 0.0, floating = 0.0, finite = 0.0, rigid = 0.0;
+
+    double& of(Kinematics kinematics) {
+        switch (kinematics) {
+            case Kinematics::floating:
+                return floating;
+            case Kinematics::finite:
+                return finite;
+            case Kinematics::rigid:
+                return rigid;
+            case Kinematics::small:
+                break;
+        }
+        return small;
+    }
 };
 
 template <int Dim>
@@ -15,8 +29,7 @@ Sides sides_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, co
     Sides sides;
     for (const std::int32_t face : mesh.group(condition.group).faces) {
         const auto body = static_cast<std::size_t>(mesh.cell_body[mesh.face_cells[face][0]]);
-        const bool turns = body < options.kinematics.size() && options.kinematics[body] != Kinematics::small;
-        (turns ? sides.turning : sides.others) = 1.0;
+        sides.of(body < options.kinematics.size() ? options.kinematics[body] : Kinematics::small) = 1.0;
     }
     return sides;
 }
@@ -24,26 +37,30 @@ Sides sides_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, co
 }  // namespace
 
 template <int Dim>
-std::vector<bool> turning_tractions(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                    const dynamics::Ranks* ranks) {
+std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                         const dynamics::Ranks* ranks) {
     std::vector<Sides> of_conditions = dynamics::agreed(ranks, [&] {
         std::vector<Sides> here;
         for (const auto& condition : options.boundary.traction) here.push_back(sides_of(mesh, options, condition));
         return here;
     });
-    std::vector<bool> turning;
+    std::vector<TractionHold> holds;
     for (std::size_t i = 0; i < of_conditions.size(); ++i) {
+        const TractionCondition<Dim>& condition = options.boundary.traction[i];
         Sides& sides = of_conditions[i];
-        if (ranks) sides = {ranks->largest(sides.turning), ranks->largest(sides.others)};
-        if (sides.turning > 0.0 && sides.others > 0.0)
-            throw BadInput(mesh.name + ": the traction on '" + options.boundary.traction[i].group +
+        if (ranks)
+            for (double* side : {&sides.small, &sides.floating, &sides.finite, &sides.rigid}) *side = ranks->largest(*side);
+        const bool turns = sides.floating + sides.finite + sides.rigid > 0.0;
+        if (turns && sides.small > 0.0)
+            throw BadInput(mesh.name + ": the traction on '" + condition.group +
                            "' acts on bodies of Kinematics::small and on others. Give each kind a group of its own.");
-        turning.push_back(sides.turning > 0.0);
+        const bool in_frames = condition.follows && !condition.from_outside && sides.floating > 0.0 && sides.finite == 0.0;
+        holds.push_back(!turns ? TractionHold::cells : in_frames ? TractionHold::frames : TractionHold::points);
     }
-    return turning;
+    return holds;
 }
 
-template std::vector<bool> turning_tractions(const mesh::Mesh<2>&, const SolidOptions<2>&, const dynamics::Ranks*);
-template std::vector<bool> turning_tractions(const mesh::Mesh<3>&, const SolidOptions<3>&, const dynamics::Ranks*);
+template std::vector<TractionHold> traction_holds(const mesh::Mesh<2>&, const SolidOptions<2>&, const dynamics::Ranks*);
+template std::vector<TractionHold> traction_holds(const mesh::Mesh<3>&, const SolidOptions<3>&, const dynamics::Ranks*);
 
 }  // namespace abut::solid

@@ -8,10 +8,17 @@
 
 namespace abut::solid {
 
-/// Whether each traction of the options acts on bodies that may turn (n_tractions). A call of all ranks, of which one may have
-/// no face of its group. Throws BadInput for a group on bodies of both kinds, and for one that the mesh does not have.
+/// Where a traction acts.
+enum class TractionHold {
+    cells,   ///< on faces of bodies that do not turn, which give way to it
+    frames,  ///< the same in the frames of floating bodies, with which it turns; on rigid ones of its group at points
+    points,  ///< at places that move with points of bodies that may turn; the faces take it as free
+};
+
+/// Of each traction of the options (n_tractions). A call of all ranks, of which one may have no face of its group. Throws
+/// BadInput for a group on bodies of Kinematics::small and on others, and for one that the mesh does not have.
 template <int Dim>
-[[nodiscard]] std::vector<bool> turning_tractions(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                                  const dynamics::Ranks* ranks);
+[[nodiscard]] std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
+                                                       const dynamics::Ranks* ranks);
 
 }  // namespace abut::solid

@@ -46,8 +46,8 @@ FrameStep<Dim>::FrameStep(const BodyFrame<Dim>& start, const BodyFrame<Dim>& end
     for (int j = 0; j < l.cols(); ++j)
         l.col(j) = axial<Dim>(mean_turn_.transpose() * hat<Dim>(AxialVector<Dim>::Unit(j)) * mean_moment);
     const AxialMatrix inverse = l.inverse();
-    const AxialVector<Dim> omega = inverse * axial<Dim>(mean_turn_.transpose() * (end.moment - start.moment));
-    const Matrix<Dim> turning = hat<Dim>(omega);
+    turned_ = inverse * axial<Dim>(mean_turn_.transpose() * (end.moment - start.moment));
+    const Matrix<Dim> turning = hat<Dim>(turned_);
     force_turn_ = mean_turn_ - 0.25 * turning * turning * mean_turn_;
     to_carry_ = inverse.transpose();
 }

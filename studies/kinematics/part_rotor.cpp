@@ -50,9 +50,10 @@ public:
         if (run.steps == 0) {
             start_ = momentum;
         } else {
-            // As steps take them: springs at the mean of both ends, dashpots at the rate of the step before.
-            springs_ -= 0.5 * stiffness * dt * (shift_ + shift) + damping * step_;
-            step_ = shift - shift_;
+            // As steps take them: springs at the mean of both ends, dashpots at that of the rates of this step and the one before.
+            const Vector<2> step = shift - shift_;
+            springs_ -= 0.5 * (stiffness * dt * (shift_ + shift) + damping * (step_ + step));
+            step_ = step;
             rotor_ += push;
             largest_ = std::max(largest_, rotor_.norm());
             lack_ = std::max(lack_, (momentum - start_ - springs_ - rotor_).norm());

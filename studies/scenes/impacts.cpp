@@ -52,12 +52,12 @@ double spin(const dynamics::RunView<2>& run, const solid::Solid<2>& solid) {
     double mass = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells() && mesh.cell_body[c] == 0; ++c) {
         mass += solid.masses()[c];
-        centre += solid.masses()[c] * mesh.cell_centroid[c];
+        centre += solid.masses()[c] * solid.rest_positions()[c];
     }
     centre /= mass;
     double momentum = 0.0, inertia = 0.0;
     for (std::int32_t c = 0; c < mesh.n_cells() && mesh.cell_body[c] == 0; ++c) {
-        const Vector<2> r = mesh.cell_centroid[c] - centre, p = run.momentum(c);
+        const Vector<2> r = solid.rest_positions()[c] - centre, p = run.momentum(c);
         momentum += r.x() * p.y() - r.y() * p.x();
         inertia += solid.masses()[c] * r.squaredNorm();
     }

@@ -325,10 +325,13 @@ TEST_CASE("what a finite body does not know is refused by name", "[solid][finite
         CHECK_THROWS_WITH(solid::Solid<2>(mesh, options),
                           Catch::Contains("Kinematics::finite") && Catch::Contains("varies"));
     }
-    SECTION("tractions that follow") {
-        options.boundary.traction.push_back({.group = "ymax", .value = {0.0, 1.0}, .history = {}, .follows = true});
-        CHECK_THROWS_WITH(solid::Solid<2>(mesh, options),
-                          Catch::Contains("Kinematics::finite") && Catch::Contains("follows"));
+    SECTION("tractions that follow and are no pressure") {
+        options.boundary.traction.push_back({.group = "ymax", .value = {1.0, 0.0}, .history = {}, .follows = true});
+        solid::Solid<2> solid(mesh, options);
+        std::vector<double> force(solid.size());
+        CHECK_THROWS_WITH(
+            solid.force(std::vector<double>(solid.size(), 0.0), force),
+            Catch::Contains("Kinematics::finite") && Catch::Contains("follows") && Catch::Contains("pressure"));
     }
     SECTION("local steps") {
         solid::Solid<2> solid(mesh, options);

@@ -159,6 +159,35 @@ std::string refusal(const mesh::Mesh<2>& mesh, const SolidOptions<2>& options) {
     return "not refused";
 }
 
+TEST_CASE("bodies pressed in deeper than a run allows are refused under both laws, by their names") {
+    const auto law = GENERATE(solid::ContactLaw::reconstruction, solid::ContactLaw::pair_potential);
+    const auto mesh = together(mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, CellShape::quadrangle, "lower"),
+                               mesh::structured_box<2>({0.0, 1.0}, {1.0, 2.0}, {4, 3}, CellShape::quadrangle, "upper"));
+    auto options = bodies<2>(2);
+    options.law = law;
+    for (const char* side : {"lower.xmin", "lower.xmax", "upper.xmin", "upper.xmax", "lower.ymin"})
+        options.boundary.dirichlet.push_back({.group = side, .constraint = Constraint::normal});
+    // A free face is where its cell has no strain at all, in twice the depth: |g|/D is twice the mean strain.
+    const double strain = GENERATE(0.02, 0.1), limit = 0.05;
+    options.contact->compression_limit = limit;
+    options.boundary.dirichlet.push_back(
+        {.group = "upper.ymax", .constraint = Constraint::normal, .value = {0.0, -2.0 * strain}});
+    Solid<2> solid(mesh, options);
+    const auto solve = [&] { return solve_statics(solid, std::vector<double>(solid.size(), 0.0)); };
+    if (strain < limit) {
+        CHECK(solve().report.compression == Approx(2.0 * strain).epsilon(0.1));
+        return;
+    }
+    try {
+        static_cast<void>(solve());
+        FAIL("a compression of " << solid.compression() << " is taken");
+    } catch (const TooDeep& error) {
+        CHECK(error.facts().value > limit);
+        CHECK(error.facts().allowed == limit);
+        for (const char* part : {"compression_limit", "'lower'", "'upper'"}) CHECK_THAT(error.what(), Catch::Contains(part));
+    }
+}
+
 TEST_CASE("a body that is free to move as a rigid one is refused by its name and motion") {
     const auto mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {4, 4}, CellShape::quadrangle, "block");
     SolidOptions<2> options;

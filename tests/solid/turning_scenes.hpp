@@ -113,12 +113,12 @@ struct TurningScene {
         return {ledger.pseudo_energy_drift() / energy, ledger.energy_excess() / energy,
                 ledger.momentum_drift() / sum_of_momenta, moment_drift / sum_of_moments, ledger.parasitic()};
     }
-    /// Largest distance of two cells over that at rest.
+    /// Largest distance of two points over that at rest.
     [[nodiscard]] double stretch() const {
         double stretch = 0.0;
         const auto q = as_vectors<Dim>(memm.q());
         for (std::int32_t c = 1; c < mesh.n_cells(); ++c) {
-            const Vector<Dim> rest = mesh.cell_centroid[c] - mesh.cell_centroid[0];
+            const Vector<Dim> rest = solid.rest_positions()[c] - solid.rest_positions()[0];
             raise(stretch, std::abs((rest + q[c] - q[0]).norm() / rest.norm() - 1.0));
         }
         return stretch;

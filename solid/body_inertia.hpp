@@ -1,0 +1,23 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+#include "abut/solid/solid.hpp"
+
+namespace abut::solid {
+
+/// The moments of inertia of a body about the principal axes through its centre, of which the masses of its points may have less:
+/// those of the cells themselves are missing where points are at their centroids (Kinematics::small and ::finite).
+template <int Dim>
+struct BodyInertia {
+    AxialVector<Dim> exact;  ///< of its cells at rest, increasing [kg m^2]
+    AxialVector<Dim> share;  ///< I / I_exact of the points [-]
+
+    [[nodiscard]] double least() const { return share.minCoeff(); }
+};
+
+/// Of each body of a solid that runs on one rank (n_bodies).
+template <int Dim>
+[[nodiscard]] std::vector<BodyInertia<Dim>> inertia_of_bodies(const Solid<Dim>& solid);
+
+}  // namespace abut::solid
