@@ -17,6 +17,7 @@
 #include "abut/run/failure.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/body_inertia.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::input {
@@ -60,6 +61,17 @@ std::string duration(double seconds) {
     return seconds < 6000.0 ? fmt::format("{:.2g} min", seconds / 60.0) : fmt::format("{:.2g} h", seconds / 3600.0);
 }
 
+/// The least share of the exact inertia that a body has, and which body it is.
+template <int Dim>
+std::string text_of_inertia(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
+    if (result.inertia.empty()) return "";
+    const auto least = std::ranges::min_element(result.inertia, {}, &solid::BodyInertia<Dim>::least);
+    if (least->least() >= run::enough_inertia) return fmt::format("{:.3g} of the exact one, or more", least->least());
+    const auto body = static_cast<std::size_t>(least - result.inertia.begin());
+    return fmt::format("{:.3g} of the exact one: '{}', which is {}", least->least(), scene.mesh.body_names[body],
+                       run::name_of(run::kinematics_of(scene, result, body)));
+}
+
 /// How long a longitudinal wave takes through a cell, in its narrowest direction about [s].
 template <int Dim>
 double crossing_time(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const solid::Material& material) {
@@ -100,6 +112,7 @@ public:
                      .boundary_faces = static_cast<std::int64_t>(scene.mesh.boundary_faces.size())};
         for (const auto& [word, law] : run::law_words)
             if (law == result.options.law && law != solid::ContactLaw::automatic) estimate_.law = word;
+        estimate_.inertia = text_of_inertia(scene, result);
         estimate_.stable_dt = result.stable.dt;
         estimate_.dt = run::choose_step(options_, result.stable.dt);
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
@@ -133,7 +146,7 @@ template <int Dim>
 void check_run(const Settings& settings, CheckedScene& checked) {
     const run::Scene<Dim> scene = make_scene<Dim>(settings, checked.faults);
     if (!checked.faults.empty()) return;
-    run::RunOptions options = run::with_defaults<Dim>(settings.options);
+    run::RunOptions options = run::with_defaults<Dim>(run::with_restart(settings.options, scene));
     if (options.kinematics == run::BodyKinematics::automatic) options.kinematics = run::BodyKinematics::scene;
     try {
         Rehearsal<Dim> rehearsal(options, checked);
@@ -167,6 +180,7 @@ std::string text_of(const Estimate& estimate) {
     line("cells", fmt::format("{}", estimate.cells));
     line("boundary faces", fmt::format("{}", estimate.boundary_faces));
     if (!estimate.law.empty()) line("law of contact", estimate.law);
+    if (!estimate.inertia.empty()) line("inertia", estimate.inertia);
     line("stable step", fmt::format("{:.4g} s", estimate.stable_dt));
     if (!estimate.cell_of_step.empty()) line("  set by", estimate.cell_of_step);
     line("step", fmt::format("{:.4g} s", estimate.dt));

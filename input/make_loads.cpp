@@ -110,7 +110,7 @@ void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
         const mesh::BoundaryGroup& group = scene.mesh.groups[part];
         const Vector<Dim> normal = scene.mesh.face_normal[group.faces.front()];
         solid::TractionCondition<Dim> condition{.group = group.name, .value = Vector<Dim>::Zero(), .history = {}};
-        condition.follows = traction.follows;
+        condition.follows = true;  // nothing else is a pressure on a body that turns; of others it makes no difference
         if (pressure.varies())
             condition.history = [pressure, normal](double time, const Vector<Dim>& x) {
                 return Vector<Dim>(-pressure(time, in_space<Dim>(x)) * normal);
@@ -121,15 +121,31 @@ void add_pressure(run::Scene<Dim>& scene, const TractionSettings& traction) {
     }
 }
 
-/// Nothing says how far a face of a finite body has turned.
+/// What turns with a face of a finite body is a pressure, and a pressure turns with all faces that turn.
 template <int Dim>
 bool can_follow(const TractionSettings& traction, const Movers<Dim>& movers, std::vector<Fault>& faults) {
-    const std::string body = traction.follows ? movers.first(traction.group, solid::Kinematics::finite) : "";
-    if (body.empty()) return true;
-    faults.push_back({traction.where, fmt::format("tractions.{} follows body '{}', which is finite: only bodies of other "
-                                                  "kinematics can be followed. Leave follows out.",
-                                                  traction.name, body)});
-    return false;
+    if (traction.follows.value_or(false) && traction.value)
+        if (const std::string body = movers.first(traction.group, solid::Kinematics::finite); !body.empty()) {
+            faults.push_back({traction.where, fmt::format("tractions.{} follows body '{}', which is finite: of such a body "
+                                                          "a pressure alone turns with the faces. Leave follows out, or "
+                                                          "give a pressure.",
+                                                          traction.name, body)});
+            return false;
+        }
+    if (traction.follows.value_or(true) || !traction.pressure) return true;
+    for (const auto& [kinematics, word] :
+         {std::pair(solid::Kinematics::floating, "floating"), std::pair(solid::Kinematics::finite, "finite"),
+          std::pair(solid::Kinematics::rigid, "rigid")})
+        if (const std::string body = movers.first(traction.group, kinematics); !body.empty()) {
+            faults.push_back(
+                {traction.where, fmt::format("tractions.{} is a pressure on body '{}', which is {}, and follows "
+                                             "is false: the forces would stay as they are while its faces "
+                                             "turn, and spin a body up that is pressed from all sides. Leave "
+                                             "follows out, or give a value, which keeps its direction.",
+                                             traction.name, body, word)});
+            return false;
+        }
+    return true;
 }
 
 template <int Dim>
@@ -142,7 +158,7 @@ void add_tractions(run::Scene<Dim>& scene, const Settings& settings, const Names
         if (!traction.value) continue;
         solid::TractionCondition<Dim> condition;
         condition.group = traction.group;
-        condition.follows = traction.follows;
+        condition.follows = traction.follows.value_or(false);
         set_value<Dim>(condition, *traction.value);
         scene.solid.boundary.traction.push_back(std::move(condition));
     }

@@ -36,10 +36,23 @@ constexpr std::array<run::Word<solid::Constraint>, 3> constraint_words{{{"full",
                                                                         {"normal", solid::Constraint::normal},
                                                                         {"components", solid::Constraint::components}}};
 
+Key<Settings> by_default(std::string words, Key<Settings> key) {
+    key.by_default = std::move(words);
+    return key;
+}
+
 template <class Section>
 Key<Section> group() {
     return required(Make<Section>::text("group", &Section::group, "text",
                                         "group of boundary faces, \"<body>.<group>\" such as \"left.xmin\""));
+}
+
+Key<TractionSettings> follows() {
+    Key<TractionSettings> key = key_of<TractionSettings>(
+        "follows", "true, false", "of value: it turns with the body; a pressure always does", &TractionSettings::follows,
+        [](Reader& reader, const Node& node, const std::string& path) { return reader.truth(node, path); });
+    key.by_default = "false";
+    return key;
 }
 
 }  // namespace
@@ -76,7 +89,8 @@ const Keys<Settings>& run_keys() {
         Of::number("gauge", option(&RunOptions::gauge), {.unit = "J", .above = 0.0},
                    "c of the Bilbao scheme; by default the energy at the start"),
         Of::word("filter", option(&RunOptions::filter), run::filter_words, "energy-neutral filter of the parasitic mode"),
-        Of::count("restart", option(&RunOptions::restart), 0, Of::many, "of memm: steps between neutral restarts; 0: none"),
+        by_default("50 where a body is finite, else 0", Of::count("restart", option(&RunOptions::restart), 0, Of::many,
+                                                                  "of memm: steps between neutral restarts; 0: none")),
         Of::word("kinematics", option(&RunOptions::kinematics), run::kinematics_words,
                  "of all bodies: as each body says (scene), the same for all, or chosen by a pilot run (automatic)"),
         Of::count("threads", option(&RunOptions::threads), 0, Of::many,
@@ -191,8 +205,8 @@ const Keys<TractionSettings>& traction_keys() {
     static const Keys<Traction> keys = {
         group<Traction>(), From::field("value", &Traction::value, "Pa", Variables::time_and_space, "force per area"),
         From::formula("pressure", &Traction::pressure, "Pa", Variables::time_and_space,
-                      "against the outward normals at rest, instead of value"),
-        From::truth("follows", &Traction::follows, "it turns with the body, as a pressure does")};
+                      "against the outward normals, with which it turns, instead of value"),
+        follows()};
     return keys;
 }
 

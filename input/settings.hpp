@@ -117,7 +117,7 @@ struct TractionSettings : Named {
     std::string group;
     std::optional<FieldSettings> value;  ///< [Pa]
     std::optional<Formula> pressure;     ///< [Pa], instead of `value`
-    bool follows = false;
+    std::optional<bool> follows;
 };
 
 struct AnchorSettings {

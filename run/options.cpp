@@ -101,7 +101,7 @@ void check_together(const RunOptions& options) {
     if (options.filter && options.integrator != SolidIntegrator::memm)
         throw BadInput(fmt::format("--filter neutral: the filter is made for memm, and {} was chosen. Take --filter none.",
                                    name_of(options.integrator)));
-    if (options.restart < 0)
+    if (options.restart < 0 && options.restart != restart_not_given)
         throw BadInput(fmt::format("--restart: {} steps, 1 or more are allowed, and 0 for no restarts.", options.restart),
                        {.value = static_cast<double>(options.restart), .allowed = 0.0});
     if (options.restart > 0 && options.integrator != SolidIntegrator::memm)

@@ -17,6 +17,8 @@
 namespace abut::run {
 
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+inline constexpr int restart_not_given = std::numeric_limits<int>::min();
+inline constexpr int restart_of_finite = 50;
 
 /// A solid with contact runs under those of integrator_words; `simulate` refuses others. docs/integrators.md says which to choose.
 using SolidIntegrator = dynamics::Scheme;
@@ -46,7 +48,9 @@ struct RunOptions {
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
     bool filter = false;       ///< energy-neutral filter of the parasitic mode, near the contact
-    int restart = 0;           ///< steps between neutral restarts, which clear that mode everywhere; 0: none
+    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given: 50 with memm where a body is finite,
+    /// whose forces feed the mode, else none
+    int restart = restart_not_given;
     int threads = 0;           ///< at most; 0: all. The results do not depend on it
     int ranks = 0;             ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
     int rebalance = 0;         ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are

@@ -84,6 +84,25 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
 }
 
 template <int Dim>
+RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
+    if (options.restart != restart_not_given) return options;
+    const auto of_all = kinematics_of_all(options.kinematics);
+    const auto& kinematics = scene.solid.kinematics;
+    const bool any_finite = of_all ? *of_all == solid::Kinematics::finite
+                                   : options.kinematics == BodyKinematics::scene &&
+                                         std::ranges::find(kinematics, solid::Kinematics::finite) != kinematics.end();
+    options.restart = any_finite && options.integrator == SolidIntegrator::memm ? restart_of_finite : 0;
+    return options;
+}
+
+template <int Dim>
+solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body) {
+    if (result.pilot) return result.pilot->bodies[body].picked;
+    const auto own = scene.solid.kinematics.empty() ? solid::Kinematics::small : scene.solid.kinematics[body];
+    return kinematics_of_all(result.options.kinematics).value_or(own);
+}
+
+template <int Dim>
 std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     if (!scene.displacement) return std::vector<double>(solid.size(), 0.0);
     std::vector<Vector<Dim>> of_cells;
@@ -109,6 +128,8 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);           \
+    template RunOptions with_restart<Dim>(RunOptions, const Scene<Dim>&);                                 \
+    template solid::Kinematics kinematics_of<Dim>(const Scene<Dim>&, const RunResult<Dim>&, std::size_t); \
     template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&); \
     template std::vector<double> momentum_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&);
 ABUT_INSTANTIATE(2)

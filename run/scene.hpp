@@ -14,6 +14,7 @@
 #include "abut/run/rebalancing.hpp"
 #include "abut/run/sightings.hpp"
 #include "abut/run/value.hpp"
+#include "abut/solid/body_inertia.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/solid.hpp"
 
@@ -79,6 +80,7 @@ struct RunResult {
     std::optional<contact::EdgePair<Dim>> unseen_edges;  ///< that would cross without contact
     std::optional<PilotReport> pilot;                    ///< under BodyKinematics::automatic
     bool all_may_turn = false;                           ///< no body is of Kinematics::small
+    std::vector<solid::BodyInertia<Dim>> inertia;        ///< of the bodies; empty except on the first rank
     solid::StencilReport stencils;                       ///< of the faces between cells
     solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
@@ -96,9 +98,15 @@ struct RunResult {
 /// What the solid of a scene is made with. Throws BadInput for BodyKinematics::automatic, which choose_kinematics resolves.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
+/// With `restart` filled in, by the kinematics that the bodies are run with.
+template <int Dim>
+[[nodiscard]] RunOptions with_restart(RunOptions options, const Scene<Dim>& scene);
 /// Of the points of the scene's solid, on several ranks of those of this one, (n_points, Dim) [m].
 template <int Dim>
 [[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
+/// What a body of a run is.
+template <int Dim>
+[[nodiscard]] solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body);
 /// Of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities or
 /// spins than bodies.
 template <int Dim>

@@ -409,7 +409,7 @@ template <int Dim>
 RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
                          const Share<Dim>* share) {
     check(given);
-    const RunOptions options = with_defaults<Dim>(given);
+    const RunOptions options = with_defaults<Dim>(with_restart(given, scene));
     std::optional<global_control> threads;
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));

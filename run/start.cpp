@@ -78,6 +78,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.boundary_stencils = seen.ccg().boundary().report;
     const auto& kinematics = solid->options().kinematics;
     result.all_may_turn = !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
+    if (whole || !share) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->blind_corners();
     result.unseen_edges = solid->unseen_edges();
     set_state();

@@ -34,7 +34,8 @@ Json bodies_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
              {"rotation_final", result.end[body].rotation},
              {"spin_initial", std::vector<double>(result.start[body].spin.begin(), result.start[body].spin.end())},
              {"spin_final", std::vector<double>(result.end[body].spin.begin(), result.end[body].spin.end())},
-             {"local_rotation_final", result.local_rotations[body]}});
+             {"local_rotation_final", result.local_rotations[body]},
+             {"inertia_share", body < result.inertia.size() ? result.inertia[body].least() : 1.0}});
     return bodies;
 }
 

@@ -114,12 +114,32 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
              near.gap, 0.0});
 }
 
+/// That the mass of cells at their centroids leaves out a part of the inertia of a body that turns.
+template <int Dim>
+void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    for (std::size_t body = 0; body < result.inertia.size(); ++body) {
+        const auto kinematics = kinematics_of(scene, result, body);
+        const double share = result.inertia[body].least();
+        if (kinematics == solid::Kinematics::small || !(share < enough_inertia)) continue;
+        counts.warnings.push_back(
+            {WarningKind::missing_inertia, Severity::warning,
+             fmt::format(
+                 "body '{}', which is {}, has {:.3g} of its moment of inertia, {:g} is enough: the mass of a cell is at "
+                 "its centroid. It turns and precesses too fast by {:.2g} %. Take smaller cells, or rigid{} where it "
+                 "does not bend",
+                 scene.mesh.body_names[body], name_of(kinematics), share, enough_inertia, 100.0 * (1.0 / share - 1.0),
+                 kinematics == solid::Kinematics::finite ? " or floating" : ""),
+             share, enough_inertia});
+    }
+}
+
 }  // namespace
 
 template <int Dim>
 std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     Counts counts;
     add_mesh(counts, scene.mesh.report);
+    add_inertia(counts, scene, result);
     const auto& stencils = result.stencils;
     counts.add(WarningKind::extrapolated_faces, Severity::warning, stencils.extrapolated,
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "

@@ -16,6 +16,9 @@ inline constexpr double deep_slip_compression = 0.3;
 /// How far a body may turn before it is worth a word [rad]: it has grown by 0.5 % then. docs/limits.md.
 inline constexpr double far_rotation = 0.1;
 
+/// I / I_exact below which a body that may turn is worth a word [-]: it turns and precesses faster by as much. docs/limits.md.
+inline constexpr double enough_inertia = 0.98;
+
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
@@ -32,6 +35,7 @@ enum class WarningKind {
     turned_cells,         ///< note: cells that were given inside out, and are turned
     cut_cells,            ///< note: cells that were cut because of faces that are not planar
     coincident_vertices,  ///< vertices at the place of one of another body
+    missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,   ///< faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see
     unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
@@ -55,7 +59,7 @@ struct Warning {
     Severity severity;
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
-    double threshold;  ///< above which (unseen_edges: below which) `value` is worth a word
+    double threshold;  ///< above which (unseen_edges, missing_inertia: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

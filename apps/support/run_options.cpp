@@ -77,8 +77,12 @@ void add_time_options(CLI::App& app, run::RunOptions& options, const std::string
     add_choice(app, "--filter", options.filter, "energy-neutral filter of the parasitic mode, after each step in contact",
                filters)
         ->group("Time");
-    add_count(app, "--restart", options.restart,
-              "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none", 0)
+    add_count(
+        app, "--restart", options.restart,
+        "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none. By default 50 "
+        "where a body is finite, else 0",
+        0)
+        ->default_str("")
         ->group("Time");
 }
 

@@ -269,7 +269,7 @@ private:
                 "long "
                 "you will step. Choose small, floating, finite or rigid.");
         if (scene.contact) mesh::check_apart(scene.mesh, "", given.contact.search.broad_phase);
-        return run::with_defaults<Dim>(given);
+        return run::with_defaults<Dim>(run::with_restart(given, scene));
     }
     void take_step() {
         try {

@@ -102,26 +102,19 @@ Markup energies_part(const Figures& figures, const RunResult<Dim>& result) {
 }
 
 template <int Dim>
-solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body) {
-    if (result.pilot) return result.pilot->bodies[body].picked;
-    const auto own = scene.solid.kinematics.empty() ? solid::Kinematics::small : scene.solid.kinematics[body];
-    return kinematics_of_all(result.options.kinematics).value_or(own);
-}
-
-template <int Dim>
 Markup bodies_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::vector<Markup> rows;
     for (std::size_t body = 0; body < result.start.size(); ++body) {
         const auto at = [&](const char* key) { return figures.at(fmt::format("bodies.{}.{}", body, key)); };
         const auto cells = std::ranges::count(scene.mesh.cell_body, static_cast<std::int32_t>(body));
-        rows.push_back(
-            row({at("name"), name_of(kinematics_of(scene, result, body)), fmt::format("{}", cells), at("mass"),
-                 at("velocity_initial"), at("velocity_final"), at("spin_initial"), at("spin_final"), at("rotation_final")}));
+        rows.push_back(row({at("name"), name_of(kinematics_of(scene, result, body)), fmt::format("{}", cells), at("mass"),
+                            at("velocity_initial"), at("velocity_final"), at("spin_initial"), at("spin_final"),
+                            at("rotation_final"), at("inertia_share")}));
     }
-    return section("Bodies",
-                   table({"body", "moves as", "cells", "mass [kg]", "velocity at the start [m/s]", "at the end [m/s]",
-                          "spin at the start [rad/s]", "at the end [rad/s]", "turned by [rad]"},
-                         rows));
+    return section("Bodies", table({"body", "moves as", "cells", "mass [kg]", "velocity at the start [m/s]",
+                                    "at the end [m/s]", "spin at the start [rad/s]", "at the end [rad/s]", "turned by [rad]",
+                                    "I of its points over I, least"},
+                                   rows));
 }
 
 template <int Dim>
@@ -150,7 +143,7 @@ Markup findings_part(const Figures& figures, const std::vector<Finding>& finding
 /// Settings in three parts: those of the scene and this run alone, those that are not as by default, and the rest.
 template <int Dim>
 Markup settings_part(const Figures& figures, const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    const Json by_default = to_json(named_values(with_defaults<Dim>({})));
+    const Json by_default = to_json(named_values(with_defaults<Dim>(with_restart<Dim>({}, scene))));
     const Json own = to_json(scene.options);
     std::vector<Markup> of_scene, changed, plain;
     for (const auto& [name, value] : figures.summary().at("options").items()) {

@@ -286,3 +286,35 @@ TEST_CASE("a rigid body that starts displaced takes no added velocity: it would 
     scene.displacement = [](const Vector<2>&) -> Vector<2> { return {0.0, 1.0}; };
     CHECK_THROWS_AS(run::simulate<2>(scene, {.steps = 1}), BadInput);
 }
+
+TEST_CASE("a finite body is run with neutral restarts, others are not, and who asks for none gets none", "[run]") {
+    // A cantilever under an end moment that turns with its end: a pressure that changes sign across it.
+    const double height = 0.1, slope = 0.2;
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {1.0, height}, {40, 4}, mesh::CellShape::triangle, "beam");
+    scene.solid.materials = {{.young = 1.0, .poisson = 0.3, .density = 1.0}};
+    scene.solid.kinematics = {solid::Kinematics::finite};
+    scene.solid.boundary.dirichlet = {{.group = "xmin"}};
+    scene.solid.boundary.traction = {
+        {.group = "xmax",
+         .history = [=](double, const Vector<2>& x) { return Vector<2>(-slope * (x[1] - 0.5 * height), 0.0); },
+         .follows = true}};
+    scene.contact = false;
+    scene.energy_scale = {"E0", 1e-5};
+    scene.time = 60.0;
+    const auto by_default = run::simulate<2>(scene, {.interval = 7}),
+               without = run::simulate<2>(scene, {.restart = 0, .interval = 7});
+    CHECK(by_default.options.restart == 50);
+    CHECK(without.options.restart == 0);
+    const auto& last = by_default.ledger.entries().back();
+    CHECK(last.restarts.restarts == by_default.steps / 50);
+    const double energy = by_default.ledger.largest_energy();
+    CAPTURE(energy, without.ledger.energy_excess(), by_default.ledger.energy_excess());
+    CHECK(by_default.ledger.pseudo_energy_drift() <= 1e-11 * energy);
+    CHECK(by_default.ledger.energy_excess() <= 1e-3 * energy);
+    CHECK(by_default.ledger.energy_excess() <= 0.1 * without.ledger.energy_excess());
+
+    scene.solid.boundary.dirichlet.clear();
+    CHECK(run::simulate<2>(scene, {.steps = 1, .kinematics = run::BodyKinematics::floating}).options.restart == 0);
+    CHECK(run::simulate<2>(scene, {.steps = 1, .integrator = run::SolidIntegrator::leapfrog}).options.restart == 0);
+}
