@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "abut/geometry/merged_vertices.hpp"
 
@@ -99,21 +100,22 @@ private:
 }  // namespace
 
 template <int Dim>
-std::vector<std::int32_t> blind_corners(const SurfaceView<Dim>& surface, double facing_cosine) {
+std::vector<BlindCorner<Dim>> blind_corners(const SurfaceView<Dim>& surface, double facing_cosine) {
     check_sizes(surface);
     const std::vector<FaceAtCorner> all = faces_at_corners(surface);
-    std::vector<std::int32_t> blind;
+    std::vector<BlindCorner<Dim>> blind;
+    std::int32_t last = -1;  // merged vertex
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
         while (end < all.size() && all[end].merged_vertex == all[begin].merged_vertex && all[end].body == all[begin].body)
             ++end;
         if (Corner<Dim>(surface, std::span(all).subspan(begin, end - begin), -facing_cosine).is_blind() &&
-            (blind.empty() || blind.back() != all[begin].merged_vertex))
-            blind.push_back(all[begin].merged_vertex);
+            std::exchange(last, all[begin].merged_vertex) != all[begin].merged_vertex)
+            blind.push_back({all[begin].body, surface.vertices[static_cast<std::size_t>(all[begin].merged_vertex)]});
     }
     return blind;
 }
 
-template std::vector<std::int32_t> blind_corners<2>(const SurfaceView<2>&, double);
-template std::vector<std::int32_t> blind_corners<3>(const SurfaceView<3>&, double);
+template std::vector<BlindCorner<2>> blind_corners<2>(const SurfaceView<2>&, double);
+template std::vector<BlindCorner<3>> blind_corners<3>(const SurfaceView<3>&, double);
 
 }  // namespace abut::contact

@@ -23,12 +23,12 @@ namespace {
 
 constexpr std::uint32_t state_version = 2;
 
-/// n_1 . n_2 where the weight y^2 (3 - 2 y) is a quarter: y = 1/2 - sin(10 degrees).
+}  // namespace
+
+/// There y^2 (3 - 2 y) is a quarter: y = 1/2 - sin(10 degrees).
 double quarter_weight_cosine(const geometry::FacingFade& facing) {
     return facing.none - 0.32635182233306964 * (facing.none - facing.full);
 }
-
-}  // namespace
 
 template <int Dim>
 class NodalContact<Dim>::Implementation {
@@ -107,6 +107,10 @@ public:
 
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const {
         return estimate_stable_step(surface_, mass, omega_free);
+    }
+
+    [[nodiscard]] std::vector<BlindCorner<Dim>> blind_corners() const {
+        return contact::blind_corners<Dim>(surface_.facets().view(), quarter_weight_cosine(options_.facing));
     }
 
     [[nodiscard]] std::optional<EdgePair<Dim>> unseen_edges() const {
@@ -353,6 +357,10 @@ const NodalStep<Dim>& NodalContact<Dim>::last() const {
 template <int Dim>
 NodalStableStep NodalContact<Dim>::stable_step(std::span<const double> mass, double omega_free) const {
     return implementation_->stable_step(mass, omega_free);
+}
+template <int Dim>
+std::vector<BlindCorner<Dim>> NodalContact<Dim>::blind_corners() const {
+    return implementation_->blind_corners();
 }
 template <int Dim>
 std::optional<EdgePair<Dim>> NodalContact<Dim>::unseen_edges() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/blind_corners.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/options.hpp"
@@ -30,6 +31,10 @@ struct NodalOptions {
     /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
     std::function<bool(SurfaceFace, SurfaceFace)> wanted;
 };
+
+/// n_1 . n_2 at which the weight of a pair is a quarter: what looks at each other less is pressed in deeper than others, or
+/// passes.
+[[nodiscard]] double quarter_weight_cosine(const geometry::FacingFade& facing);
 
 /// How long a step may be. An estimate, no bound: a face at a corner may meet several partners at once.
 struct NodalStableStep {
@@ -90,6 +95,11 @@ public:
     /// `mass`: of each node (n_nodes) [kg]; `omega_free`: the highest frequency of the host without contact [rad/s]. Throws
     /// BadInput for a mass of a node of a deformable face that is not > 0, or a frequency that is not >= 0.
     [[nodiscard]] NodalStableStep stable_step(std::span<const double> mass, double omega_free) const;
+
+    /// Corners so sharp that pairs with a flat face that comes straight at them have less than a quarter of their weight
+    /// (`NodalOptions::facing`; by default tips of 38 degrees and less in 2D): bodies go through each other there, or leave
+    /// much too fast. To be asked once, where positions are those at rest.
+    [[nodiscard]] std::vector<BlindCorner<Dim>> blind_corners() const;
 
     /// Bodies whose sharpest edges have less than a quarter of the weight of flat sides where they cross
     /// (`NodalOptions::facing`; by default edges of 70 degrees and less): they press in deeper than others, or go through

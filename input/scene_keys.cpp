@@ -18,6 +18,9 @@ template <class Value>
 auto contact(Value contact::ContactOptions::*member) {
     return [member](Settings& settings) -> Value& { return settings.options.contact.*member; };
 }
+auto facing(double geometry::FacingFade::*member) {
+    return [member](Settings& settings) -> double& { return settings.options.facing.*member; };
+}
 template <class Value>
 auto search(Value contact::CandidateOptions::*member) {
     return [member](Settings& settings) -> Value& { return settings.options.contact.search.*member; };
@@ -123,6 +126,11 @@ const Keys<Settings>& contact_keys() {
                   "Gauss points on each part of a step; 0: the exact number, 2 in 2D, 3 in 3D"),
         Of::number("facing_cosine", search(&CandidateOptions::facing_cosine), {.above = -1.0, .below = 0.0},
                    "faces look at each other where the cosine between their normals is below it"),
+        Of::number(
+            "facing_full", facing(&geometry::FacingFade::full), {.above = -1.0, .below = 0.0},
+            "of the pair potential: cosine between the normals of two faces up to which their pair has its whole weight"),
+        Of::number("facing_none", facing(&geometry::FacingFade::none), {.above = -1.0, .below = 0.0, .closed = true},
+                   "and from which on it has none; nearer to 0 sharper tips and edges are seen"),
         Of::number("skin", search(&CandidateOptions::skin), {.unit = "m", .above = 0.0, .zero = true},
                    "how far faces move before the list of near faces is rebuilt; 0: chosen"),
         Of::number("compression_limit", contact(&ContactOptions::compression_limit), {.above = 0.0},

@@ -339,6 +339,10 @@ std::vector<std::int32_t> SharedNodalContact<Dim>::inward_bodies() const {
     return implementation_->contact().surface().inward_bodies();
 }
 template <int Dim>
+std::vector<contact::BlindCorner<Dim>> SharedNodalContact<Dim>::blind_corners() const {
+    return implementation_->contact().blind_corners();
+}
+template <int Dim>
 std::optional<contact::EdgePair<Dim>> SharedNodalContact<Dim>::unseen_edges() const {
     return implementation_->contact().unseen_edges();
 }

@@ -62,8 +62,10 @@ public:
     [[nodiscard]] const contact::ContactReport& report() const;
     [[nodiscard]] const contact::CandidateReport& search_report() const;
     [[nodiscard]] double skin() const;  ///< of the current list [m]
-    /// See contact::NodalSurface::inward_bodies and contact::NodalContact::unseen_edges: of the surface of all ranks.
+    /// See contact::NodalSurface::inward_bodies, contact::NodalContact::blind_corners and ::unseen_edges: of the surface of all
+    /// ranks.
     [[nodiscard]] std::vector<std::int32_t> inward_bodies() const;
+    [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
     /// What has been exchanged by `step` and `evaluate` so far: gathers and reductions. Bytes are those of this rank.
     [[nodiscard]] const Traffic& traffic() const;

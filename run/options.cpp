@@ -119,6 +119,12 @@ void check_together(const RunOptions& options) {
                 "and 1 or more times the mean.",
                 options.rebalance, options.rebalance_above),
             {.value = options.rebalance_above, .allowed = 1.0});
+    if (const auto& [full, none] = options.facing; !(full >= -1.0 && full < none && none <= 0.0))
+        throw BadInput(
+            fmt::format("--facing-full, --facing-none: pairs of faces fade out from {:g} to {:g}; -1 <= facing_full < "
+                        "facing_none <= 0 is needed. -0.6 and -0.2 are the defaults.",
+                        full, none),
+            {.value = full, .allowed = none});
     const RunOptions by_default;
     if (options.integrator != SolidIntegrator::memm_async &&
         (options.levels != by_default.levels || options.contact_margin != by_default.contact_margin ||
@@ -186,7 +192,7 @@ NamedValues named_values(const RunOptions& options) {
                     {"out", options.out.string()},
                     {"interval", options.interval},
                     {"frames", options.frames}});
-    // Said where it is not the usual: pieces, and what no program offers.
+    // Said where it is not the usual.
     const auto append_changed = [&values](const char* name, auto value, auto by_default) {
         if (value != by_default) values.push_back({name, value});
     };
@@ -196,6 +202,8 @@ NamedValues named_values(const RunOptions& options) {
     append_changed("self_contact_rings", contact.search.self_contact_rings, plain.search.self_contact_rings);
     append_changed("candidate_distance", contact.search.distance, plain.search.distance);
     append_changed("largest_motion", contact.search.largest_motion, plain.search.largest_motion);
+    append_changed("facing_full", options.facing.full, geometry::FacingFade{}.full);
+    append_changed("facing_none", options.facing.none, geometry::FacingFade{}.none);
     append_changed("compression_warning", contact.compression_warning, plain.compression_warning);
     return values;
 }

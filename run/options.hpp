@@ -8,6 +8,7 @@
 
 #include "abut/contact/options.hpp"
 #include "abut/dynamics/scheme.hpp"
+#include "abut/geometry/pair_potential/pair_potential.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
@@ -38,6 +39,7 @@ struct RunOptions {
     BodyKinematics kinematics = BodyKinematics::scene;
     solid::ContactLaw law = solid::ContactLaw::automatic;
     contact::ContactOptions contact;
+    geometry::FacingFade facing;  ///< of the pair potential: how pairs fade out as faces turn away from each other
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
     SolidIntegrator integrator = SolidIntegrator::memm;
@@ -122,7 +124,8 @@ template <int Dim>
 [[nodiscard]] double choose_step(const RunOptions& options, double stable_dt);
 
 /// Throws BadInput if options do not go together: a filter, restarts, levels or a gauge for a scheme that has none; and for
-/// a number of steps or a bound that there cannot be.
+/// a number of steps, a bound or a fade that there cannot be. Choices that the law of contact does not read are refused where a
+/// Solid is made: the bodies decide which law acts.
 void check(const RunOptions& options);
 
 /// The options by name, as given; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are

@@ -143,6 +143,13 @@ RunOptions of_one_kind(RunOptions options, BodyKinematics kinematics) {
     options.filter = false;
     options.restart = 0;
     options.law = solid::ContactLaw::automatic;
+    const contact::ContactOptions& plain = by_default.contact;  // what one law alone reads
+    options.contact.overlap = plain.overlap;
+    options.contact.weighting = plain.weighting;
+    options.contact.area = plain.area;
+    options.contact.quadrature = plain.quadrature;
+    options.contact.search.facing_cosine = plain.search.facing_cosine;
+    options.facing = by_default.facing;
     return options;
 }
 

@@ -79,6 +79,8 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
         solid.law = solid::ContactLaw::automatic;
     if (solid.law == solid::ContactLaw::automatic && takes_local_steps(options.integrator) && !turns(solid))
         solid.law = solid::ContactLaw::reconstruction;
+    constexpr geometry::FacingFade plain;
+    if (options.facing.full != plain.full || options.facing.none != plain.none) solid.facing = options.facing;
     solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
     return solid;
 }

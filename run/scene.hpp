@@ -75,21 +75,21 @@ struct RunResult {
     double skin = 0.0;                      ///< of the last candidate list [m]
     int threads = 0;                        ///< allowed
     contact::ContactReport contact;
-    std::int64_t inadmissible_overlaps_max = 0;          ///< largest number of `inadmissible_overlaps` at any record
-    std::vector<Vector<Dim>> blind_corners;              ///< too sharp for contact to see them [m]
-    std::optional<contact::EdgePair<Dim>> unseen_edges;  ///< that would cross without contact
-    std::optional<PilotReport> pilot;                    ///< under BodyKinematics::automatic
-    bool all_may_turn = false;                           ///< no body is of Kinematics::small
-    std::vector<solid::BodyInertia<Dim>> inertia;        ///< of the bodies; empty except on the first rank
-    solid::StencilReport stencils;                       ///< of the faces between cells
+    std::int64_t inadmissible_overlaps_max = 0;            ///< largest number of `inadmissible_overlaps` at any record
+    std::vector<contact::BlindCorner<Dim>> blind_corners;  ///< too sharp for contact to see them
+    std::optional<contact::EdgePair<Dim>> unseen_edges;    ///< that would cross without contact
+    std::optional<PilotReport> pilot;                      ///< under BodyKinematics::automatic
+    bool all_may_turn = false;                             ///< no body is of Kinematics::small
+    std::vector<solid::BodyInertia<Dim>> inertia;          ///< of the bodies; empty except on the first rank
+    solid::StencilReport stencils;                         ///< of the faces between cells
     solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
-    solid::FiniteExtremes finite;         ///< of all steps: Solid::finite_extremes
-    std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
-    std::vector<PastRim> past_rims;       ///< at records
+    solid::FiniteExtremes finite;                  ///< of all steps: Solid::finite_extremes
+    std::vector<double> local_rotations;           ///< at the end: Solid::local_rotations [rad]
+    std::vector<PastRim> past_rims;                ///< at records
     std::vector<NearItself<Dim>> near_themselves;  ///< at records, where contact does not look at it
-    solid::SolidTimes times;              ///< of the steps
+    solid::SolidTimes times;                       ///< of the steps
     RunSeconds seconds;
     Rebalancing rebalancing;        ///< on several ranks
     std::vector<Finding> findings;  ///< of the scene

@@ -133,6 +133,8 @@ const std::vector<OptionKey>& option_keys() {
                                                 {"contact", "area"},
                                                 {"contact", "quadrature"},
                                                 {"contact", "facing_cosine"},
+                                                {"contact", "facing_full"},
+                                                {"contact", "facing_none"},
                                                 {"contact", "skin"},
                                                 {"contact", "compression_limit"},
                                                 {"contact", "neumann"},

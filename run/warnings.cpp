@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "abut/contact/nodal_contact.hpp"
 #include "abut/run/obstacle_watch.hpp"
 #include "abut/run/user_words.hpp"
 
@@ -51,32 +52,58 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report) {
                            report.n_coincident_vertices));
 }
 
+/// How a body or an obstacle is called in messages.
 template <int Dim>
-void add_corners(Counts& counts, const std::vector<Vector<Dim>>& corners) {
+std::string name_in(const Scene<Dim>& scene, std::int32_t body) {
+    const auto i = static_cast<std::size_t>(body), n = scene.mesh.body_names.size();
+    return i < n ? fmt::format("body '{}'", scene.mesh.body_names[i])
+                 : fmt::format("obstacle '{}'", name_of_obstacle(scene, i - n));
+}
+
+/// By the law that acts: what two faces that look at each other less than this miss, and how that is changed.
+struct Seen {
+    double cosine;  ///< -n_1 . n_2
+    const char* verb;
+    const char* remedy;
+};
+Seen seen_by(const RunOptions& options) {
+    if (options.law == solid::ContactLaw::pair_potential)
+        return {-contact::quarter_weight_cosine(options.facing), "hardly sees",
+                "take a --facing-none nearer to 0, with a --facing-full below it"};
+    return {-options.contact.search.facing_cosine, "does not see", "take a --facing-cosine nearer to 0"};
+}
+
+template <int Dim>
+void add_corners(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const auto& corners = result.blind_corners;
     if (corners.empty()) return;
+    const Seen seen = seen_by(result.options);
     counts.add(
         WarningKind::blind_corners, Severity::warning, corners.size(),
-        fmt::format("{} corners, one of them at ({:g}), are so sharp that contact does not see them meet a flat face: "
-                    "bodies pass through each other there. Blunt them, or take a --facing-cosine nearer to 0.",
-                    corners.size(), fmt::join(corners.front(), ", ")));
+        fmt::format("{} corners, one of them of {} at ({:.4g}), are so sharp that contact {} them meet a flat face: bodies "
+                    "pass through each other there, or leave too fast. Blunt them, or {}",
+                    corners.size(), name_in(scene, corners.front().body), fmt::join(corners.front().position, ", "),
+                    seen.verb, seen.remedy));
 }
 
 /// The angle inside the body at an edge [degrees].
 double degrees(double half_angle_sine) { return 2.0 * std::asin(half_angle_sine) * 180.0 / std::numbers::pi; }
 
 template <int Dim>
-void add_edges(Counts& counts, const std::optional<contact::EdgePair<Dim>>& edges, double facing_cosine) {
+void add_edges(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const auto& edges = result.unseen_edges;
     if (!edges) return;
+    const Seen seen = seen_by(result.options);
     counts.warnings.push_back(
         {WarningKind::unseen_edges, Severity::warning,
          fmt::format(
-             "edges of {:.3g} and {:.3g} degrees, at ({:.4g}) and ({:.4g}), are so sharp that contact does not see them "
-             "cross: their faces look at each other by {:.3g}, more than {:g} is needed. Bodies pass through each other "
-             "there. Blunt them, or take a --facing-cosine nearer to 0",
+             "edges of {:.3g} and {:.3g} degrees, of {} at ({:.4g}) and {} at ({:.4g}), are so sharp that contact {} them "
+             "cross: their faces look at each other by {:.3g}, more than {:.3g} is needed. Bodies pass through each other "
+             "there. Blunt them, or {}",
              degrees(edges->edge_1.half_angle_sine), degrees(edges->edge_2.half_angle_sine),
-             fmt::join(edges->edge_1.midpoint, ", "), fmt::join(edges->edge_2.midpoint, ", "), edges->facing(),
-             -facing_cosine),
-         edges->facing(), -facing_cosine});
+             name_in(scene, edges->edge_1.body), fmt::join(edges->edge_1.midpoint, ", "), name_in(scene, edges->edge_2.body),
+             fmt::join(edges->edge_2.midpoint, ", "), seen.verb, edges->facing(), seen.cosine, seen.remedy),
+         edges->facing(), seen.cosine});
 }
 
 /// That a body, or all of them, lie where an obstacle does nothing for them.
@@ -145,8 +172,8 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
                fmt::format("{} of {} faces extrapolate from the cells around them, worst weight {:.2g}: the stable step is "
                            "shorter",
                            stencils.extrapolated, stencils.faces, stencils.worst_weight));
-    add_corners<Dim>(counts, result.blind_corners);
-    add_edges<Dim>(counts, result.unseen_edges, result.options.contact.search.facing_cosine);
+    add_corners(counts, scene, result);
+    add_edges(counts, scene, result);
     add_behind(counts, scene);
     if (const auto& options = result.options; options.restart > 0 && options.interval % options.restart == 0)
         counts.warnings.push_back(

@@ -38,7 +38,7 @@ enum class WarningKind {
     missing_inertia,      ///< BodyInertia::least of a body that may turn [-]; threshold: enough_inertia
     extrapolated_faces,   ///< faces that extrapolate from the cells around them: the stable step is shorter
     blind_corners,        ///< corners too sharp for contact to see
-    unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: |facing_cosine|, below it they do not
+    unseen_edges,     ///< how much crossing edges look at each other [-]; threshold: below it the law that acts misses them
     behind_obstacle,  ///< a body, or all of them, behind an obstacle at the start; no value
     hidden_mode,     ///< RunOptions::interval where every record comes right after a restart; threshold: RunOptions::restart
     compression,     ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning

@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/extract.hpp"
 #include "abut/solid/body_cells.hpp"
+#include "abut/solid/law_options.hpp"
 #include "abut/solid/obstacles.hpp"
 #include "abut/solid/rank_part.hpp"
 
@@ -25,15 +26,6 @@ std::vector<Value> chosen(const std::vector<Value>& values, std::span<const std:
     if (values.empty()) return result;
     for (const std::int32_t body : bodies) result.push_back(values[static_cast<std::size_t>(body)]);
     return result;
-}
-
-/// Whether a choice is made that the modified reconstruction alone has: `ContactLaw::automatic` takes it then.
-template <int Dim>
-bool asks_for_reconstruction(const contact::ContactOptions& given) {
-    const contact::ContactOptions plain;
-    return given.overlap != plain.overlap || given.weighting != plain.weighting || given.area != plain.area ||
-           (given.quadrature != plain.quadrature && given.quadrature != Dim) || given.search.self_contact ||
-           given.search.facing_cosine != plain.search.facing_cosine;
 }
 
 /// The rotation that fits sum m x' X'^T best; of points on a line, about which it is not known, the least one.
@@ -273,8 +265,8 @@ ContactLaw Bodies<Dim>::law() const {
             ": a body or an obstacle may turn, and the modified reconstruction knows normals at rest alone. Choose "
             "ContactLaw::pair_potential or ContactLaw::automatic.");
     if (options_.law != ContactLaw::automatic) return options_.law;
-    return !any_turns && options_.contact && asks_for_reconstruction<Dim>(*options_.contact) ? ContactLaw::reconstruction
-                                                                                             : ContactLaw::pair_potential;
+    return !any_turns && asks_for(ContactLaw::reconstruction, options_) ? ContactLaw::reconstruction
+                                                                        : ContactLaw::pair_potential;
 }
 
 // Cells and points ---------------------------------------------------------------------------------------------------

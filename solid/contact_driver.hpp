@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/contact/blind_corners.hpp"
 #include "abut/contact/contact.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
@@ -93,7 +94,7 @@ public:
 
     [[nodiscard]] virtual contact::ContactReport report() const = 0;
     [[nodiscard]] virtual double skin() const = 0;  ///< of the candidate list [m]
-    [[nodiscard]] virtual std::vector<Vector<Dim>> blind_corners() const = 0;
+    [[nodiscard]] virtual std::vector<contact::BlindCorner<Dim>> blind_corners() const = 0;
     [[nodiscard]] virtual std::optional<contact::EdgePair<Dim>> unseen_edges() const = 0;
 
 protected:

@@ -36,18 +36,6 @@ template <int Dim>
 contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
     const SolidOptions<Dim>& options = bodies.deformable_options();
     const contact::ContactOptions& contact = *options.contact;
-    const contact::ContactOptions other_law;
-    if (contact.overlap != other_law.overlap || contact.weighting != other_law.weighting || contact.area != other_law.area ||
-        (contact.quadrature != other_law.quadrature && contact.quadrature != Dim))
-        throw BadInput(
-            "contact: overlap, weighting, area and quadrature are choices of the modified reconstruction, and bodies that "
-            "turn need the pair potential. Leave them at their defaults, or choose Kinematics::small for all bodies.");
-    if (contact.search.self_contact)
-        throw BadInput(
-            "contact: contact.self = true (self_contact) is of law = \"reconstruction\", for bodies that are small; this "
-            "run "
-            "takes the pair potential, which does not look within a body. Leave it out, or make the parts that may touch "
-            "bodies of their own.");
     contact::CandidateOptions search = contact.search;
     search.ignored_bodies = ignored_pairs(bodies);
     return {.search = std::move(search),
@@ -324,6 +312,23 @@ std::vector<TouchingPair<Dim>> PairPotentialDriver<Dim>::touching_pairs(double g
 template <int Dim>
 std::vector<dynamics::ContactPatch<Dim>> PairPotentialDriver<Dim>::patches() const {
     return contact_patches<Dim>(touching_, [&](std::int32_t point) { return corners_.holds_of(point); });
+}
+
+// In the numbering of the mesh; that of contact has rigid bodies behind all others.
+
+template <int Dim>
+std::vector<contact::BlindCorner<Dim>> PairPotentialDriver<Dim>::blind_corners() const {
+    std::vector<contact::BlindCorner<Dim>> corners = contact_.blind_corners();
+    for (contact::BlindCorner<Dim>& corner : corners) corner.body = bodies_.mesh_body(corner.body);
+    return corners;
+}
+
+template <int Dim>
+std::optional<contact::EdgePair<Dim>> PairPotentialDriver<Dim>::unseen_edges() const {
+    auto edges = contact_.unseen_edges();
+    if (edges)
+        for (auto* edge : {&edges->edge_1, &edges->edge_2}) edge->body = bodies_.mesh_body(edge->body);
+    return edges;
 }
 
 template class PairPotentialDriver<2>;

@@ -58,8 +58,8 @@ public:
     [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const override {
         return corners_.mesh_boundary(face);
     }
-    [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override { return {}; }
-    [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override { return contact_.unseen_edges(); }
+    [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const override;
+    [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override;
 
 private:
     using Points = std::vector<Vector<Dim>>;

@@ -332,11 +332,8 @@ contact::ContactReport ReconstructionDriver<Dim>::report() const {
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> ReconstructionDriver<Dim>::blind_corners() const {
-    std::vector<Vector<Dim>> corners;
-    for (const std::int32_t vertex : contact::blind_corners(surface_.view(), options_.search.facing_cosine))
-        corners.push_back(surface_.vertices[static_cast<std::size_t>(vertex)]);
-    return corners;
+std::vector<contact::BlindCorner<Dim>> ReconstructionDriver<Dim>::blind_corners() const {
+    return contact::blind_corners(surface_.view(), options_.search.facing_cosine);
 }
 
 template <int Dim>

@@ -82,7 +82,7 @@ public:
         return i < boundary_of_surface_.size() ? boundary_of_surface_[i] : no_face;
     }
     [[nodiscard]] double skin() const override { return contact_->skin(); }
-    [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const override;
+    [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const override;
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override;
 
 private:

@@ -9,6 +9,7 @@
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
 #include "abut/solid/frame_loads.hpp"
+#include "abut/solid/law_options.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/outside_loads.hpp"
@@ -108,7 +109,9 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
     outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
     if (!options_.contact) return;
-    if (bodies_->law() == ContactLaw::pair_potential) {
+    const ContactLaw law = bodies_->law();
+    refuse_choices_of_other_law(law, options_);
+    if (law == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, part_.get());
     } else {
         auto driver = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, part_.get());

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/blind_corners.hpp"
 #include "abut/contact/contact.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/unseen_edges.hpp"
@@ -198,9 +199,9 @@ public:
     [[nodiscard]] double skin() const;  ///< of the last candidate list; 0 without contact [m]
     /// Cell of the mesh that has a face which an error of contact names (ErrorFacts::face_1, face_2); -1: none has.
     [[nodiscard]] std::int32_t cell_of_contact_face(std::int64_t face) const;
-    /// Corners that are too sharp for contact to see them coming, their positions at rest [m]; empty without contact.
-    /// contact/blind_corners.hpp.
-    [[nodiscard]] std::vector<Vector<Dim>> blind_corners() const;
+    /// Corners that are too sharp for contact to see them coming, by the law that acts; empty without contact. Bodies are those
+    /// of the mesh, then obstacles. contact/blind_corners.hpp, contact::NodalContact::blind_corners.
+    [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const;
     /// Edges of two bodies that would cross unseen; nothing without contact. contact/unseen_edges.hpp.
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const;
     [[nodiscard]] const SolidTimes& times() const { return times_; }

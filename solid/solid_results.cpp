@@ -150,8 +150,8 @@ std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t face) const {
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const {
-    return contact_ ? contact_->blind_corners() : std::vector<Vector<Dim>>{};
+std::vector<contact::BlindCorner<Dim>> Solid<Dim>::blind_corners() const {
+    return contact_ ? contact_->blind_corners() : std::vector<contact::BlindCorner<Dim>>{};
 }
 
 template <int Dim>
@@ -341,7 +341,7 @@ double Solid<Dim>::step_margin() const {
     template contact::ContactReport Solid<Dim>::contact_report() const;                                               \
     template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                              \
     template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                       \
-    template std::vector<Vector<Dim>> Solid<Dim>::blind_corners() const;                                              \
+    template std::vector<contact::BlindCorner<Dim>> Solid<Dim>::blind_corners() const;                                \
     template std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const;                                  \
     template std::span<const double> Solid<Dim>::inverse_mass() const;                                                \
     template std::span<const double> Solid<Dim>::masses() const;                                                      \

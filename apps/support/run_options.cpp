@@ -128,6 +128,15 @@ void add_contact_options(CLI::App& app, run::RunOptions& options) {
         app, "--facing-cosine", contact.search.facing_cosine,
         "faces look at each other where the cosine between their normals is below it; nearer to 0 sharper tips are seen",
         {.above = -1.0, .below = 0.0}));
+    grouped(add_number(app, "--facing-full", options.facing.full,
+                       "of the pair potential: cosine between the normals of two faces up to which their pair has its whole "
+                       "weight",
+                       {.above = -1.0, .below = 0.0}));
+    grouped(
+        add_number(app, "--facing-none", options.facing.none,
+                   "of the pair potential: cosine from which on a pair has no weight; nearer to 0 sharper tips and edges "
+                   "are seen",
+                   {.above = -1.0, .below = 0.0, .closed = true}));
     grouped(add_number(app, "--skin", contact.search.skin,
                        "how far faces move before the list of near faces is rebuilt; 0: chosen from the number of faces "
                        "and pairs and the motion",

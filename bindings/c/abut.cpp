@@ -47,6 +47,14 @@ void tell_of_surface(const abut_contact& handle, const contact::NodalContact<Dim
                     "the faces of body " + std::to_string(body + handle.index_base) +
                         " close a volume and all look into it: nothing outside ever touches it. Turn the order of "
                         "their corners, unless it is a cavity that is filled.");
+    if (const auto corners = contact.blind_corners(); !corners.empty()) {
+        std::string at;
+        for (const double x : corners.front().position) at += (at.empty() ? "" : ", ") + number(x);
+        handle.tell(ABUT_WARNING, std::to_string(corners.size()) + " corners, one of them of body " +
+                                      std::to_string(corners.front().body + handle.index_base) + " at (" + at +
+                                      "), are so sharp that contact hardly sees them meet a flat face: bodies go through "
+                                      "each other there. Blunt them, or take a facing_none nearer to 0.");
+    }
     if (const auto edges = contact.unseen_edges())
         handle.tell(ABUT_WARNING,
                     "edges of bodies " + std::to_string(edges->edge_1.body + handle.index_base) + " and " +

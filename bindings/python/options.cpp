@@ -61,6 +61,8 @@ const std::map<std::string, Take>& known_options() {
         {"skin", take_value<double>(ABUT_OPTION(contact.search.skin))},
         {"self_contact", take_value<bool>(ABUT_OPTION(contact.search.self_contact))},
         {"facing_cosine", take_value<double>(ABUT_OPTION(contact.search.facing_cosine))},
+        {"facing_full", take_value<double>(ABUT_OPTION(facing.full))},
+        {"facing_none", take_value<double>(ABUT_OPTION(facing.none))},
         {"compression_limit", take_value<double>(ABUT_OPTION(contact.compression_limit))},
         {"neumann", take_word(run::free_face_words, ABUT_OPTION(neumann))},
         {"corners", take_word(run::corner_words, ABUT_OPTION(corners))},

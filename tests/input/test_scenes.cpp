@@ -89,6 +89,8 @@ area = "exact"
 events = false
 quadrature = 1
 facing_cosine = -0.3
+facing_full = -0.4
+facing_none = -0.1
 skin = 0.25
 compression_limit = 7
 neumann = "adjacent"
@@ -119,6 +121,8 @@ frames = 4
     CHECK_FALSE(o.contact.events);
     CHECK(o.contact.quadrature == 1);
     CHECK(o.contact.search.facing_cosine == -0.3);
+    CHECK(o.facing.full == -0.4);
+    CHECK(o.facing.none == -0.1);
     CHECK(o.contact.search.skin == 0.25);
     CHECK(o.contact.compression_limit == 7.0);
     CHECK(o.neumann == solid::FreeFaceRule::adjacent);

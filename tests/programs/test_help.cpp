@@ -18,7 +18,8 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--dt --skin --mesh --overlap --weights --area --events --quadrature --neumann --corners --eta --filter --restart "
      "--integrator --precision --device "
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
-     "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --quiet --json"},
+     "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --facing-full --facing-none "
+     "--quiet --json"},
     {"bouncing_strip",
      "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames --quiet --json"},
     {"bouncing_bar",

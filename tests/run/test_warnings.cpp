@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "abut/run/simulation.hpp"
@@ -95,6 +97,9 @@ TEST_CASE("edges that would cross unseen are told of, with their angles and the 
     CHECK(warnings[0].threshold == 0.2);
     for (const char* part : {"34.9 and 60 degrees", "(1, 2, 3)", "--facing-cosine"})
         CHECK(warnings[0].text.find(part) != std::string::npos);
+    // y^2 (3 - 2 y) = 1/4 of the fade from -0.6 to -0.2
+    result.options.law = solid::ContactLaw::pair_potential;
+    CHECK(run::warnings_before(scene, result)[0].threshold == Approx(0.2 + 0.4 * (0.5 - std::sin(std::numbers::pi / 18.0))));
 }
 
 TEST_CASE("what a mesh left out and corners that contact cannot see are known before the first step", "[run][warnings]") {
@@ -108,14 +113,20 @@ TEST_CASE("what a mesh left out and corners that contact cannot see are known be
     report.n_cut_cells = 4;
     report.n_coincident_vertices = 5;
     result.stencils.extrapolated = 6;
-    result.blind_corners.assign(7, Vector<2>(0.5, 0.25));
+    result.blind_corners.assign(7, {.body = 0, .position = {0.5, 0.25}});
     const auto warnings = run::warnings_before(scene, result);
     CHECK(kinds(warnings) == std::vector{WarningKind::mesh_file, WarningKind::unused_vertices, WarningKind::ignored_elements,
                                          WarningKind::turned_cells, WarningKind::cut_cells, WarningKind::coincident_vertices,
                                          WarningKind::extrapolated_faces, WarningKind::blind_corners});
     CHECK(warnings.front().text == "mesh file: node 3 is lonely");
     for (std::size_t i = 1; i < warnings.size(); ++i) CHECK(warnings[i].value == static_cast<double>(i));
-    CHECK(warnings.back().text.find("0.5, 0.25") != std::string::npos);
+    for (const std::string& part :
+         {"body '" + scene.mesh.body_names[0] + "'", std::string("0.5, 0.25"), std::string("--facing-cosine")})
+        CHECK(warnings.back().text.find(part) != std::string::npos);
+    result.options.law = solid::ContactLaw::pair_potential;  // which has a fade of its own
+    const std::string text = run::warnings_before(scene, result).back().text;
+    CHECK(text.find("--facing-none") != std::string::npos);
+    CHECK(text.find("--facing-cosine") == std::string::npos);
     CHECK(kinds(run::without_notes(warnings)) == std::vector{WarningKind::mesh_file, WarningKind::coincident_vertices,
                                                              WarningKind::extrapolated_faces, WarningKind::blind_corners});
 }

@@ -48,6 +48,45 @@ TEST_CASE("bodies that turn refuse what only small ones can have, with a sentenc
     }
 }
 
+TEST_CASE(
+    "a choice that the law which acts does not read is refused by its key, and says which law reads it; defaults may be "
+    "given",
+    "[solid][kinematics][errors]") {
+    using Set = std::function<void(solid::SolidOptions<2>&)>;
+    const auto refused = [](solid::ContactLaw acting, const Set& set, const std::string& key) {
+        auto options = of_kind(Kinematics::small);
+        options.law = acting;
+        set(options);
+        const bool by_pairs = acting == solid::ContactLaw::pair_potential;
+        CAPTURE(key);
+        CHECK_THROWS_WITH(solid::Solid<2>(one_box(), options),
+                          Contains("contact." + key + " has no effect") &&
+                              Contains(by_pairs ? "Set law = \"reconstruction\"" : "Set law = \"pair_potential\""));
+    };
+    const auto pairs = solid::ContactLaw::pair_potential, faces = solid::ContactLaw::reconstruction;
+    refused(
+        pairs, [](auto& o) { o.contact->overlap = contact::OverlapMode::frozen; }, "overlap");
+    refused(
+        pairs, [](auto& o) { o.contact->weighting = contact::InterfaceWeighting::half; }, "weights");
+    refused(
+        pairs, [](auto& o) { o.contact->area = geometry::AreaMethod::exact; }, "area");
+    refused(
+        pairs, [](auto& o) { o.contact->quadrature = 1; }, "quadrature");
+    refused(
+        pairs, [](auto& o) { o.contact->search.facing_cosine = -0.3; }, "facing_cosine");
+    refused(
+        faces, [](auto& o) { o.facing.full = -0.7; }, "facing_full");
+    refused(
+        faces, [](auto& o) { o.facing.none = -0.1; }, "facing_none");
+    for (const auto law : {pairs, faces}) {
+        auto options = of_kind(Kinematics::small);
+        options.law = law;
+        options.contact->quadrature = 2;  // the exact number in 2D
+        options.contact->events = false;
+        CHECK_NOTHROW(solid::Solid<2>(one_box(), options));
+    }
+}
+
 TEST_CASE("a floating body of one cell is refused, a rigid one spins", "[solid][kinematics]") {
     const auto mesh = one_box(1);
     CHECK_THROWS_WITH((solid::Solid<2>(mesh, of_kind(Kinematics::floating))), Contains("at least two cells"));
