@@ -151,3 +151,28 @@ TEST_CASE("a block that slides along an edge of another one, flush with it, is p
     }
     CHECK(bodies.report().missed_contacts == 0);
 }
+
+TEST_CASE(
+    "tips for which a flat face has less than a quarter of the weight of a pair are told of, with their body and place",
+    "[contact][blind]") {
+    // y^2 (3 - 2 y) = 1/4 at y = 1/2 - sin(10 degrees) of the fade from -0.6 to -0.2; the flanks of a tip look at a face that
+    // comes straight at it by minus the sine of half its angle.
+    const double limit = 2.0 * std::asin(0.2 + 0.4 * (0.5 - std::sin(std::numbers::pi / 18.0)));
+    CHECK(limit * 180.0 / std::numbers::pi == Approx(38.6).epsilon(1e-3));
+    for (const double angle : {25.0 * std::numbers::pi / 180.0, 0.999 * limit, 1.001 * limit}) {
+        NodalScene<2> scene;
+        append_box<2>(scene, {-1.0, -1.0}, {1.0, 0.0}, counts<2>(4), 3.0, depth_of_faces);
+        const auto first = static_cast<std::int32_t>(scene.rest.size());
+        const Vector<2> tip(0.01, 0.02);
+        for (const double side : {0.0, 1.0, -1.0})
+            scene.rest.push_back(tip + std::abs(side) * Vector<2>(side * std::tan(0.5 * angle), 1.0));
+        scene.faces.stiffness.push_back(5.0);
+        for (int i = 0; i < 3; ++i)  // counter-clockwise: the outside is on the right
+            scene.faces.append_face(std::vector<std::int32_t>{first + i, first + (i + 1) % 3}, depth_of_faces, 1);
+        const auto blind = NodalContact<2>(scene.surface()).blind_corners();
+        REQUIRE(blind.size() == (angle < limit ? 1 : 0));
+        if (blind.empty()) continue;
+        CHECK(blind[0].body == 1);
+        CHECK(blind[0].position == tip);
+    }
+}

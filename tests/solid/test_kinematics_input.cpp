@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "abut/base/error.hpp"
@@ -53,13 +54,14 @@ TEST_CASE(
     "given",
     "[solid][kinematics][errors]") {
     using Set = std::function<void(solid::SolidOptions<2>&)>;
-    const auto refused = [](solid::ContactLaw acting, const Set& set, const std::string& key) {
+    const auto mesh = one_box();
+    const auto refused = [&](solid::ContactLaw acting, const Set& set, const std::string& key) {
         auto options = of_kind(Kinematics::small);
         options.law = acting;
         set(options);
         const bool by_pairs = acting == solid::ContactLaw::pair_potential;
         CAPTURE(key);
-        CHECK_THROWS_WITH(solid::Solid<2>(one_box(), options),
+        CHECK_THROWS_WITH(solid::Solid<2>(mesh, options),
                           Contains("contact." + key + " has no effect") &&
                               Contains(by_pairs ? "Set law = \"reconstruction\"" : "Set law = \"pair_potential\""));
     };
@@ -83,7 +85,7 @@ TEST_CASE(
         options.law = law;
         options.contact->quadrature = 2;  // the exact number in 2D
         options.contact->events = false;
-        CHECK_NOTHROW(solid::Solid<2>(one_box(), options));
+        CHECK_NOTHROW(solid::Solid<2>(mesh, options));
     }
 }
 
