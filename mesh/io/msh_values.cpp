@@ -39,15 +39,16 @@ std::string_view MshValues::rest_of_line() {
 }
 
 void MshValues::check_has_end(std::string_view section) const {
-    const std::string end = "\n$End" + std::string(section);
+    // Some programs end no line between binary data and this.
+    const std::string end = "$End" + std::string(section);
     if (text_.find(end, at_) != std::string_view::npos) return;
-    throw MeshError(name_ + ": the file is truncated: '" + end.substr(1) + "' is missing after " +
+    throw MeshError(name_ + ": the file is truncated: '" + end + "' is missing after " +
                     std::to_string(text_.size()) + " bytes. Write the mesh again.");
 }
 
 void MshValues::skip_section(std::string_view section) {
     check_has_end(section);
-    const std::size_t end = text_.find("\n$End" + std::string(section), at_) + 1;
+    const std::size_t end = text_.find("$End" + std::string(section), at_);
     line_ += static_cast<std::size_t>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
                                                  text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
     at_ = end;

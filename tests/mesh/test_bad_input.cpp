@@ -67,18 +67,6 @@ TEST_CASE("a coordinate that is no number is refused", "[mesh][quality]") {
     CHECK_THAT(complaint(soup), Contains("vertex 2 has the y coordinate inf"));
 }
 
-TEST_CASE("an inverted cell is refused with its measure", "[mesh][quality]") {
-    auto soup = square();
-    std::swap(soup.cell_vertices.values[4], soup.cell_vertices.values[5]);
-    CHECK_THAT(complaint(soup),
-               Contains("square.msh: cell 1 (triangle) is inverted: its measure is -0.5 m^2, more than 2e-12 is needed."));
-    for (const CellShape shape : test::shapes_3d) {
-        auto corners = test::corners_of(shape);
-        for (auto& corner : corners) corner.x() = -corner.x();
-        CHECK_THAT(complaint(test::one_cell<3>(shape, corners)), Contains("is inverted"));
-    }
-}
-
 TEST_CASE("a flat cell is refused", "[mesh][quality]") {
     auto soup = square();
     soup.vertices[3] = {0.5, 0.5};

@@ -198,7 +198,7 @@ TEST_CASE("a binary Gmsh file of either order of bytes is read, and of none is r
         CHECK(mesh.vertex_label == std::vector<std::int64_t>{1, 2, 3, 4});
     }
     CHECK_THAT(said_of("a.msh", binary_msh({.one = 7})),
-               Contains("a.msh: byte 19: the file is damaged: its binary part begins with 7, 1 is needed."));
+               Contains("a.msh: byte 20: the file is damaged: its binary part begins with 7, 1 is needed."));
 }
 
 TEST_CASE("a binary Gmsh file whose sections are not whole is refused by byte, block by block", "[mesh][files][broken]") {

@@ -353,7 +353,7 @@ TEST_CASE("what is wrong inside a Gmsh file is said with the numbers of the file
     CHECK_THAT(said_of(with_replaced(small_msh(), "14 0 0 1", "14 0 0 nan")),
                Contains("a.msh: vertex 14 has the z coordinate nan, a finite number is needed. Mesh the part again."));
     CHECK_THAT(said_of(with_replaced(small_msh(), "11 12 13 14\n", "11 12 13 77\n")),
-               Contains("a.msh: line 20: element 22 has the node 77, which is not in the file."));
+               Contains("a.msh: line 19: element 22 has the node 77, which is not in the file."));
 }
 
 TEST_CASE("the dimension of the file must be that asked for", "[mesh][files]") {

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -256,6 +258,29 @@ TEST_CASE("the last line needs no end, lines may end as on other systems, and fo
     CHECK_THAT(said_of(head + nodes + elements + "\n$ElementData\n1\n"),
                Contains("the file is truncated: '$EndElementData' is missing"));
     CHECK_THAT(said_of(head + nodes + nodes + elements), Contains("there is a second section $Nodes"));
+}
+
+TEST_CASE("binary data need no end of a line behind them", "[mesh][files][msh]") {
+    const ScratchFolder folder;
+    const double version = GENERATE(2.2, 4.1);
+    {
+        const OpenGmsh open;
+        make_gaps();
+        write(folder / "a.msh", version, true, true);
+    }
+    std::ifstream file(folder / "a.msh", std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const Elements wanted = read_by_us(folder / "a.msh");
+    std::size_t n_joined = 0;
+    for (const char* end : {"\n$EndNodes", "\n$EndElements", "\n$EndEntities"})
+        if (const auto at = bytes.find(end); at != std::string::npos) {
+            bytes.erase(at, 1);
+            ++n_joined;
+        }
+    CHECK(n_joined >= 2);
+    if (bytes.ends_with('\n')) bytes.pop_back();
+    save(folder / "a.msh", bytes);
+    CHECK(read_by_us(folder / "a.msh") == wanted);
 }
 
 TEST_CASE("cells of format 2.2 have each their own group, whatever their entity", "[mesh][files][msh]") {
