@@ -22,7 +22,7 @@ struct SurfaceOptions {
 /// The surface that a file holds, by its extension (in small or capital letters):
 /// .obj (polygons), .off (polygons; text), .ply (polygons and strips of triangles; text and binary), .stl (triangles; text and
 /// binary), .vtp (polygons and strips), .vtu and .msh (triangles, quadrangles, polygons; or the boundary of the cells if there
-/// are any of dimension 3: then read_mesh is what reads, and it refuses bad cells).
+/// are any of dimension 3: then read_mesh is what reads, and it refuses bad cells; bodies of .msh that share vertices are one).
 ///
 /// Faces are kept as they are, however bad, with the exception that an .obj or .off file with a vertex index out of range or a
 /// coordinate that is no finite number is an error. Bodies: the cell array "body" of .vtp and .vtu ("body_<value>"); the

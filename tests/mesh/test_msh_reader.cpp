@@ -283,6 +283,22 @@ TEST_CASE("binary data need no end of a line behind them", "[mesh][files][msh]")
     CHECK(read_by_us(folder / "a.msh") == wanted);
 }
 
+TEST_CASE("bodies that share vertices have one surface, and are no two bodies of a mesh", "[mesh][files][msh]") {
+    const ScratchFolder folder;
+    // Two tetrahedra on either side of a triangle, which is named, too.
+    save(folder / "a.msh", head +
+                               "$PhysicalNames\n2\n3 1 \"left\"\n3 2 \"right\"\n$EndPhysicalNames\n"
+                               "$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n$EndNodes\n"
+                               "$Elements\n3\n1 4 2 1 1 1 2 3 4\n2 4 2 2 2 1 3 2 5\n3 2 2 3 3 1 2 3\n$EndElements\n");
+    const SurfaceMesh surface = read_surface(folder / "a.msh");
+    CHECK(surface.body_names == std::vector<std::string>{"left+right"});
+    CHECK(surface.faces.size() == 6);
+    CHECK(health_of(surface).sound());
+    CHECK_THROWS_WITH(read_gmsh<3>(folder / "a.msh"),
+                      Contains("bodies 'left' and 'right' share vertex") &&
+                          Contains("several materials bonded in one body are not supported."));
+}
+
 TEST_CASE("cells of format 2.2 have each their own group, whatever their entity", "[mesh][files][msh]") {
     const ScratchFolder folder;
     save(folder / "a.msh",
