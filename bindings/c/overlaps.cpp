@@ -1,13 +1,11 @@
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "abut.h"
 #include "abut/base/ids.hpp"
 #include "abut/base/sort_unique.hpp"
-#include "abut/contact/overlaps.hpp"
-#include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/near_overlaps.hpp"
 #include "arguments.hpp"
 
 using namespace abut;
@@ -43,16 +41,8 @@ void find_all_overlaps(const abut_array& x, const abut_faces& faces, double dist
                        std::size_t entry_size, std::int64_t capacity, std::int64_t* n) {
     const SurfaceForOverlaps of_bodies(faces);
     const contact::NodalSurface<Dim> surface = surface_of<Dim>(x, of_bodies.faces);
-    contact::CandidateOptions options;
-    options.distance = distance;
-    contact::CandidateSearch<Dim> search(surface.facets().view(), options);
-    const PointsView<Dim> positions(surface.facets().vertices);
-    search.search_moved(positions, positions, contact::GapOf::centroids);
-    const auto found = contact::find_overlaps_moved<Dim>(surface.facets().view(), positions, search.candidates());
-    std::vector<contact::Overlap<Dim>> near;
-    for (const contact::Overlap<Dim>& overlap : found.found)
-        if (std::abs(overlap.gap) <= distance) near.push_back(overlap);
-    copy_entries(near, overlaps, entry_size, capacity, n, [&](const contact::Overlap<Dim>& overlap) {
+    const auto near = contact::find_near_overlaps<Dim>(surface, distance);
+    copy_entries(near.found, overlaps, entry_size, capacity, n, [&](const contact::Overlap<Dim>& overlap) {
         abut_overlap entry{};
         entry.face_1 = number_of(surface.face_of(overlap.face_1)) + faces.index_base;
         entry.face_2 = number_of(surface.face_of(overlap.face_2)) + faces.index_base;
