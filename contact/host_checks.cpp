@@ -121,9 +121,20 @@ private:
     throw BadInput("contact options: " + what, {.value = value});
 }
 
+/// Of an enumeration whose values count from 0.
+template <class Choice>
+void check_choice(const char* option, Choice choice, Choice last, const char* words) {
+    const auto value = static_cast<int>(choice);
+    if (value < 0 || value > static_cast<int>(last))
+        refuse_option(std::string(option) + " is " + std::to_string(value) + "; " + words + " are allowed.", value);
+}
+
 }  // namespace
 
 void check_options(const ContactOptions& options) {
+    check_choice("area", options.area, geometry::AreaMethod::exact, "0 (fast) and 1 (exact)");
+    check_choice("overlap", options.overlap, OverlapMode::frozen, "0 (moving) and 1 (frozen)");
+    check_choice("weighting", options.weighting, InterfaceWeighting::stiffness, "0 (half) and 1 (stiffness)");
     if (options.quadrature < 0 || options.quadrature > 3)
         refuse_option("quadrature is " + std::to_string(options.quadrature) +
                           "; it must be 1, 2 or 3 points (0: as many as exactness needs).",

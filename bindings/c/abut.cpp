@@ -20,8 +20,11 @@ using namespace abut::c_layer;
 
 namespace {
 
-/// What is wrong with the options is left to NodalContact.
+/// What else is wrong with the options is left to NodalContact, which knows them by the same names.
 contact::NodalOptions nodal_options(const abut_options& given, std::int32_t index_base) {
+    if (given.max_pairs < 0)
+        throw BadInput("abut_options: max_pairs is " + std::to_string(given.max_pairs) + "; 0 and more are allowed.",
+                       {.value = static_cast<double>(given.max_pairs), .allowed = 0.0});
     contact::NodalOptions options;
     options.search.skin = given.skin;
     options.search.largest_motion = given.largest_motion;

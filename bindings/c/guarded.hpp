@@ -35,9 +35,12 @@ inline int status_of(ErrorKind kind) {
     return ABUT_INTERNAL;
 }
 
+/// As much of a text as there is room for; no character of several bytes is cut.
 template <std::size_t N>
 inline void copy_text(std::string_view text, char (&to)[N]) {
-    const std::size_t n = std::min(text.size(), N - 1);
+    std::size_t n = std::min(text.size(), N - 1);
+    if (n < text.size())
+        for (int i = 0; i < 3 && n > 0 && (static_cast<unsigned char>(text[n]) & 0xC0u) == 0x80u; ++i) --n;
     std::memcpy(to, text.data(), n);
     to[n] = '\0';
 }

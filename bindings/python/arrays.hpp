@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace abut::python {
@@ -15,6 +16,18 @@ namespace py = pybind11;
 
 template <class Value>
 using Packed = py::array_t<Value, py::array::c_style | py::array::forcecast>;
+
+/// A text of the library: bytes that are not UTF-8, as names in files may have, become U+FFFD each.
+inline py::str text_of(std::string_view text) {
+    PyObject* const decoded = PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace");
+    if (decoded == nullptr) throw py::error_already_set();
+    return py::reinterpret_steal<py::str>(decoded);
+}
+inline py::list texts_of(const std::vector<std::string>& texts) {
+    py::list list;
+    for (const std::string& text : texts) list.append(text_of(text));
+    return list;
+}
 
 /// A packed copy; no number is rounded or wrapped.
 inline Packed<std::int32_t> integers_of(const py::object& given, const std::string& name) {

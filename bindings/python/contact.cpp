@@ -39,7 +39,7 @@ public:
                  std::int64_t max_pairs, double compression_warning, double compression_limit,
                  std::pair<double, double> facing, bool events, py::object wanted, py::object cancel, py::object log)
         : dim_(dimension_of(nodes)),
-          callbacks_(new Callbacks{std::move(wanted), std::move(cancel), std::move(log), std::nullopt}) {
+          callbacks_(new Callbacks{std::move(wanted), std::move(cancel), std::move(log), std::nullopt, {}}) {
         const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
         abut_options options;
         abut_options_init(&options);
@@ -56,7 +56,7 @@ public:
         abut_contact* handle = nullptr;
         call_unlocked([&](abut_error* error) { return abut_create(dim_, rest, &of_host.view, &options, &handle, error); });
         handle_.reset(handle);
-        callbacks_->raise_what_log_raised();
+        callbacks_->after_call();
     }
 
     py::dict step(const py::array& x_0, const py::array& x_1, const py::object& out, const std::string& mode) {
@@ -67,7 +67,7 @@ public:
         call_unlocked([&](abut_error* error) {
             return abut_step(handle_.get(), from, to, mode == "mean" ? ABUT_MEAN : ABUT_END, force, &result, error);
         });
-        callbacks_->raise_what_log_raised();
+        callbacks_->after_call();
         using namespace py::literals;
         return py::dict("energy_0"_a = result.energy_0, "energy"_a = result.energy, "work"_a = result.work,
                         "active_pairs"_a = result.active_pairs, "events"_a = result.events,
@@ -118,7 +118,7 @@ public:
         require_ok(abut_stable_step(handle_.get(), mass.data(), mass.size(), omega_free, &stable, &error), error);
         using namespace py::literals;
         return py::dict("dt"_a = stable.dt, "omega"_a = stable.omega, "omega_free"_a = stable.omega_free,
-                        "node"_a = stable.node, "reason"_a = std::string(stable.reason));
+                        "node"_a = stable.node, "reason"_a = text_of(stable.reason));
     }
 
     [[nodiscard]] py::bytes state() const {
@@ -144,7 +144,7 @@ public:
         const abut_array rest = view_of(nodes, dim_, "nodes");
         call_unlocked(
             [&](abut_error* error) { return abut_replace_surface(handle_.get(), rest, &of_host.view, old.data(), error); });
-        callbacks_->raise_what_log_raised();
+        callbacks_->after_call();
     }
 
 private:
@@ -222,7 +222,7 @@ PYBIND11_MODULE(_contact, module) {
         "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
         "(n_bodies), skin_stiffness or inf for a rigid body; wanted(face_1, face_2): whether they may touch; "
         "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
-        "is no error. They must call nothing of the contact, and nothing that holds it is ever freed while they refer to "
+        "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is ever freed while they refer to "
         "it.")
         .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
                       const py::object&, double, double, std::int64_t, double, double, std::pair<double, double>, bool,

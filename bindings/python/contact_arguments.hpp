@@ -46,7 +46,7 @@ inline Exceptions* exceptions = nullptr;  // made with the module, kept until th
 inline void require_ok(int status, const abut_error& error) {
     if (status == ABUT_OK) return;
     if (PyErr_Occurred() != nullptr) throw py::error_already_set();  // of a callback
-    const py::object instance = exceptions->of(status)(py::str(error.message));
+    const py::object instance = exceptions->of(status)(text_of(error.message));
     instance.attr("status") = status;
     instance.attr("face_1") = error.face_1;
     instance.attr("face_2") = error.face_2;
@@ -139,15 +139,19 @@ struct Faces {
 struct Callbacks {
     py::object wanted, cancel, log;
     std::optional<py::error_already_set> of_log;  // raised once the call is over, which has happened all the same
+    std::vector<std::string> untold;              // warnings for which there is no log
 
     void put_into(abut_options& options) {
         options.user = this;
         if (!wanted.is_none()) options.wanted = ask_wanted;
         if (!cancel.is_none()) options.cancel = ask_cancel;
-        if (!log.is_none()) options.log = tell;
+        options.log = log.is_none() ? keep : tell;
     }
-    void raise_what_log_raised() {
+    /// Raises what the log raised; without a log, tells by warnings.warn, which raises where the host wants that.
+    void after_call() {
         if (of_log) throw *std::exchange(of_log, std::nullopt);
+        for (const std::string& text : std::exchange(untold, {}))
+            if (PyErr_WarnEx(PyExc_RuntimeWarning, ("abut: " + text).c_str(), 1) < 0) throw py::error_already_set();
     }
 
 private:
@@ -168,11 +172,15 @@ private:
         return ask(static_cast<Callbacks*>(user)->wanted, face_1, face_2);
     }
     static int ask_cancel(void* user) { return ask(static_cast<Callbacks*>(user)->cancel); }
+    static void keep(int severity, const char* text, void* user) {
+        const py::gil_scoped_acquire acquire;
+        if (severity >= ABUT_WARNING) static_cast<Callbacks*>(user)->untold.emplace_back(text);
+    }
     static void tell(int severity, const char* text, void* user) {
         const py::gil_scoped_acquire acquire;
         auto& callbacks = *static_cast<Callbacks*>(user);
         try {
-            callbacks.log(severity, text);
+            callbacks.log(severity, text_of(text));
         } catch (py::error_already_set& error) {
             if (!callbacks.of_log) callbacks.of_log = error;
         }

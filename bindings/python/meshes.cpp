@@ -200,14 +200,14 @@ py::array_t<double> at_points(const Mesh<Dim>& mesh, const Packed<double>& value
 }
 
 template <int Dim>
-std::map<std::string, py::array_t<std::int32_t>> groups_of(const Mesh<Dim>& mesh) {
-    std::map<std::string, py::array_t<std::int32_t>> groups;
+py::dict groups_of(const Mesh<Dim>& mesh) {
+    py::dict groups;
     for (const mesh::BoundaryGroup& group : mesh.groups) {
         std::vector<std::int32_t> rows;  // in `surface`
         for (const std::int32_t f : group.faces)
             rows.push_back(
                 static_cast<std::int32_t>(std::ranges::lower_bound(mesh.boundary_faces, f) - mesh.boundary_faces.begin()));
-        groups.emplace(group.name, copy_of(rows));
+        groups[text_of(group.name)] = copy_of(rows);
     }
     return groups;
 }
@@ -215,7 +215,7 @@ std::map<std::string, py::array_t<std::int32_t>> groups_of(const Mesh<Dim>& mesh
 template <int Dim>
 void add_mesh(py::module_& module, const char* name) {
     py::class_<Mesh<Dim>>(module, name, "Bodies that share no point, cell or face; made by the functions of this module.")
-        .def_readonly("name", &Mesh<Dim>::name)
+        .def_property_readonly("name", [](const Mesh<Dim>& mesh) { return text_of(mesh.name); })
         .def_property_readonly(
             "points", [](const Mesh<Dim>& mesh) { return copy_of_vectors<Dim>(mesh.vertices); }, "(n_points, dim) [m]")
         .def_property_readonly("cells", &cells_of<Dim>,
@@ -230,7 +230,7 @@ void add_mesh(py::module_& module, const char* name) {
             "(n_cells, dim) [m]")
         .def_property_readonly(
             "measures", [](const Mesh<Dim>& mesh) { return copy_of(mesh.cell_measure); }, "(n_cells) [m^dim]")
-        .def_readonly("body_names", &Mesh<Dim>::body_names)
+        .def_property_readonly("body_names", [](const Mesh<Dim>& mesh) { return texts_of(mesh.body_names); })
         .def_property_readonly("groups", &groups_of<Dim>, "Named parts of the boundary, as rows of surface.")
         .def_property_readonly(
             "surface", &surface_of<Dim>,
@@ -243,8 +243,8 @@ void add_mesh(py::module_& module, const char* name) {
             "write_vtu", [](const Mesh<Dim>& mesh, const std::filesystem::path& path) { mesh::write_vtu(mesh, path); },
             "path"_a, "The mesh alone, with the cell array \"body\".")
         .def("__repr__", [name](const Mesh<Dim>& mesh) {
-            return "<abut.solid." + std::string(name) + " '" + mesh.name + "': " + std::to_string(mesh.n_cells()) +
-                   " cells, " + std::to_string(mesh.n_bodies()) + " bodies>";
+            return text_of("<abut.solid." + std::string(name) + " '" + mesh.name + "': " + std::to_string(mesh.n_cells()) +
+                           " cells, " + std::to_string(mesh.n_bodies()) + " bodies>");
         });
     module.def(
         "combine",

@@ -158,8 +158,9 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
     }
     py::list warnings;
     for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, *result)))
-        warnings.append(warning.text);
-    for (const run::Warning& warning : run::without_notes(run::warnings_after(*result))) warnings.append(warning.text);
+        warnings.append(text_of(warning.text));
+    for (const run::Warning& warning : run::without_notes(run::warnings_after(*result)))
+        warnings.append(text_of(warning.text));
     return py::dict("ledger"_a = table_of(result->ledger),
                     "displacement"_a = copy_of_vectors<Dim>(python.final_displacement),
                     "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,

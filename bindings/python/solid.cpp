@@ -6,6 +6,7 @@
 
 #include "abut.h"
 #include "abut/base/error.hpp"
+#include "arrays.hpp"
 #include "meshes.hpp"
 #include "runs.hpp"
 
@@ -50,7 +51,7 @@ std::string in_python(const std::string& text) {
 /// The exceptions of the package `abut`, with their facts.
 void raise(const abut::Error& error) {
     const py::object kind = py::module_::import("abut").attr(class_of(error.kind()));
-    const py::object instance = kind(py::str(in_python(error.what())));
+    const py::object instance = kind(abut::python::text_of(in_python(error.what())));
     instance.attr("status") = static_cast<int>(error.kind()) + 1;
     instance.attr("face_1") = error.facts().face_1;
     instance.attr("face_2") = error.facts().face_2;

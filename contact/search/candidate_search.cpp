@@ -52,6 +52,11 @@ const CandidateOptions& checked(const CandidateOptions& options) {
     if (!(options.largest_motion > 0.0))
         refuse("largest_motion is " + number(options.largest_motion) + "; it must be > 0. 1 is the default.",
                options.largest_motion);
+    geometry::check_options({options.broad_phase, options.limits});
+    for (const auto& [body_1, body_2] : options.ignored_bodies)
+        if (body_1 < 0 || body_2 < 0)
+            refuse("ignored_bodies names body " + std::to_string(std::min(body_1, body_2)) + "; bodies count from 0.",
+                   std::min(body_1, body_2));
     return options;
 }
 

@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/geometry/broad_phase/backends.hpp"
+#include "abut/geometry/broad_phase/search_part.hpp"
 
 namespace abut::geometry {
 namespace {
@@ -214,9 +215,22 @@ std::vector<IndexPair> in_numbers_of_caller(std::vector<IndexPair> pairs, const 
 
 }  // namespace
 
+void check_options(const SearchOptions& options) {
+    const auto method = static_cast<int>(options.method), last = static_cast<int>(BroadPhase::brute_force);
+    if (method < 0 || method > last)
+        throw BadInput("search options: the broad phase is " + std::to_string(method) + "; 0 (automatic) to " +
+                           std::to_string(last) + " (brute force) are allowed.",
+                       {.value = static_cast<double>(method), .allowed = static_cast<double>(last)});
+    if (options.limits.pairs < 0)
+        throw BadInput("search options: limits.pairs is " + std::to_string(options.limits.pairs) +
+                           "; 0 and more are allowed, 250,000,000 is the default.",
+                       {.value = static_cast<double>(options.limits.pairs), .allowed = 0.0});
+}
+
 template <int Dim>
 std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span<const Box<Dim>> boxes_1,
                                          std::span<const Box<Dim>> boxes_2, const PairFilter& wanted) {
+    check_options(options);
     check(boxes_1);
     check(boxes_2);
     Regions<Dim> regions;
@@ -236,6 +250,7 @@ std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span
 template <int Dim>
 std::vector<IndexPair> overlapping_pairs(const SearchOptions& options, std::span<const Box<Dim>> boxes,
                                          const PairFilter& wanted) {
+    check_options(options);
     check(boxes);
     const std::size_t n = count_inside(everywhere<Dim>(), boxes);
     if (n < 2) return {};

@@ -7,6 +7,9 @@
 
 namespace abut::geometry {
 
+/// Throws BadInput for a method that there is not, or a negative number of pairs.
+void check_options(const SearchOptions& options);
+
 /// One of several parts of a search, for processes that share it: each pair is found by one part.
 struct SearchPart {
     int part = 0;  ///< from 0

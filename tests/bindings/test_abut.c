@@ -320,6 +320,15 @@ static void what_is_wrong_is_refused_by_name(void) {
     CHECK(abut_create(2, packed(x), &faces, NULL, &contact, &error) == ABUT_BAD_INPUT && error.face_1 == 1);
     faces = faces_from(7, corners, body);
     CHECK(abut_create(2, packed(x), &faces, NULL, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "index_base is 7"));
+    faces = faces_from(0, corners, body);
+    abut_options options;
+    abut_options_init(&options);
+    options.max_pairs = -5;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT &&
+          strstr(error.message, "max_pairs is -5; 0 and more"));
+    abut_options_init(&options);
+    options.skin = -1.0;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "skin is -1"));
     CHECK(contact == NULL);
     CHECK(abut_step(NULL, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_MISUSE);
     CHECK(abut_step(NULL, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL) == ABUT_MISUSE); /* nobody asks why */
@@ -346,6 +355,33 @@ static void what_is_wrong_is_refused_by_name(void) {
     abut_destroy(NULL);
 }
 
+static void a_force_that_is_not_finite_is_an_error(void) {
+    /* The second corner of face 0 passes over its third one: the face turns over within the step. */
+    static double nodes[18] = {0, 0, 3, 1, 1, 3, 0, 1, 3, 0, 0, 0, 1, 1, 0, 0, 1, 0};
+    static const int32_t triangles[6] = {0, 1, 2, 3, 5, 4}, of_body[2] = {0, 1};
+    const double depths[2] = {1e9, 0.0}, stiff[2] = {1e12, INFINITY};
+    double turned[18], force[18] = {0.0};
+    abut_error error = ABUT_ERROR_INIT;
+    abut_contact* contact = NULL;
+    abut_faces faces = ABUT_FACES_INIT;
+    faces.n_faces = 2;
+    faces.nodes = triangles;
+    faces.n_nodes = 6;
+    faces.body = of_body;
+    faces.depth = depths;
+    faces.stiffness = stiff;
+    faces.n_bodies = 2;
+    const abut_array from = {nodes, 6, 3, 1}, to = {turned, 6, 3, 1}, forces = {force, 6, 3, 1};
+    memcpy(turned, nodes, sizeof(nodes));
+    turned[3] = -1.0;
+    CHECK(abut_create(3, from, &faces, NULL, &contact, &error) == ABUT_OK);
+    CHECK(abut_step(contact, from, to, ABUT_MEAN, forces, NULL, &error) == ABUT_DIVERGED);
+    CHECK(error.face_1 == 0 && error.face_2 == 1 && strstr(error.message, "not finite") != NULL);
+    for (int i = 0; i < 18; ++i) CHECK(force[i] == 0.0);
+    CHECK(abut_step(contact, from, from, ABUT_MEAN, forces, NULL, &error) == ABUT_OK); /* and goes on */
+    abut_destroy(contact);
+}
+
 static void overlaps_alone(void) {
     abut_error error = ABUT_ERROR_INIT;
     const abut_faces faces = faces_from(0, corners, body);
@@ -363,6 +399,10 @@ static void overlaps_alone(void) {
     bare.n_bodies = 0;
     CHECK(abut_find_overlaps(2, packed(x), &bare, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 1);
     CHECK(overlap.face_1 == 2 && overlap.face_2 == 4);
+    for (int i = 0; i < 2 * n_nodes; ++i) x[i] *= 1e-3; /* in another unit of length */
+    CHECK(abut_find_overlaps(2, packed(x), &faces, 0.05e-3, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 0);
+    CHECK(abut_find_overlaps(2, packed(x), &faces, 0.2e-3, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 1);
+    CHECK(fabs(overlap.area - 0.8e-3) < 1e-18 && fabs(overlap.gap - 0.1e-3) < 1e-18);
     CHECK(abut_find_overlaps(5, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_BAD_INPUT);
 }
 
@@ -386,6 +426,7 @@ int main(void) {
     a_contact_in_use_is_left_alone();
     a_force_that_ends_too_early_is_refused_before_the_step();
     what_is_wrong_is_refused_by_name();
+    a_force_that_is_not_finite_is_an_error();
     overlaps_alone();
     small_things();
     printf("%d failures\n", failures);

@@ -393,9 +393,14 @@ contains
     type(abut_report) :: report
     type(abut_pair) :: pairs(1)
     type(abut_error) :: of_another_version
+    type(abut_options), target :: options
     type(c_ptr) :: contact
     integer(c_int64_t) :: n
     at_rest = abut_points(rest)
+    call abut_options_init(options)
+    options%max_pairs = -5
+    call expect(abut_bad_input, abut_create(2, at_rest, squares(), c_loc(options), contact, error), 'max_pairs of -5')
+    call check(index(abut_message(error), 'max_pairs is -5') > 0, 'its name')
     call expect(abut_bad_input, abut_create(4, at_rest, squares(), c_null_ptr, contact, error), 'dim of 4')
     call check(index(abut_message(error), 'dim is 4') > 0 .and. error%status == abut_bad_input, 'its text')
     faces = squares()

@@ -3,6 +3,7 @@ import gc
 import math
 import threading
 import unittest
+import warnings
 
 import numpy as np
 
@@ -193,6 +194,42 @@ class Contact(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "depth has 3"):
             abut.NodalContact(REST, FACES, BODY, DEPTH[:3], [3.0, 6.0])
         self.assertTrue(issubclass(abut.TooDeep, abut.Error))
+
+    def test_options_out_of_range_are_refused_by_name(self):
+        for option, value in dict(max_pairs=-5, skin=-1.0, largest_motion=0.0, compression_warning=math.nan,
+                                  compression_limit=-2.0).items():
+            with self.assertRaisesRegex(abut.BadInput, f"{option} is "):
+                made(**{option: value})
+        with self.assertRaisesRegex(abut.BadInput, "facing"):
+            made(facing=(0.5, -0.5))
+
+    def test_surfaces_that_look_inwards_warn_where_there_is_no_log(self):
+        with self.assertWarnsRegex(RuntimeWarning, "body 1 close a volume and all look into it"):
+            abut.NodalContact(REST, FACES[:, ::-1], BODY, DEPTH, [3.0, 6.0])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            made()  # nothing to be told
+            with self.assertRaises(RuntimeWarning):
+                abut.NodalContact(REST, FACES[:, ::-1], BODY, DEPTH, [3.0, 6.0])
+            told = []
+            abut.NodalContact(REST, FACES[:, ::-1], BODY, DEPTH, [3.0, 6.0], log=lambda *what: told.append(what))
+            self.assertEqual(len(told), 2)
+
+    def test_a_force_that_is_not_finite_is_an_error_with_both_faces(self):
+        # the second corner of face 0 passes over its third one: the face turns over within the step
+        nodes = np.array([[0, 0, 3], [1, 1, 3], [0, 1, 3], [0, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+        contact = abut.NodalContact(nodes, [[0, 1, 2], [3, 5, 4]], [0, 1], [1e9, 0.0], [1e12, math.inf])
+        turned, force = nodes.copy(), np.zeros((6, 3))
+        turned[1, 0] = -1.0
+        with self.assertRaisesRegex(abut.Diverged, "face 0 turns over") as raised:
+            contact.step(nodes, turned, out=force)
+        self.assertEqual((raised.exception.face_1, raised.exception.face_2), (0, 1))
+        self.assertEqual(abs(force).max(), 0.0)
+
+    def test_overlaps_are_found_in_any_unit_of_length(self):
+        for unit in (1e-40, 1e-3, 1e3, 1e40):
+            self.assertEqual(len(abut.find_overlaps(REST * unit, FACES, BODY, 0.05 * unit)), 0)
+            self.assertEqual(len(abut.find_overlaps(REST * unit, FACES, BODY, 0.2 * unit)), 1)
 
     def test_overlaps_and_small_things(self):
         self.assertEqual(len(abut.find_overlaps(REST, FACES, BODY, 0.05)), 0)

@@ -95,6 +95,7 @@ class Meshes(unittest.TestCase):
                 (ValueError, "no meshes", lambda: solid.combine([])),
                 (abut.BadInput, "vertex 5", lambda: solid.mesh(points, {"triangle": [[0, 1, 5]]})),
                 (abut.BadInput, "no such file", lambda: solid.read_mesh("nothing.msh", 2)),
+                (abut.BadInput, "no such file", lambda: solid.read_mesh(os.fsdecode(b"not\xffutf8.msh"), 2)),
                 (ValueError, "dim is 4", lambda: solid.read_mesh("nothing.msh", 4)),
                 (abut.BadInput, "radius", lambda: solid.disc(radius=-1.0))):
             with self.assertRaisesRegex(error, text):

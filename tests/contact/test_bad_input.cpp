@@ -195,6 +195,30 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
         options.compression_limit = 0.0;
         says = "compression_limit";
     }
+    SECTION("less than no pairs") {
+        options.search.limits.pairs = -5;
+        says = "limits.pairs is -5; 0 and more";
+    }
+    SECTION("a broad phase that there is not") {
+        options.search.broad_phase = static_cast<geometry::BroadPhase>(5);
+        says = "the broad phase is 5; 0 (automatic) to 4";
+    }
+    SECTION("bodies below 0") {
+        options.search.ignored_bodies = {{0, -1}};
+        says = "ignored_bodies names body -1";
+    }
+    SECTION("an area that there is not") {
+        options.area = static_cast<geometry::AreaMethod>(2);
+        says = "area is 2; 0 (fast) and 1 (exact)";
+    }
+    SECTION("an overlap that there is not") {
+        options.overlap = static_cast<contact::OverlapMode>(-1);
+        says = "overlap is -1; 0 (moving) and 1 (frozen)";
+    }
+    SECTION("a weighting that there is not") {
+        options.weighting = static_cast<contact::InterfaceWeighting>(9);
+        says = "weighting is 9; 0 (half) and 1 (stiffness)";
+    }
     using contact::Contact;
     CHECK_THROWS_AS(Contact<Dim>(surface.view(), options), BadInput);
     CHECK_THROWS_WITH(Contact<Dim>(surface.view(), options), Contains(says));
@@ -216,6 +240,24 @@ TEMPLATE_TEST_CASE_SIG("pressing deeper than the compression limit is refused wi
     u[1] = -(0.1 + 2.5 * 0.6) * up<Dim>();
     CHECK_THROWS_WITH(mover.move_to(u), Contains("face 0 (body 0") && Contains("face 1 (body 1") && Contains("2.5 times") &&
                                             Contains("2 is allowed") && Contains("compression_limit"));
+}
+
+TEMPLATE_TEST_CASE_SIG("forces between faces that are not finite are refused with both faces", "[contact][errors]",
+                       ((int Dim), Dim), 2, 3) {
+    const auto surface = touching_tiles<Dim>();
+    contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
+    const auto u = at_rest(surface);
+    contact.search(u, u, [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); });
+    auto pressed = u, gradient = u;
+    pressed[1] = -0.3 * up<Dim>();
+    CHECK_NOTHROW(contact.integrate({u, pressed, gradient, gradient}));
+    gradient[0] = 1e300 * up<Dim>();
+    CHECK_THROWS_AS(contact.integrate({u, pressed, gradient, gradient}), Diverged);
+    CHECK_THROWS_WITH(contact.integrate({u, pressed, gradient, gradient}),
+                      Contains("face 0 (body 0") && Contains("face 1 (body 1") && Contains("not finite"));
+    CHECK_THROWS_AS(contact.evaluate(pressed, gradient), Diverged);
+    gradient[0].setZero();
+    CHECK_NOTHROW(contact.integrate({u, pressed, gradient, gradient}));
 }
 
 TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next one makes it", "[contact][errors]",
