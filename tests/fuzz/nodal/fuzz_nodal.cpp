@@ -26,8 +26,8 @@ using namespace abut::fuzz;
 
 namespace {
 
-constexpr unsigned time_limit = 10;  ///< [s] for one case
-constexpr double least = 1e-280;     ///< what is less has lost its digits
+constexpr unsigned time_limit = 10;   ///< [s] for one case
+constexpr double no_digits = 1e-280;  ///< what is less has lost its digits
 
 std::array<char, 128> case_name{};  ///< for the handler, which may call next to nothing
 
@@ -128,12 +128,12 @@ void require_laws(const NodalCase<Dim>& scene, const contact::NodalStep<Dim>& st
     const bool is_short = motion < 0.2 * least_height(facets, x_0);
     const double depth = 1e-15 * farthest;  // by which rounding of positions presses in
     const double force = depth * stiffest * std::pow(scene.size, Dim - 1);
-    require_at_most(sum.cwiseAbs().sum(), (is_short ? 1e-11 : 1e-6) * (forces + force) + least, "sum of forces");
+    require_at_most(sum.cwiseAbs().sum(), (is_short ? 1e-11 : 1e-6) * (forces + force) + no_digits, "sum of forces");
     if (step.energy < 0.0 || step.energy_0 < 0.0) throw Fault(text_of("W", std::min(step.energy, step.energy_0), 0.0));
     if (is_mean && is_short)
         require_at_most(
             std::abs(work - (step.energy - step.energy_0)),
-            1e-10 * (step.energy + step.energy_0 + forces * motion) + 1e-12 * forces * farthest + depth * force + least,
+            1e-10 * (step.energy + step.energy_0 + forces * motion) + 1e-12 * forces * farthest + depth * force + no_digits,
             "work less change of W");
 }
 
