@@ -37,6 +37,18 @@ private:
     std::vector<std::string>& calls_;
 };
 
+/// An octagon, its lowest corner 3 mm above a block at `x`; its faces are tilted by 22.5 degrees.
+run::Scene<2> octagon_over_block(double x, double speed) {
+    run::Scene<2> scene;
+    scene.mesh = mesh::combine<2>(
+        std::vector{mesh::structured_box<2>({-3.6, -1.8}, {3.6, 0.0}, {8, 2}, mesh::CellShape::triangle, "block"),
+                    mesh::disc({.centre = {x, 1.003}, .radius = 1.0, .size = 0.8, .name = "round"})});
+    scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
+    scene.velocity = {Vector<2>(0.0, 0.0), Vector<2>(0.0, -speed)};
+    scene.time = 2.0;
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("several observers are called in turn, at the start and after each step", "[run]") {
@@ -119,15 +131,28 @@ TEST_CASE("a block that is pressed in deeper than allowed ends the run as too de
     CHECK_THROWS_AS(static_cast<void>(run::simulate<2>(test::block_on_plane(0.1), options)), TooDeep);
 }
 
+TEST_CASE("where faces that are too deep are tilted, the reconstruction names the law that is the cure", "[run]") {
+    const auto text_of = [](const run::Scene<2>& scene, solid::ContactLaw law) -> std::string {
+        run::RunOptions options{.law = law};
+        options.contact.compression_limit = 1e-2;
+        try {
+            static_cast<void>(run::simulate<2>(scene, options));
+        } catch (const TooDeep& error) {
+            return error.what();
+        }
+        FAIL("it is pressed in deeper than a hundredth of its cells");
+        return "";
+    };
+    using solid::ContactLaw;
+    CHECK_THAT(text_of(octagon_over_block(0.45, 0.1), ContactLaw::reconstruction), Catch::Contains("\"pair_potential\""));
+    CHECK_THAT(text_of(octagon_over_block(0.45, 0.1), ContactLaw::pair_potential), !Catch::Contains("\"pair_potential\""));
+    CHECK_THAT(text_of(test::block_on_plane(0.1), ContactLaw::reconstruction), !Catch::Contains("\"pair_potential\""));
+}
+
 TEST_CASE("energy of contact between bodies that are apart at the start is refused by their names", "[run]") {
-    // The lowest corner of an octagon, 3 mm above a block, near the end of a face that is 1.18 times as large as its own: along
-    // the mean of both normals their centroids have passed each other.
-    run::Scene<2> scene;
-    scene.mesh = mesh::combine<2>(
-        std::vector{mesh::structured_box<2>({-3.6, -1.8}, {3.6, 0.0}, {8, 2}, mesh::CellShape::triangle, "block"),
-                    mesh::disc({.centre = {0.88, 1.003}, .radius = 1.0, .size = 0.8, .name = "round"})});
-    scene.solid.materials.assign(2, {.young = 1.0, .poisson = 0.0, .density = 1.0});
-    scene.velocity = {Vector<2>(0.0, 0.0), Vector<2>(0.0, -0.01)};
+    // Near the end of a face of the block that is 1.18 times as large as its own: along the mean of both normals their
+    // centroids have passed each other.
+    const run::Scene<2> scene = octagon_over_block(0.88, 0.01);
     run::RunOptions options{.steps = 1, .law = solid::ContactLaw::reconstruction};
     try {
         static_cast<void>(run::simulate<2>(scene, options));
