@@ -277,6 +277,8 @@ TEST_CASE("conditions from outside that cannot be are refused", "[solid][outside
 
 TEST_CASE("local time steps refuse tractions from outside", "[solid][outside][errors]") {
     const auto mesh = blocks<2>();
-    solid::Solid<2> solid(mesh, blocks_loaded_from_outside<2>());
+    auto options = blocks_loaded_from_outside<2>();
+    options.law = solid::ContactLaw::reconstruction;
+    solid::Solid<2> solid(mesh, options);
     CHECK_THROWS_WITH(solid.set_levels(1, std::vector<std::int32_t>(solid.size(), 0)), Contains("from outside"));
 }

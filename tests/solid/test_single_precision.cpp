@@ -328,6 +328,7 @@ TEST_CASE("finite bodies and local steps are refused in single precision, by nam
                                                           Catch::Contains("Kinematics::finite") &&
                                                           Catch::Contains("single precision"));
     options.kinematics.clear();
+    options.law = solid::ContactLaw::reconstruction;
     solid::Solid<2> solid(mesh, options);
     const std::vector<std::int32_t> level(solid.size(), 0);
     CHECK_THROWS_WITH(solid.set_levels(1, level), Catch::Contains("local steps") && Catch::Contains("double precision"));
