@@ -14,7 +14,7 @@ namespace abut::test {
 template <int Dim, class Make>
 dynamics::Ledger<Dim> run(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& velocity, double time,
                           const Make& make, std::vector<double>* end = nullptr) {
-    solid::Solid<Dim> solid(mesh, bodies<Dim>(mesh.n_bodies()));
+    solid::Solid<Dim> solid(mesh, reconstructed_bodies<Dim>(mesh.n_bodies()));
     const auto stable = dynamics::stable_step(solid);
     auto integrator =
         make(solid, std::vector<double>(solid.size(), 0.0), solid::uniform_momentum<Dim>(solid, velocity), stable);
@@ -36,7 +36,7 @@ struct Falling {
                                        .upper = {1.0, 0.55},
                                        .size = 0.2,
                                        .refinement = mesh::Refinement<2>{{0.5, 0.05}, 0.015, 0.4}});
-    solid::SolidOptions<2> options = bodies<2>(1);
+    solid::SolidOptions<2> options = reconstructed_bodies<2>(1);
 
     explicit Falling(double wall_speed, double skin = 0.0) {
         options.contact->search.skin = skin;
