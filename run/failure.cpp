@@ -27,16 +27,21 @@ WorstCell worst_cell(const dynamics::IntegratorState& state, const solid::Solid<
 
 template <int Dim>
 std::string name_of_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell) {
+    return name_of_cell<Dim>(mesh, cell, mesh.cell_centroid[static_cast<std::size_t>(cell)]);
+}
+
+template <int Dim>
+std::string name_of_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector<Dim>& position) {
     const auto c = static_cast<std::size_t>(cell);
-    const Vector<Dim>& x = mesh.cell_centroid[c];
     return fmt::format("cell {} of body '{}' at ({:.4g})", mesh.cell_label[c],
                        mesh.body_names[static_cast<std::size_t>(mesh.cell_body[c])],
-                       fmt::join(std::span(x.data(), Dim), ", "));
+                       fmt::join(std::span(position.data(), Dim), ", "));
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                       \
     template WorstCell worst_cell<Dim>(const dynamics::IntegratorState&, const solid::Solid<Dim>&); \
-    template std::string name_of_cell<Dim>(const mesh::Mesh<Dim>&, std::int32_t);
+    template std::string name_of_cell<Dim>(const mesh::Mesh<Dim>&, std::int32_t);                   \
+    template std::string name_of_cell<Dim>(const mesh::Mesh<Dim>&, std::int32_t, const Vector<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

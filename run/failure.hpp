@@ -23,8 +23,10 @@ struct WorstCell {
 
 template <int Dim>
 [[nodiscard]] WorstCell worst_cell(const dynamics::IntegratorState& state, const solid::Solid<Dim>& solid);
-/// "cell 12 of body 'left' at (0.5, 1)", at rest.
+/// "cell 12 of body 'left' at (0.5, 1)", at rest, or where it has moved to.
 template <int Dim>
 [[nodiscard]] std::string name_of_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell);
+template <int Dim>
+[[nodiscard]] std::string name_of_cell(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector<Dim>& position);
 
 }  // namespace abut::run

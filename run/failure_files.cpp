@@ -109,7 +109,7 @@ Picture picture(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& pos
     for (const std::int32_t cell : cells) {
         const auto& x = position[static_cast<std::size_t>(cell)];
         rings += fmt::format("{:.17g},{:.17g}\n", x[first], x[second]);
-        names += (names.empty() ? "Ring: " : ", ") + name_of_cell(mesh, cell);
+        names += (names.empty() ? "Ring: " : ", ") + name_of_cell<Dim>(mesh, cell, x);
     }
     const auto [slowest, fastest] = speed_range(speed);
     const std::string title =
