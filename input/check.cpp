@@ -118,12 +118,13 @@ public:
         estimate_.steps = std::isnan(options_.time) ? options_.steps : run::steps_until(options_.time, estimate_.dt);
         estimate_.end = static_cast<double>(estimate_.steps) * estimate_.dt;
         estimate_.cell_of_step = cell_of_step(scene, options_);
+        interval_ = result.options.interval;
         for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, result)))
             checked_.warnings.push_back(warning.text);
     }
     [[nodiscard]] bool wants_look(std::int64_t) const override { return true; }
     void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>& solid) override {
-        const double evaluations = static_cast<double>(estimate_.steps) * (1.0 + 1.0 / options_.interval);
+        const double evaluations = static_cast<double>(estimate_.steps) * (1.0 + 1.0 / interval_);
         estimate_.seconds = evaluations * seconds_of_force(solid);
     }
     [[nodiscard]] bool asks_to_stop() const override { return true; }
@@ -138,6 +139,7 @@ private:
     const run::RunOptions& options_;
     CheckedScene& checked_;
     Estimate estimate_;
+    int interval_ = 1;
 };
 
 /// What only a run knows, where nothing else is wrong: one that ends before its first step, under the kinematics of the scene

@@ -58,7 +58,7 @@ const Keys<Settings>& output_keys() {
         Keys<Settings> all = {
             Of::text("out", option(&RunOptions::out), "path", "folder of all results, from where the program is started"),
             Of::count("interval", option(&RunOptions::interval), 0, Of::many,
-                      "steps between records of the energies; 0: 1 in 2D, 10 in 3D"),
+                      "steps between records of the energies; 0: as many as make about 2,000, in 3D at least 10"),
             Of::number("checkpoint", option(&RunOptions::checkpoint), {.unit = "min", .above = 0.0, .zero = true},
                        "time from one checkpoint to the next; 0: none"),
             Of::count("checkpoint_steps", option(&RunOptions::checkpoint_steps), 0, Of::many,

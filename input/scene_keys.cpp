@@ -65,7 +65,7 @@ const Keys<Settings>& top_keys() {
         required(Of::count("dim", &Settings::dim, 2, 3, "dimension: 2, plane strain, or 3")),
         Of::vector("gravity", &Settings::gravity, "m/s^2", "0", "acceleration of all bodies"),
         Of::number("energy_scale", &Settings::energy_scale, {.unit = "J", .above = 0.0, .zero = true},
-                   "what energies are measured with; 0: the kinetic energy at the start. Needed where all is at rest")};
+                   "what energies are measured with; 0: the largest of kinetic energy, V and work from outside so far")};
     return keys;
 }
 

@@ -18,6 +18,7 @@ struct Checkpoint {
     std::vector<double> ledger;        ///< dynamics::ledger_values of all entries so far, row by row
     dynamics::RestartReport restarts;  ///< neutral restarts so far
     std::int64_t inadmissible_overlaps_max = 0;
+    std::vector<std::byte> looks;      ///< at the surfaces so far, and accounts
     std::vector<std::byte> observers;  ///< Observer::save
 };
 

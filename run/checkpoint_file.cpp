@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view title = "Abut checkpoint, format 1";
+constexpr std::string_view title = "Abut checkpoint, format 2";
 constexpr std::size_t head_size = 512;  // HDF5 finds its part behind such a head
 constexpr std::size_t memory_block = 1 << 22;
 
@@ -101,7 +101,7 @@ std::vector<T> read(const H5::H5File& file, const char* name) {
 }
 
 void write_content(H5::H5File& file, const Checkpoint& checkpoint) {
-    const auto& [run, motion, solid, ledger, restarts, inadmissible, observers] = checkpoint;
+    const auto& [run, motion, solid, ledger, restarts, inadmissible, looks, observers] = checkpoint;
     write(file, "q", motion.q);
     write(file, "p_before", motion.p_before);
     write(file, "p_after", motion.p_after);
@@ -111,6 +111,7 @@ void write_content(H5::H5File& file, const Checkpoint& checkpoint) {
     write(file, "paid", std::vector{restarts.paid});
     write(file, "ledger", ledger);
     write(file, "solid", solid);
+    write(file, "looks", looks);
     write(file, "observers", observers);
     write(file, "run", std::vector<char>(run.begin(), run.end()));
 }
@@ -132,6 +133,7 @@ Checkpoint read_content(const H5::H5File& file) {
     checkpoint.restarts = {counts.at(2), counts.at(3), counts.at(4), read<double>(file, "paid").at(0)};
     checkpoint.ledger = read<double>(file, "ledger");
     checkpoint.solid = read<std::byte>(file, "solid");
+    checkpoint.looks = read<std::byte>(file, "looks");
     checkpoint.observers = read<std::byte>(file, "observers");
     const auto run = read<char>(file, "run");
     checkpoint.run.assign(run.begin(), run.end());

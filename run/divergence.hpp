@@ -6,9 +6,12 @@
 
 namespace abut::run {
 
-/// Whether a run has not diverged: energies are finite and H is at most 1,000 times `scale` [J], whatever H~ says.
+/// Whether a run has not diverged, after its last record: energies are finite, H less the work from outside is at most 1,000
+/// times `scale` [J], and so is H - H~ of the records before at most `scale` itself, whatever H~ says. That of the last record
+/// is left out: where all was at rest until now, what a force is about to do is in H - H~ before it is in any other energy.
+/// `excess_before`: Ledger::energy_excess without the last record [J].
 template <int Dim>
-[[nodiscard]] bool is_alive(const dynamics::LedgerEntry<Dim>& entry, double scale);
+[[nodiscard]] bool is_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before);
 
 /// Throws Diverged with the figures of the last entry of the ledger.
 template <int Dim>

@@ -30,7 +30,7 @@ plot "energy.csv" using "time":"kinetic" with lines lw 2 lc rgb "#2a78d6" title 
 set origin 0,0
 set size 1,0.46
 unset title
-set ylabel "relative to {}_{}"
+set ylabel "relative to {}"
 set xlabel "time [s]"
 set format x "%g"
 set format y "10^{{%L}}"
@@ -44,14 +44,16 @@ plot "energy.csv" using "time":(shown((column("energy")-column("pseudo_energy"))
 unset multiplot
 )gp";
 
+/// "K_0", "E"
+std::string with_index(const std::string& name) { return name.size() < 2 ? name : name.substr(0, 1) + "_" + name.substr(1); }
+
 }  // namespace
 
 std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture) {
-    return draw(directory,
-                {.name = "energy",
-                 .purpose = "Energies of a run, from energy.csv beside this file",
-                 .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale, in_quotes(picture.title),
-                                       picture.scale_name.substr(0, 1), picture.scale_name.substr(1))});
+    return draw(directory, {.name = "energy",
+                            .purpose = "Energies of a run, from energy.csv beside this file",
+                            .script = fmt::format(fmt::runtime(script), picture.pseudo_energy, picture.scale,
+                                                  in_quotes(picture.title), with_index(picture.scale_name))});
 }
 
 }  // namespace abut::run

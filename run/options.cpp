@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "abut/base/error.hpp"
 #include "abut/run/user_words.hpp"
@@ -54,9 +57,16 @@ std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics) {
 
 template <int Dim>
 RunOptions with_defaults(RunOptions options) {
-    if (options.interval == 0) options.interval = Dim == 2 ? 1 : 10;
     if (options.contact.quadrature == 0) options.contact.quadrature = Dim;
     return options;
+}
+
+template <int Dim>
+int records_interval(std::int64_t steps, int restart) {
+    constexpr std::int64_t records = 2000, least = Dim == 2 ? 1 : 10, most = std::numeric_limits<int>::max() / 2;
+    int interval = static_cast<int>(std::clamp((steps + records - 1) / records, least, most));
+    while (restart > 1 && std::gcd(interval, restart) > 1) ++interval;
+    return interval;
 }
 
 std::int64_t steps_until(double time, double dt) {
@@ -208,6 +218,8 @@ NamedValues named_values(const RunOptions& options) {
     return values;
 }
 
+template int records_interval<2>(std::int64_t, int);
+template int records_interval<3>(std::int64_t, int);
 template RunOptions with_defaults<2>(RunOptions);
 template RunOptions with_defaults<3>(RunOptions);
 

@@ -58,7 +58,7 @@ struct RunOptions {
     int rebalance = 0;         ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are
     double rebalance_above = 1.05;      ///< cells are shared out again where the costliest rank costs so many times the mean
     std::filesystem::path out;          ///< folder of ResultFiles; a simulation alone writes nothing
-    int interval = 0;                   ///< steps between ledger records; 0: 1 in 2D, 10 in 3D
+    int interval = 0;                   ///< steps between ledger records; 0: see records_interval
     int frames = 21;                    ///< of the VTU series of ResultFiles, the first and the last included; 0: none
     bool pieces = false;                ///< each rank writes its own cells of these frames
     bool keep_last_checkpoint = false;  ///< of a run that comes to its end, too: another one may go on from there
@@ -112,7 +112,12 @@ using dynamics::name_of;  ///< "memm"
 /// That of all bodies; nothing where the scene or a pilot run decides.
 [[nodiscard]] std::optional<solid::Kinematics> kinematics_of_all(BodyKinematics kinematics);
 
-/// With what depends on the dimension, and on nothing else, filled in: `interval` and the quadrature of contact.
+/// The steps between two records of a run of so many steps, where none are given: so many that there are about 2,000 records,
+/// in 3D at least 10. It shares no factor with `restart`, so that not all records come right after a restart.
+template <int Dim>
+[[nodiscard]] int records_interval(std::int64_t steps, int restart);
+
+/// With what depends on the dimension, and on nothing else, filled in: the quadrature of contact.
 template <int Dim>
 [[nodiscard]] RunOptions with_defaults(RunOptions options);
 

@@ -23,7 +23,8 @@ std::string draw(const std::filesystem::path& out, const std::string& program, c
                  const RunResult<Dim>& result) {
     const std::string title = fmt::format("{}, {}D, {}, {} cells, {} steps", program, Dim,
                                           name_of(result.options.integrator), scene.mesh.n_cells(), result.steps);
-    return draw_energy(out, {title, result.ledger.entries().front().pseudo_energy, result.scale.value, result.scale.name});
+    const double scale = result.scale.value > 0.0 ? result.scale.value : 1.0;  // nothing has moved
+    return draw_energy(out, {title, result.ledger.entries().front().pseudo_energy, scale, result.scale.name});
 }
 
 }  // namespace

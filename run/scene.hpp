@@ -8,11 +8,13 @@
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/mesh.hpp"
+#include "abut/run/accounts.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/outputs.hpp"
 #include "abut/run/pilot_report.hpp"
 #include "abut/run/rebalancing.hpp"
 #include "abut/run/sightings.hpp"
+#include "abut/run/surface_looks.hpp"
 #include "abut/run/value.hpp"
 #include "abut/solid/body_inertia.hpp"
 #include "abut/solid/body_motion.hpp"
@@ -23,7 +25,12 @@ namespace abut::run {
 /// What the energies of a run are measured with.
 struct EnergyScale {
     std::string name = "K0";  ///< a letter and its index
-    double value = 0.0;       ///< [J]; 0: the kinetic energy at the start
+    /// [J]; 0: the largest of kinetic energy, V and work from outside so far (Accounts::energy_in_play), which is K0 as long as
+    /// nothing acts from outside and nothing is strained at the start, and is called E where it is more
+    double value = 0.0;
+
+    /// An energy over the scale [-]; 0 as long as nothing has moved.
+    [[nodiscard]] double over(double energy) const { return value > 0.0 ? energy / value : 0.0; }
 };
 
 template <int Dim>
@@ -41,7 +48,7 @@ struct Scene {
     std::function<Vector<Dim>(const Vector<Dim>& position)> displacement{};  ///< at the start [m]; empty: none
     bool contact = true;                  ///< false: bodies pass through each other, at no cost
     double time = 0.0;                    ///< end of the run where no option says it [s]
-    EnergyScale energy_scale{};           ///< to be given where all is at rest at the start
+    EnergyScale energy_scale{};           ///< what the figures of a run are quoted on
     Outputs<Dim> outputs{};               ///< what ResultFiles leaves of it beside the energies
     std::string remedy_if_overlapping{};  ///< ends the message if bodies overlap at the start
     NamedValues options{};                ///< the scene's own, as they were used; for the summary
@@ -56,6 +63,7 @@ struct RunSeconds {
     double setup = 0.0;  ///< check for overlapping bodies, operators, stable step
     double ledger = 0.0;
     double output = 0.0;  ///< of ResultFiles
+    double looks = 0.0;   ///< at the surfaces (SurfaceLooks), that at the end not counted
 };
 
 /// A finished run, or one that is under way.
@@ -63,6 +71,7 @@ template <int Dim>
 struct RunResult {
     RunOptions options;  ///< with the defaults filled in
     dynamics::Ledger<Dim> ledger;
+    Accounts<Dim> accounts;
     dynamics::StableStep stable;
     double dt = 0.0;                        ///< [s]
     double finest_dt = 0.0;                 ///< of the finest cells; dt itself except with memm_async [s]
@@ -71,13 +80,20 @@ struct RunResult {
     std::int64_t steps = 0;                 ///< to the end; taken, once the run has ended
     std::int64_t resumed_after = 0;         ///< the step of the checkpoint that this run went on from; 0: none
     bool complete = true;                   ///< false: an observer asked to stop before the last step
-    EnergyScale scale;                      ///< with its value, > 0
+    EnergyScale scale;                      ///< with its value, 0 as long as nothing has moved
     double skin = 0.0;                      ///< of the last candidate list [m]
     int threads = 0;                        ///< allowed
     contact::ContactReport contact;
     std::int64_t inadmissible_overlaps_max = 0;            ///< largest number of `inadmissible_overlaps` at any record
     std::vector<contact::BlindCorner<Dim>> blind_corners;  ///< too sharp for contact to see them
     std::optional<contact::EdgePair<Dim>> unseen_edges;    ///< that would cross without contact
+    SurfaceLooks looks;                                    ///< at the surfaces of the bodies
+    std::vector<std::string>
+        forces_from_outside;  ///< "supports", "gravity" and so on: what changes momentum; empty: nothing
+    std::vector<std::string> moments_from_outside;  ///< what changes angular momentum
+    bool accounts_for_outside = false;              ///< Accounts::momentum_drift leaves out all that they have given
+    /// Where J~ is conserved: times the square root of an energy it is a bound of the angular momentum [kg^(1/2) m]; else 0
+    double moment_scale = 0.0;
     std::optional<PilotReport> pilot;                      ///< under BodyKinematics::automatic
     bool all_may_turn = false;                             ///< no body is of Kinematics::small
     std::vector<solid::BodyInertia<Dim>> inertia;          ///< of the bodies; empty except on the first rank

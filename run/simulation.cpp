@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
 #include "abut/dynamics/filter.hpp"
@@ -29,6 +30,7 @@
 #include "abut/run/self_watch.hpp"
 #include "abut/run/start.hpp"
 #include "abut/run/start_contact.hpp"
+#include "abut/run/surface_watch.hpp"
 #include "abut/run/user_words.hpp"
 #include "abut/run/wanted.hpp"
 
@@ -37,11 +39,12 @@ namespace {
 
 using oneapi::tbb::global_control;
 
-/// H up to this many times |H~|, or of its first value: nothing is wrong yet.
-constexpr double sound_factor = 2.0;
+/// H - H~ up to this part of the energy in play: nothing is wrong yet.
+constexpr double sound_share = 0.5;
 
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 2;
+const std::string looks_kind = "looks at surfaces";
 
 /// One run, from the first step to the last.
 template <int Dim, class Integrator>
@@ -61,7 +64,8 @@ public:
           make_(std::move(make)),
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
-          balance_(start.first_share && start.first_share->again ? options_.rebalance : 0, options_.rebalance_above) {
+          balance_(start.first_share && start.first_share->again ? options_.rebalance : 0, options_.rebalance_above),
+          watch_(start.scene) {
         set_filter();
         make_restart({.period = options_.restart, .report_before = {}});
     }
@@ -78,15 +82,18 @@ public:
             step();
             const bool records = integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps;
             if (records) record();
-            const Wanted wanted = ask();
+            const Wanted wanted = ask(records);
             look(wanted);
             if (wanted.checkpoint) keep();
             if (wanted.stop) stop(records);
             if (balance_.is_due(integrator_->steps()) && integrator_->steps() < result_.steps) rebalance();
         }
+        const contact::ContactReport contact = solid_.contact_report();
         show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
             result_.end = solid::body_motions<Dim>(run, solid);
+            watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
         });
+        result_.looks = watch_.looks();
         result_.local_rotations = solid_.local_rotations(integrator_->q());
         result_.finite = solid_.finite_extremes();
         result_.contact = solid_.contact_report();
@@ -153,12 +160,13 @@ private:
     }
 
     /// What rank 0 wants now, in one message; progress is told of with it.
-    [[nodiscard]] Wanted ask() {
+    [[nodiscard]] Wanted ask(bool records) {
         return Wanted::of(first_says(solid_.ranks(), [&] {
             const std::int64_t step = integrator_->steps();
             Wanted wanted;
             wanted.stop = step < result_.steps && observer_.asks_to_stop();
             wanted.look = observer_.wants_look(step);
+            wanted.measure = records && step > 0 && step < result_.steps && watch_.is_due(step);
             wanted.piece = observer_.wants_piece(step);
             wanted.checkpoint = step > 0 && observer_.wants_checkpoint(step, wanted.stop);
             observer_.progress(step, integrator_->time());
@@ -167,6 +175,11 @@ private:
     }
     void look(const Wanted& wanted) {
         if (wanted.piece >= 0) make_piece(wanted.piece);
+        if (wanted.measure)
+            show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+                const Stopwatch watch(result_.seconds.looks);
+                watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
+            });
         if (wanted.look)
             show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) { observer_.look(run, solid); });
     }
@@ -223,7 +236,7 @@ private:
     void begin() {
         on_first([&] { observer_.begin(scene_, result_); });
         record();
-        const Wanted wanted = ask();
+        const Wanted wanted = ask(true);
         look(wanted);
         if (wanted.stop) stop(true);
     }
@@ -242,12 +255,17 @@ private:
                               .ledger = {},
                               .restarts = restart_ ? restart_->report() : dynamics::RestartReport{},
                               .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
+                              .looks = {},
                               .observers = {}};
         for (const auto& entry : result_.ledger.entries()) {
             const std::vector<double> values = dynamics::ledger_values(entry);
             checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
         }
         on_first([&] {
+            StateWriter looks(looks_kind, 1);
+            result_.accounts.save(looks);
+            watch_.save(looks);
+            checkpoint.looks = std::move(looks).finish();
             StateWriter state(observers_kind, observers_version);
             observer_.save(state);
             checkpoint.observers = std::move(state).finish();
@@ -268,7 +286,11 @@ private:
         for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
             result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
         if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
-        result_.scale = known_scale(scene_.energy_scale, result_.ledger.entries().front().kinetic);
+        StateReader looks(from.looks, looks_kind, 1);
+        result_.accounts.restore(looks);
+        watch_.restore(looks);
+        looks.finish();
+        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
         result_.resumed_after = integrator_->steps();
         keep_sound();
@@ -337,10 +359,12 @@ private:
     }
 
     void record() {
+        const double excess_before = result_.ledger.energy_excess();
         {
             const Stopwatch watch(result_.seconds.ledger);
             result_.ledger.record(
                 dynamics::measure(*integrator_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
+            result_.accounts.record(result_.ledger.entries().back(), largest_speed(), given_from_outside());
             result_.contact = solid_.contact_report();
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
@@ -348,13 +372,13 @@ private:
             self_watch_.look(solid_, integrator_->q(), integrator_->time(), integrator_->steps(), result_.near_themselves);
         }
         const auto& entries = result_.ledger.entries();
-        if (entries.size() == 1) result_.scale = known_scale(scene_.energy_scale, entries.front().kinetic);
+        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         if (entries.size() == 1 && scene_.contact) check_contact(entries.front());
         on_first([&] { observer_.record(entries.back(), result_); });
-        const double scale = std::max(entries.front().energy, result_.scale.value);
-        check_alive(entries.back(), scale);
-        if (entries.size() == 1 || entries.back().energy <= sound_factor * std::max(scale, entries.back().pseudo_energy))
-            keep_sound();
+        const double scale = std::max(result_.accounts.energy_in_play, result_.scale.value);
+        check_alive(entries.back(), scale, excess_before);
+        const dynamics::LedgerEntry<Dim>& last = entries.back();
+        if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale) keep_sound();
     }
 
     void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
@@ -364,8 +388,38 @@ private:
         });
     }
 
-    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale) {
-        if (is_alive(entry, scale)) return;
+    /// [m/s]
+    [[nodiscard]] double largest_speed() const {
+        const dynamics::RunView<Dim> run(*integrator_);
+        const auto mass = solid_.masses();
+        const double own = largest(std::ssize(mass), [&](std::ptrdiff_t i) { return run.momentum(i).norm() / mass[i]; });
+        return solid_.ranks() ? solid_.ranks()->largest(own) : own;
+    }
+
+    /// Momentum by gravity and by contact with obstacles so far [kg m/s].
+    [[nodiscard]] Vector<Dim> given_from_outside() const {
+        Vector<Dim> given = Vector<Dim>::Zero();
+        const std::int32_t n_bodies = scene_.mesh.n_bodies();
+        for (const solid::BodyImpulse<Dim>& pair : solid_.contact_impulses())
+            if (pair.body_1 < n_bodies && pair.body_2 >= n_bodies) given -= pair.impulse;
+        const auto& acceleration = solid_.options().acceleration;
+        if (acceleration.empty()) return given;
+        const auto mass = solid_.masses();
+        const auto body = solid_.body_of_points();
+        const auto weight_of = [&](std::ptrdiff_t i) -> Vector<Dim> {
+            return mass[i] * acceleration[static_cast<std::size_t>(body[i])];
+        };
+        const Vector<Dim> zero = Vector<Dim>::Zero();
+        const Vector<Dim> weight = solid_.ranks()
+                                       ? dynamics::sum_over(*solid_.ranks(), {}, std::ssize(mass), zero, weight_of)
+                                       : ordered_sum(std::ssize(mass), zero, weight_of);
+        return given + integrator_->time() * weight;
+    }
+
+    /// The record before the last one tells of H - H~, and at the end of the run the last one, too.
+    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
+        const bool at_end = result_.ledger.entries().size() > 1 && entry.step == result_.steps;
+        if (is_alive(entry, scale, at_end ? result_.ledger.energy_excess() : excess_before)) return;
         if (!was_sound_) sound_ = integrator_->state();
         const dynamics::IntegratorState sound = whole_of(sound_), lost = whole_of(integrator_->state());
         WorstCell worst;
@@ -392,6 +446,7 @@ private:
     solid::SolidTimes times_before_;        // of steps with other parts
     RankBalance balance_;
     double own_seconds_before_ = 0.0;
+    SurfaceWatch<Dim> watch_;  // on rank 0
 };
 
 template <int Dim>
@@ -409,7 +464,7 @@ template <int Dim>
 RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
                          const Share<Dim>* share) {
     check(given);
-    const RunOptions options = with_defaults<Dim>(with_restart(given, scene));
+    RunOptions options = with_defaults<Dim>(with_restart(given, scene));
     std::optional<global_control> threads;
     if (options.threads > 0)
         threads.emplace(global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
@@ -431,6 +486,7 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
             start.emplace(scene, options, std::move(pilot), share);
         }
         RunResult<Dim>& result = start->result;
+        if (options.interval == 0) options.interval = records_interval<Dim>(result.steps, options.restart);
         result.options = options;
         if (start->solid->contact()) result.options.law = solid::ContactLaw::reconstruction;
         if (start->solid->nodal_contact()) result.options.law = solid::ContactLaw::pair_potential;

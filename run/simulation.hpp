@@ -13,9 +13,9 @@ namespace abut::run {
 /// last one, and all figures of the result are those until then; RunResult::complete is false if steps were left.
 ///
 /// Throws BadInput with place, value, limit and remedy for options that do not go together, for bodies that overlap where the
-/// scene has contact, for a time step above the stable one, and where nothing moves and no `energy_scale` is given. An error
-/// within a step says in front of its text which step and time it was, and keeps its kind and facts, as the type of that kind:
-/// Diverged, TooDeep and whatever else solid::Solid throws.
+/// scene has contact, and for a time step above the stable one. An error within a step says in front of its text which step
+/// and time it was, and keeps its kind and facts, as the type of that kind: Diverged, TooDeep and whatever else solid::Solid
+/// throws. A run has diverged, too, where H - H~ exceeds the energy in play (Accounts::energy_in_play).
 ///
 /// `from`: the run goes on after this checkpoint, which an observer of the same scene under the same options has kept, with
 /// the same observers; the rest has the bits that it would have had, and so do the ledger and what observers write. Throws

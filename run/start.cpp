@@ -33,17 +33,27 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, RunOptions optio
     return solid;
 }
 
+/// The kinetic energy at the start. Throws BadInput where there is none.
+double required_gauge(double kinetic) {
+    if (kinetic > 0.0) return kinetic;
+    throw BadInput(
+        "--integrator bilbao: all is at rest at the start, and V + c must stay above 0 J. Give c with --gauge, or "
+        "energy_scale "
+        "of the scene: the energy of what is going to happen.",
+        {.value = kinetic, .allowed = 0.0});
+}
+
 }  // namespace
 
-EnergyScale known_scale(EnergyScale scale, double kinetic) {
-    if (scale.value == 0.0) scale.value = kinetic;
+template <int Dim>
+EnergyScale known_scale(EnergyScale scale, const RunResult<Dim>& result) {
+    constexpr double rounding = 1e-9;
     if (scale.name.empty())
         throw BadInput("Scene::energy_scale has no name. Give a letter and what stands below it, such as H0.");
-    if (!(scale.value > 0.0))
-        throw BadInput(fmt::format(
-            "the kinetic energy at the start is {} J, above 0 J is needed to measure energies with. Raise the speed "
-            "at the start; a scene that starts at rest gives Scene::energy_scale.",
-            scale.value));
+    if (scale.value != 0.0) return scale;
+    scale.value = result.accounts.energy_in_play;
+    if (scale.name == EnergyScale{}.name && scale.value > (1.0 + rounding) * result.ledger.entries().front().kinetic)
+        scale.name = "E";
     return scale;
 }
 
@@ -81,7 +91,43 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     if (whole || !share) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->blind_corners();
     result.unseen_edges = solid->unseen_edges();
+    set_outside();
     set_state();
+}
+
+/// What changes momentum and angular momentum.
+template <int Dim>
+void Start<Dim>::set_outside() {
+    const solid::SolidOptions<Dim>& given = solid->options();
+    auto& forces = result.forces_from_outside;
+    const auto add_if = [](std::vector<std::string>& list, bool acts, const char* what) {
+        if (acts) list.emplace_back(what);
+    };
+    const auto to_ground = [](const solid::Spring<Dim>& spring) {
+        return spring.first.body == solid::ground || spring.second.body == solid::ground;
+    };
+    add_if(forces, !given.boundary.dirichlet.empty(), "supports");
+    add_if(forces, !given.boundary.traction.empty(), "tractions");
+    add_if(forces, bool(given.body_load), "loads on the volume");
+    add_if(forces, std::ranges::any_of(given.springs, to_ground), "springs to the ground");
+    const bool meets_obstacles = scene.contact && !given.obstacles.empty();
+    // The filter holds momentum along what nothing holds, and an obstacle does.
+    result.accounts_for_outside =
+        forces.empty() && !(options.filter && meets_obstacles) &&
+        (options.integrator == SolidIntegrator::memm || options.integrator == SolidIntegrator::leapfrog);
+    add_if(forces, std::ranges::any_of(given.acceleration, [](const auto& g) { return !g.isZero(0.0); }), "gravity");
+    add_if(forces, meets_obstacles, "obstacles");
+    result.moments_from_outside = forces;
+    add_if(result.moments_from_outside, !given.moments.empty(), "moments");
+    const bool keeps_moments =
+        result.all_may_turn && given.springs.empty() && (!scene.contact || solid->nodal_contact() != nullptr) &&
+        options.integrator == SolidIntegrator::memm && options.precision == solid::Precision::double_precision;
+    if (!keeps_moments || !result.moments_from_outside.empty()) return;
+    double sum = 0.0;
+    for (std::size_t c = 0; c < scene.mesh.cell_measure.size(); ++c)
+        sum += given.materials[static_cast<std::size_t>(scene.mesh.cell_body[c])].density * scene.mesh.cell_measure[c] *
+               scene.mesh.cell_centroid[c].squaredNorm();
+    result.moment_scale = std::sqrt(2.0 * sum);
 }
 
 template <int Dim>
@@ -119,11 +165,12 @@ double gauge(const Start<Dim>& start) {
     const std::vector<double>& p = start.momentum;
     const auto inverse_mass = start.solid->inverse_mass();
     if (const dynamics::Ranks* ranks = start.solid->ranks())
-        return 0.5 * dynamics::mass_product_over(*ranks, p, inverse_mass, p);
-    return 0.5 * dynamics::mass_product(p, inverse_mass, p);
+        return required_gauge(0.5 * dynamics::mass_product_over(*ranks, p, inverse_mass, p));
+    return required_gauge(0.5 * dynamics::mass_product(p, inverse_mass, p));
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                         \
+    template EnergyScale known_scale<Dim>(EnergyScale, const RunResult<Dim>&);                        \
     template void check_for_ranks<Dim>(const dynamics::Ranks*, const Scene<Dim>&, const RunOptions&); \
     template struct Start<Dim>;                                                                       \
     template double gauge<Dim>(const Start<Dim>&);

@@ -14,8 +14,10 @@ namespace abut::run {
 template <int Dim>
 void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, const RunOptions& options);
 
-/// With the value that it has where the scene gives none. Throws BadInput where nothing moves, either.
-[[nodiscard]] EnergyScale known_scale(EnergyScale scale, double kinetic);
+/// With the value that it has so far where the scene gives none, and then with the name E unless that is K0. Throws BadInput
+/// for one without a name.
+template <int Dim>
+[[nodiscard]] EnergyScale known_scale(EnergyScale scale, const RunResult<Dim>& result);
 /// sum + a - b
 [[nodiscard]] solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a, const solid::SolidTimes& b);
 
@@ -41,6 +43,7 @@ struct Start {
 
 private:
     void set_state();
+    void set_outside();
     void set_local_steps();
 };
 

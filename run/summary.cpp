@@ -7,6 +7,7 @@
 
 #include "abut/run/json.hpp"
 #include "abut/run/table_line.hpp"
+#include "abut/run/verdict.hpp"
 
 namespace abut::run {
 namespace {
@@ -59,7 +60,8 @@ Json seconds_json(const RunResult<Dim>& result) {
     return {{"total", seconds.total},          {"mesh", seconds.mesh},
             {"setup", seconds.setup},          {"bulk", result.times.bulk},
             {"contact", result.times.contact}, {"search", result.times.search},
-            {"ledger", seconds.ledger},        {"output", seconds.output}};
+            {"ledger", seconds.ledger},        {"output", seconds.output},
+            {"looks", seconds.looks}};
 }
 
 /// Nothing where parts stay as they are.
@@ -108,16 +110,22 @@ Json run_json(const RunResult<Dim>& result) {
 template <int Dim>
 Json energies_json(const RunResult<Dim>& result) {
     const auto& ledger = result.ledger;
+    const auto number = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    const auto if_kept = [&](double drift) { return result.moments_from_outside.empty() ? Json(drift) : Json(); };
     return {{"kinetic_initial", ledger.entries().front().kinetic},
             {"energy_scale", {{"name", result.scale.name}, {"value", result.scale.value}}},
             {"pseudo_energy_drift", ledger.pseudo_energy_drift()},
             {"energy_drift", ledger.energy_drift()},
             {"energy_excess_max", ledger.energy_excess()},
             {"parasitic_max", ledger.parasitic()},
-            {"momentum_drift_max", ledger.momentum_drift()},
-            {"angular_momentum_drift_max", ledger.angular_momentum_drift()},
-            {"rest_angular_momentum_drift_max", ledger.rest_angular_momentum_drift()},
-            {"pseudo_angular_momentum_drift_max", ledger.pseudo_angular_momentum_drift()},
+            {"energy_in_play", result.accounts.energy_in_play},
+            {"speed_max", result.accounts.speed},
+            {"forces_from_outside", result.forces_from_outside},
+            {"moments_from_outside", result.moments_from_outside},
+            {"momentum_drift_max", number(momentum_drift(result))},
+            {"angular_momentum_drift_max", if_kept(ledger.angular_momentum_drift())},
+            {"rest_angular_momentum_drift_max", if_kept(ledger.rest_angular_momentum_drift())},
+            {"pseudo_angular_momentum_drift_max", if_kept(ledger.pseudo_angular_momentum_drift())},
             {"rotation_max", ledger.rotation()}};
 }
 
@@ -166,6 +174,31 @@ Json counts_json(const RunResult<Dim>& result) {
             {"boundary_stencil_worst_weight", result.boundary_stencils.worst_weight}};
 }
 
+Json encounter_json(const Encounter& met) {
+    if (met.body_1.empty()) return {};
+    return {{"body_1", met.body_1},
+            {"body_2", met.body_2},
+            {"distance", met.distance},
+            {"ratio", met.ratio},
+            {"time", met.time}};
+}
+
+template <int Dim>
+Json verdict_json(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const Verdict said = verdict(scene, result);
+    Json warnings = Json::array();
+    for (const Warning& warning : all_warnings(scene, result))
+        warnings.push_back({{"severity", warning.severity == Severity::note ? "note" : "warning"}, {"text", warning.text}});
+    return {{"verdict", {{"good", said.good}, {"text", said.text}}},
+            {"warnings", warnings},
+            {"surfaces",
+             {{"looks", result.looks.looks},
+              {"deepest", encounter_json(result.looks.deepest)},
+              {"remote_contact", encounter_json(result.looks.remote)},
+              {"sliding_pressure", encounter_json(result.looks.pressed)},
+              {"nearest", encounter_json(result.looks.nearest)}}}};
+}
+
 template <int Dim>
 std::string velocity_text(const Vector<Dim>& velocity) {
     std::vector<std::string> parts;
@@ -180,23 +213,25 @@ std::string value_text(const Value& value) {
 
 template <int Dim>
 std::string energy_lines(const RunResult<Dim>& result) {
-    const auto& [name, scale] = result.scale;
+    const std::string& name = result.scale.name;
     const dynamics::Ledger<Dim>& ledger = result.ledger;
+    const auto over_scale = [&](double energy) { return fmt::format("{:.2e}", result.scale.over(energy)); };
+    const auto moment = [&](double drift) {
+        return result.moments_from_outside.empty() ? fmt::format("{:.2e} kg m^2/s", drift) : moment_note(result);
+    };
+    const double momentum = momentum_drift(result);
     std::string text =
         table_line("kinetic energy at the start, K0", fmt::format("{:.6g} J", ledger.entries().front().kinetic));
-    if (name != "K0") text += table_line(fmt::format("scale of energies, {}", name), fmt::format("{:.6g} J", scale));
-    return text +
-           table_line(fmt::format("drift of pseudo-energy, / {}", name),
-                      fmt::format("{:.2e}", ledger.pseudo_energy_drift() / scale)) +
-           table_line(fmt::format("true energy, max |H - H0|, / {}", name),
-                      fmt::format("{:.2e}", ledger.energy_drift() / scale)) +
-           table_line(fmt::format("energy excess H - H~, / {}", name),
-                      fmt::format("{:.2e}", ledger.energy_excess() / scale)) +
+    if (name != "K0")
+        text += table_line(fmt::format("scale of energies, {}", name), fmt::format("{:.6g} J", result.scale.value));
+    return text + table_line(fmt::format("drift of pseudo-energy, / {}", name), over_scale(ledger.pseudo_energy_drift())) +
+           table_line(fmt::format("true energy, max |H - H0|, / {}", name), over_scale(ledger.energy_drift())) +
+           table_line(fmt::format("energy excess H - H~, / {}", name), over_scale(ledger.energy_excess())) +
            table_line("parasitic mode, max |e|/m", fmt::format("{:.2e} m/s", ledger.parasitic())) +
-           table_line("drift of linear momentum", fmt::format("{:.2e} kg m/s", ledger.momentum_drift())) +
-           table_line("drift of angular momentum", fmt::format("{:.2e} kg m^2/s", ledger.angular_momentum_drift())) +
-           table_line("the same of J~, as MEMM has it",
-                      fmt::format("{:.2e} kg m^2/s", ledger.pseudo_angular_momentum_drift())) +
+           table_line("drift of linear momentum",
+                      (std::isnan(momentum) ? "" : fmt::format("{:.2e} kg m/s", momentum)) + momentum_note(result)) +
+           table_line("drift of angular momentum", moment(ledger.angular_momentum_drift())) +
+           table_line("the same of J~, as MEMM has it", moment(ledger.pseudo_angular_momentum_drift())) +
            table_line("rotation of a body, at most", fmt::format("{:.2g} rad", ledger.rotation()));
 }
 
@@ -207,7 +242,7 @@ std::string restart_line(const RunResult<Dim>& result) {
     if (restarts == 0) return "";
     return table_line("neutral restarts",
                       fmt::format("{}; bodies shortened {}, skipped {}; vibration paid {:.3g} {}", restarts, shortened,
-                                  skipped, paid / result.scale.value, result.scale.name));
+                                  skipped, result.scale.over(paid), result.scale.name));
 }
 
 template <int Dim>
@@ -232,12 +267,12 @@ std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
 
 template <int Dim>
 std::string time_line(const RunResult<Dim>& result) {
-    const auto& [total, mesh, setup, ledger, output] = result.seconds;
+    const auto& [total, mesh, setup, ledger, output, looks] = result.seconds;
     const auto& times = result.times;
     return table_line("time of the run",
                       fmt::format("{:.1f} s: mesh {:.1f}, setup {:.1f}, bulk {:.1f}, contact {:.2f}, search {:.2f}, "
-                                  "ledger {:.1f}, output {:.1f}",
-                                  total, mesh, setup, times.bulk, times.contact, times.search, ledger, output));
+                                  "ledger {:.1f}, output {:.1f}, looks {:.2f}",
+                                  total, mesh, setup, times.bulk, times.contact, times.search, ledger, output, looks));
 }
 
 }  // namespace
@@ -261,6 +296,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
                  {"contact_share", contact_share(result)},
                  {"options", options_json(scene, result)}});
     json.update(rebalancing_json(result.rebalancing));
+    json.update(verdict_json(scene, result));
     return text_of(json, 2) + "\n";
 }
 
@@ -277,7 +313,7 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
     text += energy_lines(result) + restart_line(result) + contact_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
-    return text + body_lines(scene, result) + time_line(result);
+    return text + body_lines(scene, result) + time_line(result) + table_line("verdict", verdict(scene, result).text);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \

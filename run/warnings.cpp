@@ -160,6 +160,82 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
     }
 }
 
+/// What H~ does not see.
+template <int Dim>
+void add_motion(Counts& counts, const RunResult<Dim>& result) {
+    const dynamics::Ledger<Dim>& ledger = result.ledger;
+    const auto add_above = [&](WarningKind kind, double value, double threshold, std::string text) {
+        if (value > threshold) counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
+    };
+    const bool is_memm =
+        result.options.integrator == SolidIntegrator::memm || result.options.integrator == SolidIntegrator::memm_async;
+    const double energy = std::max(result.accounts.energy_in_play, result.scale.value);
+    if (is_memm && energy > 0.0) {
+        const double excess = ledger.energy_excess() / energy;
+        add_above(WarningKind::energy_excess, excess, large_energy_excess,
+                  fmt::format("H - H~ came to {:.2g} of the energy in play, {:g} is safe: so much swings from step to step, "
+                              "unseen by H~. A lower --cfl, --filter neutral or --restart 50 help where contact excites it; "
+                              "tips and edges that meet are to be blunted",
+                              excess, large_energy_excess));
+    }
+    if (is_memm && result.accounts.speed > 0.0) {
+        const double share = ledger.parasitic() / result.accounts.speed;
+        add_above(
+            WarningKind::parasitic, share, large_parasitic_share,
+            fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
+                        "safe: do not read single cells near contact. --filter neutral clears that there, --restart 50 "
+                        "everywhere",
+                        ledger.parasitic(), share, large_parasitic_share));
+        if (share > large_parasitic_share && share <= spoiling_parasitic_share)
+            counts.warnings.back().severity = Severity::note;
+    }
+    if (result.moment_scale > 0.0 && energy > 0.0) {
+        const double drift = ledger.pseudo_angular_momentum_drift() / (result.moment_scale * std::sqrt(energy));
+        add_above(
+            WarningKind::moment_drift, drift, large_moment_drift,
+            fmt::format("J~ changes by {:.2g} kg m^2/s, {:.2g} of what it may be with this energy, {:g} is safe, though "
+                        "nothing acts from outside: forces of contact have a moment",
+                        ledger.pseudo_angular_momentum_drift(), drift, large_moment_drift));
+    }
+}
+
+/// What is seen of the surfaces, whatever contact knows.
+template <int Dim>
+void add_looks(Counts& counts, const RunResult<Dim>& result) {
+    const SurfaceLooks& looks = result.looks;
+    const auto add_above = [&](WarningKind kind, const Encounter& met, double threshold, const auto& text) {
+        if (met.ratio > threshold) counts.warnings.push_back({kind, Severity::warning, text(met), met.ratio, threshold});
+    };
+    const std::string looked = fmt::format("; looked at {} times", looks.looks);
+    add_above(WarningKind::interpenetration, looks.deepest, deep_interpenetration, [&](const Encounter& met) {
+        return fmt::format(
+            "{} and {} are inside each other at t = {:.4g} s: two of their cells by {:.2g} m, {:.2g} of the "
+            "size of the smaller one, {:g} is safe{}. Contact has not seen it, or gave way: look at tips and "
+            "edges, at surfaces that look inwards, and at the speed",
+            met.body_1, met.body_2, met.time, met.distance, met.ratio, deep_interpenetration, looked);
+    });
+    add_above(WarningKind::remote_contact, looks.remote, contact_from_afar, [&](const Encounter& met) {
+        return fmt::format(
+            "faces of {} and {} push each other at t = {:.4g} s and are {:.2g} m apart, {:.2g} of the size of "
+            "the smaller one, {:g} is safe{}. Make faces that meet more equal in size, or take --law "
+            "pair_potential",
+            met.body_1, met.body_2, met.time, met.distance, met.ratio, contact_from_afar, looked);
+    });
+    add_above(WarningKind::sliding_pressure, looks.pressed, high_sliding_pressure, [&](const Encounter& met) {
+        return fmt::format(
+            "{} and {} slide along each other at t = {:.4g} s under a mean pressure of {:.2g} E of the softer "
+            "one, {:g} is safe{}: where faces do not lie in one plane, sliding may cost more than 1 % of "
+            "its speed. Finer faces or a lower pressure make it less",
+            met.body_1, met.body_2, met.time, met.ratio, high_sliding_pressure, looked);
+    });
+    if (looks.pressed.ratio > high_sliding_pressure) counts.warnings.back().severity = Severity::note;
+    if (!looks.nearest.body_1.empty())
+        counts.warnings.push_back({WarningKind::nothing_touched, Severity::note,
+                                   fmt::format("nothing touched: nearest at the end were {} and {}, {:.4g} m apart",
+                                               looks.nearest.body_1, looks.nearest.body_2, looks.nearest.distance),
+                                   looks.nearest.distance, 0.0});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -204,6 +280,8 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
     const auto add = [&](WarningKind kind, double value, double threshold, std::string text) {
         counts.warnings.push_back({kind, Severity::warning, std::move(text), value, threshold});
     };
+    add_motion(counts, result);
+    add_looks(counts, result);
     if (contact.compressed_steps > 0)
         add(WarningKind::compression, contact.compression_max, result.options.contact.compression_warning,
             fmt::format("strongly compressed in {} of {:.0f} steps, at most {:.2g} of D, the depth of their cells",

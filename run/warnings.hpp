@@ -22,6 +22,22 @@ inline constexpr double enough_inertia = 0.98;
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
+/// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
+inline constexpr double large_energy_excess = 0.02;
+/// The same of |e|/m over the largest speed [-]: a note from the first, and a warning from the second: good impacts have 0.2 to
+/// 0.4 in single cells, with H - H~ below 0.1 %.
+inline constexpr double large_parasitic_share = 0.1, spoiling_parasitic_share = 0.5;
+/// The change of J~, where it is conserved, over what it may be with that energy, above which it is no round-off [-].
+inline constexpr double large_moment_drift = 1e-6;
+/// How deep cells of different bodies are inside each other, over the size of the smaller one, where contact has not prevented
+/// it [-].
+inline constexpr double deep_interpenetration = 0.5;
+/// How far apart faces are that push each other, over the size of the smaller one, where they cannot touch [-].
+inline constexpr double contact_from_afar = 0.25;
+/// Contact pressure over E above which sliding over faces that do not lie in a plane may cost more than 1 % of the speed [-]: a
+/// note, since good impacts have 0.1.
+inline constexpr double high_sliding_pressure = 0.01;
+
 enum class Severity {
     note,     ///< as it should be, and good to know
     warning,  ///< may spoil the result
@@ -49,6 +65,13 @@ enum class WarningKind {
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
+    energy_excess,   ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
+    parasitic,       ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
+    moment_drift,    ///< of J~ where it is conserved [-]; threshold: large_moment_drift
+    interpenetration,       ///< SurfaceLooks::deepest [-]; threshold: deep_interpenetration
+    remote_contact,         ///< SurfaceLooks::remote [-]; threshold: contact_from_afar
+    sliding_pressure,       ///< note: SurfaceLooks::pressed [-]; threshold: high_sliding_pressure
+    nothing_touched,        ///< note: the distance of the two that were nearest at the end [m]
     missed_contacts,        ///< contacts that were missed: the energy is not exact
     inadmissible_overlaps,  ///< note: pairs of faces that overlap without being contacts, far sides of bodies
 };

@@ -11,7 +11,7 @@ const std::string& new_scene() {
 
 dim = 2                  # 2, plane strain, or 3
 gravity = [0, -10]       # [m/s^2]
-# energy_scale = 1.0     # [J] what energies are measured with; needed where all begins at rest
+# energy_scale = 1.0     # [J] what energies are measured with; by default the largest one of the run so far
 
 [bodies.ball]            # the name is yours; groups of boundary faces are "ball.boundary"
 shape = "disc"           # or fan_disc, box, structured_box; mesh = "FILE.msh" in place of shape reads a file

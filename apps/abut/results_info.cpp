@@ -44,8 +44,14 @@ std::string drift_line(const Json& summary, const char* key, const char* what) {
     if (!summary.contains(key) || !summary.contains("energy_scale")) return "";
     const Json& scale = summary.at("energy_scale");
     if (!summary.at(key).is_number() || !scale.contains("value") || !scale.contains("name")) return "";
-    return info_line(what, fmt::format("{:.2e} of {}", summary.at(key).get<double>() / scale.at("value").get<double>(),
+    const double energy = scale.at("value").is_number() ? scale.at("value").get<double>() : 0.0;
+    return info_line(what, fmt::format("{:.2e} of {}", energy > 0.0 ? summary.at(key).get<double>() / energy : 0.0,
                                        scale.at("name").get<std::string>()));
+}
+
+std::string verdict_line(const Json& summary) {
+    if (!summary.contains("verdict") || !summary.at("verdict").is_object()) return "";
+    return line_of(summary.at("verdict"), "text", "verdict");
 }
 
 std::string body_lines(const Json& summary) {
@@ -67,7 +73,7 @@ std::string finished_lines(const Json& summary) {
            line_of(summary, "steps", "steps") + line_of(summary, "time", "until", " s") +
            drift_line(summary, "pseudo_energy_drift", "drift of H~") + drift_line(summary, "energy_drift", "error of H") +
            drift_line(summary, "energy_excess_max", "H - H~") + line_of(summary, "events", "contact events") +
-           line_of(summary, "missed_contacts", "missed contacts") + body_lines(summary);
+           line_of(summary, "missed_contacts", "missed contacts") + verdict_line(summary) + body_lines(summary);
 }
 
 /// Rows of a table that a run writes as it goes.

@@ -101,7 +101,8 @@ std::string field(const nlohmann::json& summary, const std::string& name) {
 /// Over the scale of energies.
 std::string drift(const nlohmann::json& summary) {
     if (!summary.contains("pseudo_energy_drift")) return "";
-    return all_digits(summary["pseudo_energy_drift"].get<double>() / summary["energy_scale"]["value"].get<double>());
+    const double scale = summary["energy_scale"]["value"].get<double>();
+    return all_digits(scale > 0.0 ? summary["pseudo_energy_drift"].get<double>() / scale : 0.0);
 }
 
 std::string row_of(const Outcome& outcome) {

@@ -7,6 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/run/user_words.hpp"
+#include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
 #include "apps/support/csv.hpp"
 
@@ -39,6 +40,7 @@ JsonLines<Dim>::JsonLines(std::string program) : program_(std::move(program)) {}
 
 template <int Dim>
 void JsonLines<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result) {
+    scene_ = &scene;
     n_steps_ = result.steps;
     time_left_ = TimeLeft(result.steps);
     start_ = last_ = Clock::now();
@@ -94,6 +96,8 @@ void JsonLines<Dim>::end(const run::RunResult<Dim>& result, int exit_code) {
                 {"parasitic_max", json_number(result.ledger.parasitic())},
                 {"events", result.contact.events},
                 {"missed_contacts", result.contact.missed_contacts},
+                {"good", scene_ != nullptr && run::verdict(*scene_, result).good},
+                {"verdict", scene_ != nullptr ? Json(run::verdict(*scene_, result).text) : Json()},
                 {"seconds", result.seconds.total},
                 {"out", result.options.out.string()},
                 {"exit_code", exit_code}});

@@ -30,6 +30,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::string program_;
+    const run::Scene<Dim>* scene_ = nullptr;
     TimeLeft time_left_{1};
     std::int64_t n_steps_ = 1;
     Clock::time_point start_ = Clock::now();

@@ -59,7 +59,7 @@ void ShowProgress<Dim>::begin(const run::Scene<Dim>&, const run::RunResult<Dim>&
 
 template <int Dim>
 void ShowProgress<Dim>::record(const dynamics::LedgerEntry<Dim>&, const run::RunResult<Dim>& result) {
-    drift_ = result.ledger.pseudo_energy_drift() / result.scale.value;
+    drift_ = result.scale.over(result.ledger.pseudo_energy_drift());
 }
 
 template <int Dim>

@@ -173,8 +173,8 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
         ->capture_default_str()
         ->group("Output");
     const auto grouped = [](CLI::Option* option) { option->group("Output"); };
-    grouped(add_count(app, "--interval", options.interval, "steps between two records of the energies; 0: 1 in 2D, 10 in 3D",
-                      0));
+    grouped(add_count(app, "--interval", options.interval,
+                      "steps between two records of the energies; 0: as many as make about 2,000, in 3D at least 10", 0));
     grouped(add_count(app, "--frames", options.frames, "frames for ParaView, first and last included; 0: none", 0));
     app.add_flag("--pieces", options.pieces,
                  "each rank writes its own cells of a frame (.pvtu names the pieces); by default rank 0 writes the whole")

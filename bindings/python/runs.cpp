@@ -16,6 +16,7 @@
 #include "abut/run/frames.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
+#include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
 #include "in_use.hpp"
 #include "scenes.hpp"
@@ -157,16 +158,15 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
         }
     }
     py::list warnings;
-    for (const run::Warning& warning : run::without_notes(run::warnings_before(scene, *result)))
+    for (const run::Warning& warning : run::without_notes(run::all_warnings(scene, *result))) 
         warnings.append(text_of(warning.text));
-    for (const run::Warning& warning : run::without_notes(run::warnings_after(*result)))
-        warnings.append(text_of(warning.text));
-    return py::dict("ledger"_a = table_of(result->ledger),
-                    "displacement"_a = copy_of_vectors<Dim>(python.final_displacement),
-                    "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,
-                    "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
-                    "energy_scale"_a = result->scale.value, "contact"_a = report_of(result->contact),
-                    "warnings"_a = warnings, "seconds"_a = result->seconds.total);
+    const run::Verdict said = run::verdict(scene, *result);
+    return py::dict(
+        "ledger"_a = table_of(result->ledger), "displacement"_a = copy_of_vectors<Dim>(python.final_displacement),
+        "start"_a = motions_of(result->start), "end"_a = motions_of(result->end), "steps"_a = result->steps,
+        "dt"_a = result->dt, "stable_dt"_a = result->stable.dt, "complete"_a = result->complete,
+        "energy_scale"_a = result->scale.value, "contact"_a = report_of(result->contact), "warnings"_a = warnings,
+        "verdict"_a = text_of(said.text), "good"_a = said.good, "seconds"_a = result->seconds.total);
 }
 
 constexpr const char* run_in_use = "this run takes steps in another thread. Use one thread at a time.";
@@ -362,9 +362,9 @@ void add_dimension(py::module_& module, const std::string& suffix) {
              "[kg], "
              "velocity [m/s], rotation [rad] of each body), steps, dt and stable_dt [s], complete, energy_scale [J], "
              "contact "
-             "(counters), warnings (texts), seconds. "
+             "(counters), verdict (a text), good (whether it is), warnings (texts), seconds. "
              "look(state): called at the start and after each step; True makes the next one the last. energy_scale: [J], "
-             "where all is at rest at the start. out: a folder for energy.csv, pictures and the VTU series. ") +
+             "by default the largest energy in play so far. out: a folder for energy.csv, pictures and the VTU series. ") +
          scene_text)
             .c_str());
     module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),

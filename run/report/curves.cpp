@@ -42,11 +42,12 @@ Plot energies(const RunResult<Dim>& result) {
 /// |H~ - H~0 - W|, less what restarts with another step have added, and H - H~.
 template <int Dim>
 Plot errors(const RunResult<Dim>& result) {
-    const double start = result.ledger.entries().front().pseudo_energy, scale = result.scale.value;
-    const auto drift = [=](const auto& entry) {
-        return std::abs(entry.pseudo_energy - start - entry.work - entry.restart_jumps) / scale;
+    const double start = result.ledger.entries().front().pseudo_energy;
+    const EnergyScale& scale = result.scale;
+    const auto drift = [=, &scale](const auto& entry) {
+        return scale.over(std::abs(entry.pseudo_energy - start - entry.work - entry.restart_jumps));
     };
-    const auto excess = [=](const auto& entry) { return (entry.energy - entry.pseudo_energy) / scale; };
+    const auto excess = [&scale](const auto& entry) { return scale.over(entry.energy - entry.pseudo_energy); };
     return {
         .title = "Errors of the energies over time",
         .x_label = "time [s]",

@@ -40,6 +40,8 @@ double Figures::number(const std::string& path) const {
     return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-Markup Figures::over(const std::string& path, double scale) const { return fmt::format("{:.2e}", number(path) / scale); }
+Markup Figures::over(const std::string& path, const EnergyScale& scale) const {
+    return fmt::format("{:.2e}", scale.over(number(path)));
+}
 
 }  // namespace abut::run

@@ -6,6 +6,7 @@
 
 #include "abut/run/json.hpp"
 #include "abut/run/report/markup.hpp"
+#include "abut/run/scene.hpp"
 
 namespace abut::run {
 
@@ -21,8 +22,8 @@ public:
     [[nodiscard]] Markup at(const std::string& path, bool rough = false) const;
     /// The number at that path; NaN where it is not known.
     [[nodiscard]] double number(const std::string& path) const;
-    /// "3.7e-15", a number at a path over another one.
-    [[nodiscard]] Markup over(const std::string& path, double scale) const;
+    /// "3.7e-15", an energy at a path over the scale.
+    [[nodiscard]] Markup over(const std::string& path, const EnergyScale& scale) const;
 
 private:
     [[nodiscard]] const Json& find(const std::string& path) const;

@@ -11,19 +11,15 @@
 #include "abut/run/report/figures.hpp"
 #include "abut/run/report/style.hpp"
 #include "abut/run/summary.hpp"
+#include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"
 
 namespace abut::run {
 namespace {
 
-/// |H~ - H~0 - W| over the scale above which more than rounding is at work [-].
-constexpr double round_off = 1e-10;
-
 Markup section(const std::string& heading, const Markup& content) {
     return content.empty() ? Markup() : element("section", element("h2", heading) + "\n" + content) + "\n";
 }
-
-std::string counted(std::size_t n, const std::string& what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
 
 template <int Dim>
 Markup heading(const std::string& program, const Figures& figures, const RunResult<Dim>& result) {
@@ -38,33 +34,9 @@ Markup heading(const std::string& program, const Figures& figures, const RunResu
 }
 
 template <int Dim>
-std::vector<Warning> all_warnings(const Scene<Dim>& scene, const RunResult<Dim>& result) {
-    std::vector<Warning> warnings = warnings_before(scene, result);
-    std::ranges::copy(warnings_after(result), std::back_inserter(warnings));
-    return warnings;
-}
-
-template <int Dim>
-Markup verdict(const Figures& figures, const RunResult<Dim>& result, const std::vector<Warning>& warnings) {
-    const double drift = figures.number("pseudo_energy_drift") / result.scale.value;
-    const std::size_t n_warnings = without_notes(warnings).size();
-    const std::string end = result.complete ? "The run came to its end."
-                                            : fmt::format(
-                                                  "The run was asked to stop at t = {:.6g} s, before its end; all "
-                                                  "figures are those until then.",
-                                                  result.ledger.entries().back().time);
-    const std::string energy =
-        drift <= round_off
-            ? fmt::format(" The pseudo-energy is kept to round-off, {:.1e} of {}.", drift, result.scale.name)
-            : fmt::format(" The pseudo-energy drifts by {:.1e} of {}: more than round-off.", drift, result.scale.name);
-    const std::string contacts =
-        result.contact.missed_contacts == 0
-            ? fmt::format(" {}, none missed.", counted(static_cast<std::size_t>(result.contact.events), "contact event"))
-            : fmt::format(" {} were missed: the energy is not exact.",
-                          counted(static_cast<std::size_t>(result.contact.missed_contacts), "contact"));
-    const std::string warned = n_warnings == 0 ? " Nothing warns." : fmt::format(" {}.", counted(n_warnings, "warning"));
-    const bool good = result.complete && n_warnings == 0 && drift <= round_off;
-    return element("p", {{"class", good ? "good" : "attention"}}, end + energy + contacts + warned) + "\n";
+Markup verdict_part(const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    const Verdict said = verdict(scene, result);
+    return element("p", {{"class", said.good ? "good" : "attention"}}, said.text) + "\n";
 }
 
 Markup warnings_part(const std::vector<Warning>& warnings) {
@@ -84,20 +56,20 @@ Markup figure_row(const Figures& figures, const char* what, const char* path, co
 
 template <int Dim>
 Markup energies_part(const Figures& figures, const RunResult<Dim>& result) {
-    const double scale = result.scale.value;
     const auto energy = [&](const char* what, const char* path) {
-        return row({what, figures.at(path) + " J", figures.over(path, scale)});
+        return row({what, figures.at(path) + " J", figures.over(path, result.scale)});
     };
-    const Markup numbers =
-        table({"greatest of the run", "", "over " + result.scale.name},
-              {row({"kinetic energy at the start", figures.at("kinetic_initial") + " J", ""}),
-               row({"scale of energies, " + result.scale.name, figures.at("energy_scale.value") + " J", ""}),
-               energy("drift of the pseudo-energy, |H~ - H~0 - W|", "pseudo_energy_drift"),
-               energy("error of the energy, |H - H0 - W|", "energy_drift"), energy("excess H - H~", "energy_excess_max"),
-               row({"parasitic mode, |e|/m", figures.at("parasitic_max") + " m/s", ""}),
-               row({"drift of momentum, forces from outside included", figures.at("momentum_drift_max") + " kg m/s", ""}),
-               row({"drift of angular momentum, the same", figures.at("angular_momentum_drift_max") + " kg m²/s", ""}),
-               row({"the same of J~, as MEMM has it", figures.at("pseudo_angular_momentum_drift_max") + " kg m²/s", ""})});
+    const Markup numbers = table(
+        {"greatest of the run", "", "over " + result.scale.name},
+        {row({"kinetic energy at the start", figures.at("kinetic_initial") + " J", ""}),
+         row({"scale of energies, " + result.scale.name, figures.at("energy_scale.value") + " J", ""}),
+         energy("drift of the pseudo-energy, |H~ - H~0 - W|", "pseudo_energy_drift"),
+         energy("error of the energy, |H - H0 - W|", "energy_drift"), energy("excess H - H~", "energy_excess_max"),
+         row({"parasitic mode, |e|/m", figures.at("parasitic_max") + " m/s", ""}),
+         row({"drift of momentum", figures.at("momentum_drift_max") + " kg m/s", momentum_note(result)}),
+         row({"drift of angular momentum", figures.at("angular_momentum_drift_max") + " kg m²/s", moment_note(result)}),
+         row({"the same of J~, as MEMM has it", figures.at("pseudo_angular_momentum_drift_max") + " kg m²/s",
+              moment_note(result)})});
     return section("Energies", energy_pictures(result) + numbers);
 }
 
@@ -148,8 +120,10 @@ Markup settings_part(const Figures& figures, const Scene<Dim>& scene, const RunR
     std::vector<Markup> of_scene, changed, plain;
     for (const auto& [name, value] : figures.summary().at("options").items()) {
         const Markup shown_value = figures.at("options." + name);
-        const bool chosen_by_run = (name == "skin" && result.options.contact.search.skin == 0.0) ||
-                                   (name == "threads" && result.options.threads == 0);
+        const bool chosen_by_run =
+            (name == "skin" && result.options.contact.search.skin == 0.0) ||
+            (name == "interval" && result.options.interval == records_interval<Dim>(result.steps, result.options.restart)) ||
+            (name == "threads" && result.options.threads == 0);
         if (own.contains(name) || name == "time" || name == "steps" || name == "out")
             of_scene.push_back(row({name, shown_value}));
         else if (chosen_by_run || (by_default.contains(name) && by_default.at(name) == value))
@@ -209,7 +183,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
                         const std::vector<ReportFile>& files) {
     const Figures figures(Json::parse(summary_json(program, scene, result)));
     const std::vector<Warning> warnings = all_warnings(scene, result);
-    const Markup body = heading(program, figures, result) + verdict(figures, result, warnings) + warnings_part(warnings) +
+    const Markup body = heading(program, figures, result) + verdict_part(scene, result) + warnings_part(warnings) +
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
                         contact_part(figures, scene, result) + findings_part(figures, result.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);

@@ -174,8 +174,8 @@ TEST_CASE("checkpoints of another format, version or run are refused by name", "
         changed.replace(changed.find(text), text.size(), other);
         return changed;
     };
-    test::write_text(last, with("format 1", "format 7"));
-    CHECK_THROWS_WITH(run::read_checkpoint(last), Catch::Contains("format 1"));
+    test::write_text(last, with("format 2", "format 7"));
+    CHECK_THROWS_WITH(run::read_checkpoint(last), Catch::Contains("format 2"));
     test::write_text(last, with("Abut 0.", "Abut 9."));
     CHECK_THROWS_WITH(run::read_checkpoint(last), Catch::Contains("another version"));
     test::write_text(last, good);

@@ -54,7 +54,7 @@ run::Scene<2> coarse_and_fine() {
 }
 
 run::RunOptions unstable_options(const run::Scene<2>& scene) {
-    run::RunOptions options{.steps = 10'000, .allow_unstable = true};
+    run::RunOptions options{.steps = 10'000, .allow_unstable = true, .interval = 1};
     options.dt = 2.0 * run::simulate<2>(scene, {.steps = 1}).stable.dt;
     return options;
 }
@@ -96,7 +96,8 @@ TEST_CASE("a run that diverges names a cell of the body that is unstable, and sh
     CHECK(fastest(witness.lost) > 10.0 * fastest(witness.sound));
 }
 
-TEST_CASE("an observer that fails to look at a failure hides neither the error nor the failure from others", "[run][failure]") {
+TEST_CASE("an observer that fails to look at a failure hides neither the error nor the failure from others",
+          "[run][failure]") {
     struct Clumsy : run::Observer<2> {
         void fail(const run::Failure&, const abut::solid::Solid<2>&) override { throw std::bad_alloc(); }
     } clumsy;

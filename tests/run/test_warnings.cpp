@@ -24,7 +24,8 @@ std::vector<WarningKind> kinds(const std::vector<run::Warning>& warnings) {
 
 TEST_CASE("a run in which nothing went wrong has no warning", "[run][warnings]") {
     const run::Scene<2> scene = test::block_on_plane(1e-3);
-    const run::RunResult<2> result = run::simulate<2>(scene);
+    // Of two cells across, H - H~ is 0.2 K0 at a CFL number of 0.9: it goes with the square of the step.
+    const run::RunResult<2> result = run::simulate<2>(scene, {.cfl = 0.2});
     REQUIRE(result.contact.active_pairs_max > 0);
     CHECK(run::warnings_before(scene, result).empty());
     CHECK(run::warnings_during(result.steps, result).empty());

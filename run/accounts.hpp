@@ -1,0 +1,56 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "abut/base/state_bytes.hpp"
+#include "abut/base/vector.hpp"
+#include "abut/dynamics/ledger.hpp"
+
+namespace abut::run {
+
+/// What a run had to share out so far, by its records: what its errors are measured with.
+template <int Dim>
+struct Accounts {
+    /// The largest of the kinetic energy at the start, |work|, H~0 + work, what of that is not in V, as in a fall, and -V [J].
+    /// Energy that came from nowhere, H - H~, is no part of it.
+    double energy_in_play = 0.0;
+    double speed = 0.0;  ///< largest |p_i| / m_i [m/s]
+    /// max |P - P0 - I| [kg m/s], I being what gravity and contact with obstacles have given
+    double momentum_drift = 0.0;
+
+    /// `speed_now` of this entry [m/s]; `given`: I until then.
+    void record(const dynamics::LedgerEntry<Dim>& entry, double speed_now, const Vector<Dim>& given) {
+        if (is_first) {
+            first_energy = entry.pseudo_energy - entry.work - entry.restart_jumps;
+            first_momentum = entry.linear_momentum - given;
+            energy_in_play = entry.kinetic;
+            is_first = false;
+        }
+        const double to_share = first_energy + entry.work + entry.restart_jumps;
+        for (const double energy : {std::abs(entry.work), to_share, to_share - entry.potential, -entry.potential})
+            energy_in_play = std::max(energy_in_play, energy);
+        speed = std::max(speed, speed_now);
+        momentum_drift = std::max(momentum_drift, (entry.linear_momentum - given - first_momentum).norm());
+    }
+
+    void save(StateWriter& state) const {
+        for_each(*this, [&](const auto& value) { state.put(value); });
+    }
+    void restore(StateReader& state) {
+        for_each(*this, [&](auto& value) { value = state.get<double>(); });
+        is_first = false;
+    }
+
+private:
+    template <class Self, class Visit>
+    static void for_each(Self& self, const Visit& visit) {
+        visit(self.energy_in_play), visit(self.speed), visit(self.momentum_drift), visit(self.first_energy);
+        for (auto& component : self.first_momentum) visit(component);
+    }
+
+    double first_energy = 0.0;  // H~0 less work [J]
+    Vector<Dim> first_momentum = Vector<Dim>::Zero();
+    bool is_first = true;
+};
+
+}  // namespace abut::run

@@ -1,0 +1,245 @@
+// Runs of scenes as users write them, and what is said of them at their end.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/run/simulation.hpp"
+#include "abut/run/summary.hpp"
+#include "abut/run/verdict.hpp"
+#include "input/scenes.hpp"
+
+namespace {
+
+using namespace abut;
+using run::WarningKind;
+using test::WrittenScene;
+
+struct Ran {
+    run::Scene<2> scene;
+    run::RunResult<2> result;
+
+    [[nodiscard]] bool warns_of(WarningKind kind) const {
+        return std::ranges::any_of(run::all_warnings(scene, result), [kind](const auto& w) { return w.kind == kind; });
+    }
+    [[nodiscard]] std::string verdict() const { return run::verdict(scene, result).text; }
+    [[nodiscard]] bool is_good() const { return run::verdict(scene, result).good; }
+    [[nodiscard]] Vector<2> velocity(std::size_t body = 0) const { return result.end[body].velocity; }
+};
+
+Ran ran(const std::string& text, const std::vector<std::string>& set = {}) {
+    const WrittenScene written(text);
+    const input::SceneFile file(written.path(), {.set = set});
+    Ran run{file.scene<2>(), {}};
+    run.result = run::simulate<2>(run.scene, file.options());
+    return run;
+}
+
+/// A square of 1 m, E = 1 MPa, 1,000 kg/m^3; `more` goes behind.
+std::string square(const std::string& of_body, const std::string& more) {
+    return R"toml(dim = 2
+[bodies.block]
+shape = "structured_box"
+lower = [0, 0]
+upper = [1, 1]
+counts = [4, 4]
+young = 1e6
+density = 1000
+)toml" + of_body +
+           more;
+}
+
+const std::string floor_below = R"toml(
+[obstacles.floor]
+shape = "plane"
+point = [0, -1]
+normal = [0, 1]
+)toml";
+
+/// A wedge of 25 degrees in one column of triangles, its tip below, over a block that is held.
+std::string tip_over_block() {
+    return R"toml(dim = 2
+[bodies.tip]
+mesh = "tip.msh"
+place = [0.013, 0.01]
+young = 1
+density = 1
+velocity = [0, -0.02]
+[bodies.block]
+shape = "structured_box"
+lower = [-0.5, -0.5]
+upper = [0.5, 0]
+counts = [20, 10]
+young = 1
+density = 1
+[supports.ground]
+group = "block.ymin"
+[run]
+time = 20
+[output]
+interval = 10
+[contact]
+law = "pair_potential"
+)toml";
+}
+
+/// Three squares of triangles that come together with one corner each.
+const char* const three_corners = R"toml(dim = 2
+[bodies.b0]
+shape = "structured_box"
+lower = [0.0, 0.0]
+upper = [1, 1]
+counts = [6, 6]
+cells = "triangle"
+place = [0.021221648075015993, 0.021204755433160978]
+velocity = [-0.014147765383343995, -0.014136503622107319]
+young = 1
+poisson = 0.3
+density = 1
+[bodies.b1]
+shape = "structured_box"
+lower = [0.0, 0.0]
+upper = [1, 1]
+counts = [6, 6]
+cells = "triangle"
+place = [-0.0289746809236615, 0.0077761086265564945]
+turn = 2.0943951023931953
+velocity = [0.019316453949107668, -0.00518407241770433]
+young = 1
+poisson = 0.3
+density = 1
+[bodies.b2]
+shape = "structured_box"
+lower = [0.0, 0.0]
+upper = [1, 1]
+counts = [6, 6]
+cells = "triangle"
+place = [0.0077530328486454985, -0.02898086405971747]
+turn = 4.1887902047863905
+velocity = [-0.005168688565763666, 0.01932057603981165]
+young = 1
+poisson = 0.3
+density = 1
+[run]
+time = 40
+)toml";
+
+}  // namespace
+
+TEST_CASE("a block that is pushed a thousand times faster than it was is as fast as its impulse says, and not diverged",
+          "[input][verdict]") {
+    const Ran push = ran(square("kinematics = \"floating\"\nvelocity = [0.01, 0]\n", R"toml(
+[tractions.push]
+group = "block.xmin"
+pressure = 1000
+[run]
+time = 10
+[output]
+interval = 100
+)toml"));
+    const double exact = 0.01 + 1000.0 * 10.0 / (1000.0 * 1.0);  // v0 + p t / (rho L)
+    CHECK(push.velocity().x() == Approx(exact).epsilon(1e-3));
+    CHECK(push.result.complete);
+    const double kinetic = 0.5 * 1000.0 * exact * exact;
+    CHECK(push.result.scale.value == Approx(kinetic).epsilon(0.01));  // not K0 = 0.05 J
+    CHECK(push.result.scale.name == "E");
+    CHECK(push.result.forces_from_outside == std::vector<std::string>{"tractions"});
+    CHECK(run::momentum_note(push.result) == "not conserved: tractions");
+    CHECK(std::isnan(run::momentum_drift(push.result)));
+}
+
+TEST_CASE("a block that a faster wall meets leaves at twice the wall's speed less its own", "[input][verdict]") {
+    const Ran thrown = ran(R"toml(dim = 2
+[bodies.block]
+shape = "structured_box"
+lower = [0.05, 0]
+upper = [1.05, 0.1]
+counts = [50, 5]
+young = 100
+poisson = 0
+density = 1
+velocity = [0.001, 0]
+[obstacles.wall]
+shape = "plane"
+point = [0, 0.05]
+normal = [1, 0]
+velocity = [0.5, 0]
+[run]
+time = 0.5
+filter = "neutral"
+[contact]
+compression_limit = 5
+)toml");
+    // An elastic bar; 1.5 % of the speed stay in vibrations that the cells disperse.
+    CHECK(thrown.velocity().x() == Approx(2.0 * 0.5 - 0.001).epsilon(0.02));
+    const double mass = 0.1;
+    CHECK(thrown.result.scale.value >= 0.5 * mass * 0.98);
+    CHECK(thrown.result.forces_from_outside == std::vector<std::string>{"obstacles"});
+}
+
+TEST_CASE("a block at rest that gravity lets fall needs no energy_scale", "[input][verdict]") {
+    const Ran fall = ran("gravity = [0, -10]\n" + square("", floor_below + "[run]\ntime = 0.2\n"));
+    const double time = fall.result.ledger.entries().back().time;
+    CHECK(fall.velocity().y() == Approx(-10.0 * time).epsilon(1e-9));  // g t
+    CHECK(fall.result.scale.value == Approx(0.5 * 1000.0 * 4.0).epsilon(0.02));
+    CHECK(run::momentum_drift(fall.result) < 1e-9 * 1000.0 * 2.0);  // less what gravity gave
+    CHECK_THAT(fall.verdict(), Catch::Contains("Nothing touched: nearest at the end were 'block' and obstacle 'floor', "));
+    CHECK(fall.result.looks.nearest.distance == Approx(1.0 - 5.0 * time * time).epsilon(1e-6));
+    CHECK_FALSE(fall.is_good());
+}
+
+TEST_CASE("of a scene in which nothing moves figures are 0, and none is no number", "[input][verdict]") {
+    const Ran still = ran(square("", floor_below + "[run]\nsteps = 5\n"));
+    CHECK(still.result.scale.value == 0.0);
+    CHECK_THAT(still.verdict(), Catch::Contains("Nothing has moved."));
+    for (const std::string& text : {run::summary_json<2>("still", still.scene, still.result),
+                                    run::closing_table<2>("still", still.scene, still.result)})
+        CHECK_THAT(text, !Catch::Contains("nan") && !Catch::Contains("inf"));
+}
+
+TEST_CASE("a tip that leaves with an energy it never had ends as diverged", "[input][verdict]") {
+    const WrittenScene written(tip_over_block());
+    std::filesystem::copy_file(ABUT_SOURCE "/tests/input/tip_25.msh", written.path().parent_path() / "tip.msh");
+    const input::SceneFile file(written.path());
+    const auto scene = file.scene<2>();
+    try {
+        static_cast<void>(run::simulate<2>(scene, file.options()));
+        FAIL("it has 94 times the energy that was there");
+    } catch (const Diverged& error) {
+        CHECK_THAT(error.what(), Catch::Contains("H - H~") && Catch::Contains("'tip'"));
+        CHECK(error.facts().value > error.facts().allowed);
+    }
+}
+
+TEST_CASE("corners that meet and shake their cells are told of, and H~ is no praise then", "[input][verdict]") {
+    for (const char* law : {"contact.law=\"reconstruction\"", "contact.law=\"pair_potential\""}) {
+        const Ran corners = ran(three_corners, {law});
+        const double excess = corners.result.ledger.energy_excess() / corners.result.accounts.energy_in_play;
+        CAPTURE(law, excess);
+        CHECK(corners.warns_of(WarningKind::energy_excess) == (excess > 0.02));
+        if (excess <= 0.02) continue;
+        CHECK_FALSE(corners.is_good());
+        CHECK_THAT(corners.verdict(), !Catch::Contains("kept to round-off") && !Catch::Contains("none missed"));
+    }
+}
+
+TEST_CASE("blocks that bounce are kept to round-off, apart, and nothing warns", "[input][verdict]") {
+    const Ran bounce = ran(test::two_blocks(), {"run.steps=300", "bodies.left.velocity=[0.2, 0]"});
+    REQUIRE(bounce.result.contact.active_pairs_max > 0);
+    CAPTURE(bounce.verdict());
+    CHECK(bounce.result.looks.looks > 0);
+    CHECK(bounce.result.looks.deepest.ratio < run::deep_interpenetration);
+    CHECK(run::momentum_note(bounce.result).empty());
+    CHECK(run::momentum_drift(bounce.result) < 1e-13);
+}
+
+TEST_CASE("what an obstacle gives is accounted for: a block that bounces off a floor keeps the rest of its momentum",
+          "[input][verdict]") {
+    const Ran bounce = ran("gravity = [0, -10]\n" + square("velocity = [0, -1]\n", floor_below + "[run]\ntime = 0.8\n"));
+    REQUIRE(bounce.result.contact.active_pairs_max > 0);
+    CHECK(run::momentum_note(bounce.result) == ", less what came from gravity and obstacles");
+    CHECK(run::momentum_drift(bounce.result) < 1e-12 * 1000.0 * bounce.result.accounts.speed * 10.0);
+}
