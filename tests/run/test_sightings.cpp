@@ -137,7 +137,7 @@ TEST_CASE("obstacles that bodies can only meet from behind are said before the f
 
 TEST_CASE("a body that comes together with itself is said with its name and the place", "[run][sightings]") {
     auto scene = clip(0.1);
-    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::finite, solid::Kinematics::floating);
+    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::floating);
     scene.solid.kinematics = {kinematics};
     const auto result = run::simulate<2>(scene, {.interval = 10});
     const auto said = of_kind(run::warnings_after(result), WarningKind::near_itself);
