@@ -40,16 +40,18 @@ contact::RigidObstacle<3> endless(double reach) {
 /// A clip: two arms along x, 0.06 m apart, joined at the left. The arms fly towards each other.
 run::Scene<2> clip(double speed) {
     const double width = 0.1, slot = 0.06, length = 1.0;
-    const int n = 20;
+    const int n = 40;
     mesh::CellSoup<2> soup;
     soup.name = "clip";
     soup.body_names = {"clip"};
-    std::vector<double> y{0.0, 0.5 * width, width, width + slot, 1.5 * width + slot, 2.0 * width + slot};
+    std::vector<double> y;
+    for (const double lower : {0.0, width + slot})
+        for (int row = 0; row <= 4; ++row) y.push_back(lower + 0.25 * row * width);
     for (const double of_row : y)
         for (int i = 0; i <= n; ++i) soup.vertices.emplace_back(length * i / n, of_row);
     for (int row = 0; row + 1 < static_cast<int>(y.size()); ++row)
         for (int i = 0; i < n; ++i) {
-            if (row == 2 && i > 1) continue;
+            if (row == 4 && i > 3) continue;
             const int a = row * (n + 1) + i;
             const std::vector<std::int32_t> corners{a, a + 1, a + n + 2, a + n + 1};
             soup.cell_vertices.append(corners);
@@ -137,7 +139,7 @@ TEST_CASE("obstacles that bodies can only meet from behind are said before the f
 
 TEST_CASE("a body that comes together with itself is said with its name and the place", "[run][sightings]") {
     auto scene = clip(0.1);
-    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::floating);
+    const auto kinematics = GENERATE(solid::Kinematics::small, solid::Kinematics::finite, solid::Kinematics::floating);
     scene.solid.kinematics = {kinematics};
     const auto result = run::simulate<2>(scene, {.interval = 10});
     const auto said = of_kind(run::warnings_after(result), WarningKind::near_itself);
