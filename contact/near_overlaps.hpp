@@ -15,8 +15,8 @@ struct NearOverlaps {
 };
 
 /// Every pair of facets of two bodies at rest that look at each other, share an area, and have a gap between their centroids
-/// of at most `distance` [m], apart or pressed in. Depths play no part: the candidates are those of the distance, the same in
-/// every unit of length. Throws BadInput for a distance that is not finite and >= 0, and what CandidateSearch throws.
+/// of at most `distance` [m], apart or pressed in. Depths play no part: the candidates are those of the distance, the same
+/// in every unit of length. Throws BadInput for a distance that is not finite and >= 0, and what CandidateSearch throws.
 template <int Dim>
 [[nodiscard]] NearOverlaps<Dim> find_near_overlaps(const NodalSurface<Dim>& surface, double distance);
 

@@ -222,7 +222,8 @@ PYBIND11_MODULE(_contact, module) {
         "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
         "(n_bodies), skin_stiffness or inf for a rigid body; wanted(face_1, face_2): whether they may touch; "
         "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
-        "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is ever freed while they refer to "
+        "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is "
+        "ever freed while they refer to "
         "it.")
         .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
                       const py::object&, double, double, std::int64_t, double, double, std::pair<double, double>, bool,

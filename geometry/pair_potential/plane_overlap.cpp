@@ -23,8 +23,8 @@ int sign_changes(const CornerValues& value, int size) {
     return std::popcount(negative ^ of_next);
 }
 
-/// A line enters and leaves a convex polygon once. Corners that rounding puts below 0 apart from the run around the lowest one
-/// are on the line.
+/// A line enters and leaves a convex polygon once. Corners that rounding puts below 0 apart from the run around the lowest
+/// one are on the line.
 void keep_one_run(CornerValues& value, int size) {
     const int lowest = static_cast<int>(std::min_element(value.begin(), value.begin() + size) - value.begin());
     std::array<bool, PlanePolygon::capacity> is_kept{};

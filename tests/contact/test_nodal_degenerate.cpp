@@ -1,4 +1,4 @@
-// Bodies that touch at a gap of exactly 0, and faces that break down: the law ends in numbers or in an error that names faces.
+// Bodies that touch at a gap of exactly 0, and faces that break down: the law gives numbers or an error that names faces.
 #include <Eigen/Geometry>
 
 #include <catch2/catch.hpp>
@@ -134,7 +134,7 @@ TEST_CASE("of matching squares that are pressed in, W is k/2 times the area time
 
 TEST_CASE("a face that turns over within a step is an error that names it, and the next step goes on",
           "[contact][nodal][degenerate]") {
-    // The second corner of face 0 passes over its third one half way through the step: n and the frame of the pair turn over.
+    // The second corner of face 0 passes over its third one half way through the step: n turns over.
     NodalScene<3> scene;
     scene.rest = {{0, 0, 3}, {1, 1, 3}, {0, 1, 3}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     scene.faces.stiffness = {1e12, std::numeric_limits<double>::infinity()};
