@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/contact/nodal_contact.hpp"
 #include "arguments.hpp"
 #include "handle.hpp"
