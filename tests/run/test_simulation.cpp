@@ -244,6 +244,7 @@ TEST_CASE("options that do not go together are refused before anything is run", 
 TEST_CASE("restarts clear the parasitic mode of a block that bounces, at no change of H~, and the result counts them",
           "[run]") {
     run::Scene<2> scene = test::block_on_plane(0.05);
+    scene.solid.law = solid::ContactLaw::reconstruction;  // it leaves vibration enough to pay with; the potential hardly any
     scene.time = 12.0;
     const auto plain = run::simulate<2>(scene), restarted = run::simulate<2>(scene, {.restart = 10});
     const auto& last = restarted.ledger.entries().back();
