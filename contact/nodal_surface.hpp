@@ -47,7 +47,7 @@ class NodalSurface {
 public:
     /// `rest`: all nodes of the host at rest (n_nodes) [m], whether they belong to a face or not. Obstacles on a given path
     /// have nodes, too. Throws BadInput naming face, value, limit and remedy: array sizes that disagree, an index out of
-    /// range, a number of corners that is not allowed, a facet without area, a depth or stiffness that is not > 0 (a rigid
+    /// range, a number of corners that is not allowed, a corner that is not finite, a facet without area, a depth or stiffness that is not > 0 (a rigid
     /// body has depth >= 0), crossing edges; also lengths beyond 1e-75 to 1e75 m, stiffnesses beyond 1e-150 to 1e150 Pa/m.
     NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& faces);
 

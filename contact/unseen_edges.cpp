@@ -25,7 +25,9 @@ std::map<std::int32_t, Body> sharpest_edges(const SurfaceView<3>& surface) {
         const double cosine = surface.normal[face_1].dot(surface.normal[ridge.face_2]);
         const SharpestEdge<3> edge{body, std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine))),
                                    0.5 * (surface.vertices[ridge.vertex_1] + surface.vertices[ridge.vertex_2])};
-        const auto [known, is_new] = bodies.try_emplace(body, Body{edge, surface.is_rigid(face_1)});
+        const bool is_rigid = surface.is_rigid(face_1) && surface.is_rigid(ridge.face_2);
+        const auto [known, is_new] = bodies.try_emplace(body, Body{edge, is_rigid});
+        known->second.is_rigid = known->second.is_rigid && is_rigid;  // a body may be held at some of its faces
         if (!is_new && edge.half_angle_sine < known->second.sharpest.half_angle_sine) known->second.sharpest = edge;
     }
     return bodies;

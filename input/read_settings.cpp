@@ -107,15 +107,16 @@ Keys<BodySettings> keys_of(const Node& body, const std::vector<std::size_t>& par
 bool gives_material(const Node& table) { return table.find("material") || (table.find("young") && table.find("density")); }
 
 /// Values that a body of a file does not give are those of the table around it.
-BodySettings read_part(const BodySettings& around, const Node& table, const std::string& name, const std::string& path,
-                       const std::vector<MaterialSettings>& materials, Reader& reader) {
+BodySettings read_part(const BodySettings& around, const Node& table_around, const Node& table, const std::string& name,
+                       const std::string& path, const std::vector<MaterialSettings>& materials, Reader& reader) {
     BodySettings part = around;
     part.parts.clear();
     part.name = name;
     part.where = table.where;
     if (const Node* material = table.find("material")) take_material(part, *material, path, materials, reader);
     read_table(part, table, path, part_keys(), reader);
-    part.has_material = around.has_material || gives_material(table);
+    const auto gives = [&](const char* key) { return table.find(key) || table_around.find(key); };
+    part.has_material = gives("material") || (gives("young") && gives("density"));
     return part;
 }
 
@@ -131,7 +132,7 @@ void read(BodySettings& body, const Node& table, const std::string& path, const 
     std::vector<BodySettings> read_parts;  // each a copy of the body, which has none of them yet
     for (const std::size_t part : parts)
         read_parts.push_back(
-            read_part(body, table.items[part], table.names[part], path + "." + table.names[part], materials, reader));
+            read_part(body, table, table.items[part], table.names[part], path + "." + table.names[part], materials, reader));
     body.parts = std::move(read_parts);
     if (reader.faults().size() != before) body.shape = Shape::none;  // not to be made
 }
@@ -262,7 +263,7 @@ std::string first_that_turns(const Settings& settings) {
     for (const BodySettings& body : settings.bodies) {
         if (of_all.value_or(body.kinematics) != solid::Kinematics::small) return "bodies." + body.name;
         for (const BodySettings& part : body.parts)
-            if (part.kinematics != solid::Kinematics::small) return "bodies." + body.name + "." + part.name;
+            if (of_all.value_or(part.kinematics) != solid::Kinematics::small) return "bodies." + body.name + "." + part.name;
     }
     for (const ObstacleSettings& obstacle : settings.obstacles)
         if (obstacle.rotation || !obstacle.spin.isZero(0.0)) return "obstacles." + obstacle.name;

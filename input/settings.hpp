@@ -88,12 +88,12 @@ enum class ObstacleShape { none, plane, box, polygon, surface };
 
 struct ObstacleSettings : Named {
     ObstacleShape shape = ObstacleShape::none;
-    Vector<3> point = Vector<3>::Zero();   ///< [m]
-    Vector<3> normal = Vector<3>::Zero();  ///< [-]
+    Vector<3> point = Vector<3>::Zero();                          ///< [m]
+    Vector<3> normal = Vector<3>::Zero();                         ///< [-]
     double half_width = std::numeric_limits<double>::infinity();  ///< [m]
-    Vector<3> lower = Vector<3>::Zero();   ///< [m]
-    Vector<3> upper = Vector<3>::Ones();   ///< [m]
-    std::vector<Vector<3>> corners;        ///< [m]
+    Vector<3> lower = Vector<3>::Zero();                          ///< [m]
+    Vector<3> upper = Vector<3>::Ones();                          ///< [m]
+    std::vector<Vector<3>> corners;                               ///< [m]
     std::filesystem::path surface;
     double scale = 1.0;  ///< of the lengths of `surface` [m]
     bool inside = false;

@@ -128,11 +128,12 @@ void check_bodies_apart(const CellSoup<Dim>& soup) {
             const auto body = static_cast<std::size_t>(soup.cell_body[static_cast<std::size_t>(cell)]);
             const auto other = static_cast<std::size_t>(soup.cell_body[static_cast<std::size_t>(first)]);
             if (body != other)
-                throw MeshError(soup.name + ": bodies '" + soup.body_names[other] + "' and '" + soup.body_names[body] +
-                                "' share vertex " + text(soup.vertex_label, vertex) + " (cells " +
-                                text(soup.cell_label, first) + "|" + text(soup.cell_label, cell) +
-                                "). Give each body its own vertices on the interface, or make them one body, of one material: "
-                                "several materials bonded in one body are not supported.");
+                throw MeshError(
+                    soup.name + ": bodies '" + soup.body_names[other] + "' and '" + soup.body_names[body] +
+                    "' share vertex " + text(soup.vertex_label, vertex) + " (cells " + text(soup.cell_label, first) + "|" +
+                    text(soup.cell_label, cell) +
+                    "). Give each body its own vertices on the interface, or make them one body, of one material: "
+                    "several materials bonded in one body are not supported.");
         }
 }
 

@@ -188,8 +188,12 @@ void ObstacleWatch<Dim>::look(const solid::Solid<Dim>& solid, std::span<const do
         const bool has_fallen = now.height < 0.0, has_left = pair.at_start.is_over && now.height < size_[body];
         if (now.is_over || !(has_fallen || has_left)) continue;
         pair.is_done = true;
-        found.push_back(
-            {scene_.mesh.body_names[body], name_of_obstacle(scene_, static_cast<std::size_t>(pair.obstacle)), time});
+        const PastRim past{scene_.mesh.body_names[body], name_of_obstacle(scene_, static_cast<std::size_t>(pair.obstacle)),
+                           time};
+        // A run that goes on knows what was found before.
+        if (std::ranges::none_of(
+                found, [&](const PastRim& known) { return known.body == past.body && known.obstacle == past.obstacle; }))
+            found.push_back(past);
     }
 }
 

@@ -53,9 +53,9 @@ struct RunOptions {
     /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given: 50 with memm where a body is finite,
     /// whose forces feed the mode, else none
     int restart = restart_not_given;
-    int threads = 0;           ///< at most; 0: all. The results do not depend on it
-    int ranks = 0;             ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
-    int rebalance = 0;         ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are
+    int threads = 0;    ///< at most; 0: all. The results do not depend on it
+    int ranks = 0;      ///< that the programs start; 0: none but those of mpirun. The results do not depend on it
+    int rebalance = 0;  ///< steps from one look at what cells cost each rank to the next; 0: parts stay as they are
     double rebalance_above = 1.05;      ///< cells are shared out again where the costliest rank costs so many times the mean
     std::filesystem::path out;          ///< folder of ResultFiles; a simulation alone writes nothing
     int interval = 0;                   ///< steps between ledger records; 0: see records_interval

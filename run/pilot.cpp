@@ -149,6 +149,7 @@ RunOptions of_one_kind(RunOptions options, BodyKinematics kinematics) {
     options.contact.area = plain.area;
     options.contact.quadrature = plain.quadrature;
     options.contact.search.facing_cosine = plain.search.facing_cosine;
+    options.contact.search.self_contact = plain.search.self_contact;
     options.facing = by_default.facing;
     return options;
 }

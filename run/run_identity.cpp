@@ -42,6 +42,11 @@ std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     return text_of(of_run);
 }
 
+int recorded_interval(const std::string& saved) {
+    const Json there = Json::parse(saved, nullptr, false);
+    return there.is_object() ? there.value("interval", 0) : 0;
+}
+
 void require_same_run(const std::string& saved, const std::string& now, bool other_end) {
     Json there = Json::parse(saved, nullptr, false), here = Json::parse(now);
     if (!there.is_object()) throw BadInput("a checkpoint does not say what run it is of: it is damaged.");

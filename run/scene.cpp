@@ -6,6 +6,7 @@
 #include <span>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/ranks.hpp"
 
 namespace abut::run {
 namespace {
@@ -108,7 +109,9 @@ template <int Dim>
 std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     if (!scene.displacement) return std::vector<double>(solid.size(), 0.0);
     std::vector<Vector<Dim>> of_cells;
-    for (const Vector<Dim>& x : solid.mesh().cell_centroid) of_cells.push_back(scene.displacement(x));
+    dynamics::agreed(solid.ranks(), [&] {
+        for (const Vector<Dim>& x : solid.mesh().cell_centroid) of_cells.push_back(scene.displacement(x));
+    });
     return solid.displacement_of_points(of_cells);
 }
 
@@ -123,7 +126,9 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
         throw BadInput(
             "Scene::spin, Scene::added_velocity: a rigid body takes its spin from velocities of its cells at rest, and "
             "Scene::displacement moves it from there. Turn its mesh instead, and leave the displacement out.");
-    const std::vector<double> added = solid.momentum_of_points(added_velocities(scene, solid.mesh()));
+    std::vector<Vector<Dim>> added_to_cells;
+    dynamics::agreed(solid.ranks(), [&] { added_to_cells = added_velocities(scene, solid.mesh()); });
+    const std::vector<double> added = solid.momentum_of_points(added_to_cells);
     for (std::size_t i = 0; i < momentum.size(); ++i) momentum[i] += added[i];
     return momentum;
 }

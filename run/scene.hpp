@@ -94,11 +94,11 @@ struct RunResult {
     bool accounts_for_outside = false;              ///< Accounts::momentum_drift leaves out all that they have given
     /// Where J~ is conserved: times the square root of an energy it is a bound of the angular momentum [kg^(1/2) m]; else 0
     double moment_scale = 0.0;
-    std::optional<PilotReport> pilot;                      ///< under BodyKinematics::automatic
-    bool all_may_turn = false;                             ///< no body is of Kinematics::small
-    std::vector<solid::BodyInertia<Dim>> inertia;          ///< of the bodies; empty except on the first rank
-    solid::StencilReport stencils;                         ///< of the faces between cells
-    solid::StencilReport boundary_stencils;  ///< of the boundary faces that local equilibrium leaves undetermined
+    std::optional<PilotReport> pilot;              ///< under BodyKinematics::automatic
+    bool all_may_turn = false;                     ///< no body is of Kinematics::small
+    std::vector<solid::BodyInertia<Dim>> inertia;  ///< of the bodies; empty except on the first rank
+    solid::StencilReport stencils;                 ///< of the faces between cells
+    solid::StencilReport boundary_stencils;        ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
     solid::FiniteExtremes finite;                  ///< of all steps: Solid::finite_extremes

@@ -143,7 +143,8 @@ private:
         }
         if (!nearest) return;
         is_done_ = true;
-        found.push_back(*nearest);
+        // A run that goes on knows what was found before.
+        if (std::ranges::find(found, name_, &NearItself<Dim>::body) == found.end()) found.push_back(*nearest);
     }
 
     [[nodiscard]] Vector<Dim> rest_middle(std::int32_t face) const {

@@ -45,6 +45,35 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 2;
 const std::string looks_kind = "looks at surfaces";
+constexpr int looks_version = 2;
+
+template <int Dim>
+void save_sightings(StateWriter& state, const RunResult<Dim>& result) {
+    state.put(static_cast<std::uint64_t>(result.past_rims.size()));
+    for (const PastRim& past : result.past_rims) {
+        state.put(past.body);
+        state.put(past.obstacle);
+        state.put(past.time);
+    }
+    state.put(static_cast<std::uint64_t>(result.near_themselves.size()));
+    for (const NearItself<Dim>& near : result.near_themselves) {
+        state.put(near.body);
+        for (const double value : {near.time, near.gap, near.gap_at_rest}) state.put(value);
+        for (const double x : near.position) state.put(x);
+    }
+}
+
+template <int Dim>
+void restore_sightings(StateReader& state, RunResult<Dim>& result) {
+    for (auto n = state.get<std::uint64_t>(); n > 0; --n)
+        result.past_rims.push_back(PastRim{state.get_text(), state.get_text(), state.get<double>()});
+    for (auto n = state.get<std::uint64_t>(); n > 0; --n) {
+        NearItself<Dim> near{state.get_text(), state.get<double>(), state.get<double>(), state.get<double>(),
+                             Vector<Dim>::Zero()};
+        for (double& x : near.position) x = state.get<double>();
+        result.near_themselves.push_back(near);
+    }
+}
 
 /// One run, from the first step to the last.
 template <int Dim, class Integrator>
@@ -262,9 +291,10 @@ private:
             checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
         }
         on_first([&] {
-            StateWriter looks(looks_kind, 1);
+            StateWriter looks(looks_kind, looks_version);
             result_.accounts.save(looks);
             watch_.save(looks);
+            save_sightings(looks, result_);
             checkpoint.looks = std::move(looks).finish();
             StateWriter state(observers_kind, observers_version);
             observer_.save(state);
@@ -286,9 +316,10 @@ private:
         for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
             result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
         if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
-        StateReader looks(from.looks, looks_kind, 1);
+        StateReader looks(from.looks, looks_kind, looks_version);
         result_.accounts.restore(looks);
         watch_.restore(looks);
+        restore_sightings(looks, result_);
         looks.finish();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
@@ -486,6 +517,7 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
             start.emplace(scene, options, std::move(pilot), share);
         }
         RunResult<Dim>& result = start->result;
+        if (options.interval == 0 && from && options.other_end) options.interval = recorded_interval(from->run);
         if (options.interval == 0) options.interval = records_interval<Dim>(result.steps, options.restart);
         result.options = options;
         if (start->solid->contact()) result.options.law = solid::ContactLaw::reconstruction;

@@ -132,10 +132,8 @@ void Start<Dim>::set_outside() {
 
 template <int Dim>
 void Start<Dim>::set_state() {
-    dynamics::agreed(solid->ranks(), [&] {
-        q = displacement_at_start(scene, *solid);
-        momentum = momentum_at_start(scene, *solid);
-    });
+    q = displacement_at_start(scene, *solid);
+    momentum = momentum_at_start(scene, *solid);
 }
 
 /// The solid before goes first: there is never more than one of them, and references to it stay good.

@@ -188,10 +188,10 @@ void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std:
         for (const double x : apart->place) place.push_back(fmt::format("{:.6g}", x));
         throw BadInput(
             fmt::format(
-                "{} and {} are {:.4g} m apart at the start, nearest at ({}) m, and contact stores {:.4g} J, {:.4g} of "
-                "the energy that the run begins with; {:g} is allowed. {}",
-                name_of(scene, a), name_of(scene, b), apart->distance, fmt::join(place, ", "), energy, energy / scale,
-                allowed_energy,
+                "{} and {} are {:.4g} m apart at the start, nearest at ({}) m, and contact stores {:.4g} J; {:.4g} J is "
+                "allowed, {:g} of the energy that the run begins with. {}",
+                name_of(scene, a), name_of(scene, b), apart->distance, fmt::join(place, ", "), energy,
+                allowed_energy * scale, allowed_energy,
                 by_nodes ? "A face of one looks at one of the other from behind, nearer than cells are deep: make "
                            "cells smaller there, or move the bodies farther apart."
                          : "Faces that are tilted against each other count as nearer than they are: take law = "

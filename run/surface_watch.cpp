@@ -353,7 +353,7 @@ std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
     return cost;
 }
 
-/// The same.
+/// The pairs that push each other: how far apart they are. Returns what it has cost.
 template <int Dim>
 std::int64_t SurfaceWatch<Dim>::look_at_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid, double speed) {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;

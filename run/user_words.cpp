@@ -32,8 +32,6 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Kinematics::finite", "kinematics \"finite\""},
     {"Kinematics::rigid", "kinematics \"rigid\""},
     {"Kinematics::small", "kinematics \"small\""},
-    {"MeshOptions::non_planar", "non_planar"},
-    {"MeshOptions::planarity_tolerance", "planarity_tolerance"},
     {"PathMean::gauss_1", "the mean \"1\""},
     {"PathMean::system", "the mean \"system\""},
     {"Precision::double_precision", "run.precision = \"double\""},

@@ -255,8 +255,12 @@ std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Di
         counts.warnings.push_back(
             {WarningKind::hidden_mode, Severity::warning,
              fmt::format("with --interval {} and --restart {} every record comes right after a restart: H - H~ and |e|/m "
-                         "before it are not seen. Take an --interval that shares no factor with --restart, such as {}",
-                         options.interval, options.restart, options.interval + 1),
+                         "before it are not seen. {}",
+                         options.interval, options.restart,
+                         options.restart == 1 ? std::string("Take a larger --restart")
+                                              : fmt::format("Take an --interval that shares no factor with --restart, "
+                                                            "such as {}",
+                                                            options.interval + 1)),
              static_cast<double>(options.interval), static_cast<double>(options.restart)});
     return in_user_words(std::move(counts.warnings));
 }
@@ -265,12 +269,16 @@ template <int Dim>
 std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result) {
     const contact::ContactReport& contact = result.contact;
     const contact::ContactOptions& options = result.options.contact;
-    if (contact.compressed_steps == 0) return {};
-    return {{WarningKind::compression, Severity::warning,
+    Counts counts;
+    add_sightings(counts, result);
+    if (contact.compressed_steps > 0)
+        counts.warnings.push_back(
+            {WarningKind::compression, Severity::warning,
              fmt::format("by step {} faces are pressed {:.2g} of D, the depth of their cells, into each other, more than "
                          "{:g}; above {:g} the run stops. A lower speed or load makes it less",
                          step, contact.compression_max, options.compression_warning, options.compression_limit),
-             contact.compression_max, options.compression_warning}};
+             contact.compression_max, options.compression_warning});
+    return std::move(counts.warnings);
 }
 
 template <int Dim>

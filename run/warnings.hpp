@@ -89,7 +89,8 @@ struct Warning {
 template <int Dim>
 [[nodiscard]] std::vector<Warning> warnings_before(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
-/// Known while a run goes on, at a step: that faces are strongly compressed; nothing if they are not. For Observer::record.
+/// Known while a run goes on, at a step: bodies past a rim and together with themselves, in the order in which they were seen,
+/// and last that faces are strongly compressed. For Observer::record.
 template <int Dim>
 [[nodiscard]] std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result);
 

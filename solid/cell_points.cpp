@@ -13,7 +13,7 @@ namespace abut::solid {
 namespace {
 
 constexpr int most_iterations = 20;
-constexpr double settled = 1e-14;
+constexpr double settled = 1e-13;      // of the second moments of the body
 constexpr double on_a_line = 1e-8;     // least second moment over the largest
 constexpr double stays_inside = 0.25;  // of the depth of its cell behind each face
 
@@ -115,7 +115,7 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
 
     // Newton's method in S and b. Columns: the values of both sides, then the derivatives of the left ones.
     bool found = false;
-    for (int iteration = 0; iteration < most_iterations && !found; ++iteration) {
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
         const Sums sums = sum(Sums(Sums::Zero()), [&](std::int32_t c) -> Sums {
             const Vector<Dim> x = (mesh.cell_centroid[c] - points.centre) / points.size;
             const Matrix<Dim> own = own_second_moment(mesh, c) / (mesh.cell_measure[c] * points.size * points.size);
@@ -131,12 +131,14 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
             }
             return mesh.cell_measure[c] / measure * of_cell;
         });
+        const Unknowns missing = sums.col(1) - sums.col(0);
+        found = missing.norm() <= settled;
+        if (found) break;
         const Eigen::Matrix<double, n, n> slope = sums.template rightCols<n>();
-        const Unknowns step = slope.fullPivLu().solve(sums.col(1) - sums.col(0));
+        const Unknowns step = slope.fullPivLu().solve(missing);
         if (!step.allFinite()) return std::nullopt;
         for (int k = 0; k < n_pairs<Dim>; ++k) points.slope += step[k] * unit<Dim>(k);
         points.shift += step.template tail<Dim>();
-        found = step.norm() <= settled * (1.0 + points.slope.norm() + points.shift.norm());
     }
     bool stays = found;
     for (std::int32_t c = cells.first; stays && c < cells.second; ++c)

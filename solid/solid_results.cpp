@@ -339,6 +339,7 @@ double Solid<Dim>::step_margin() const {
     template const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const;                                     \
     template double Solid<Dim>::skin() const;                                                                         \
     template contact::ContactReport Solid<Dim>::contact_report() const;                                               \
+    template void Solid<Dim>::require_depth() const;                                                                  \
     template dynamics::ContactCounts Solid<Dim>::contact_counts() const;                                              \
     template std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t) const;                                       \
     template std::vector<contact::BlindCorner<Dim>> Solid<Dim>::blind_corners() const;                                \

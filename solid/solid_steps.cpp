@@ -183,9 +183,10 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
                        ": local steps are made in double precision alone. Take Precision::double_precision "
                        "(--precision double), or one step for all cells (memm).");
     if (options_.device != StepDevice::host)
-        throw BadInput(mesh_.name +
-                       ": local steps are made on the host alone. Take StepDevice::host (--device host), or one step for all "
-                       "cells (memm).");
+        throw BadInput(
+            mesh_.name +
+            ": local steps are made on the host alone. Take StepDevice::host (--device host), or one step for all "
+            "cells (memm).");
     levels_ = std::make_unique<LocalLevels<Dim>>(mesh_, ccg_, *loads_, n_levels, level);
 }
 

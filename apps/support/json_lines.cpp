@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "abut/base/error.hpp"
@@ -86,6 +87,7 @@ void JsonLines<Dim>::progress(std::int64_t step, double time) {
 template <int Dim>
 void JsonLines<Dim>::end(const run::RunResult<Dim>& result, int exit_code) {
     print_warnings(run::warnings_after(result));
+    const auto said = scene_ != nullptr ? std::optional(run::verdict(*scene_, result)) : std::nullopt;
     print_line({{"event", "end"},
                 {"complete", result.complete},
                 {"steps", result.steps},
@@ -96,8 +98,8 @@ void JsonLines<Dim>::end(const run::RunResult<Dim>& result, int exit_code) {
                 {"parasitic_max", json_number(result.ledger.parasitic())},
                 {"events", result.contact.events},
                 {"missed_contacts", result.contact.missed_contacts},
-                {"good", scene_ != nullptr && run::verdict(*scene_, result).good},
-                {"verdict", scene_ != nullptr ? Json(run::verdict(*scene_, result).text) : Json()},
+                {"good", said && said->good},
+                {"verdict", said ? Json(said->text) : Json()},
                 {"seconds", result.seconds.total},
                 {"out", result.options.out.string()},
                 {"exit_code", exit_code}});

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/support/terminal.hpp"
 
@@ -48,10 +49,17 @@ void RunLog<Dim>::begin(const run::Scene<Dim>& scene, const run::RunResult<Dim>&
 
 template <int Dim>
 void RunLog<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const run::RunResult<Dim>& result) {
-    if (warned_) return;
     const auto warnings = run::warnings_during(entry.step, result);
-    warned_ = !warnings.empty();
-    log_warnings(warnings);
+    std::vector<run::Warning> fresh;
+    std::size_t sightings = 0;
+    for (const run::Warning& warning : warnings)
+        if (warning.kind == run::WarningKind::compression) {
+            if (!std::exchange(warned_of_compression_, true)) fresh.push_back(warning);
+        } else if (++sightings > sightings_said_) {
+            fresh.push_back(warning);
+        }
+    sightings_said_ = sightings;
+    log_warnings(fresh);
 }
 
 template class RunLog<2>;

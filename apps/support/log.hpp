@@ -15,7 +15,8 @@ void log_warnings(const std::vector<run::Warning>& warnings, const std::string& 
 [[nodiscard]] std::vector<run::Warning> only(std::vector<run::Warning> warnings,
                                              std::initializer_list<run::WarningKind> kinds);
 
-/// How much there is to do, and what is not as it should be: at the start, and once when faces are strongly compressed.
+/// How much there is to do, and what is not as it should be: at the start, and once when a body is past a
+/// rim or together with itself, or faces are strongly compressed.
 template <int Dim>
 class RunLog : public run::Observer<Dim> {
 public:
@@ -24,7 +25,8 @@ public:
     [[nodiscard]] bool wants_look(std::int64_t) const override { return false; }
 
 private:
-    bool warned_ = false;
+    bool warned_of_compression_ = false;
+    std::size_t sightings_said_ = 0;
 };
 
 }  // namespace abut::apps

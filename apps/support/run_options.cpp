@@ -179,9 +179,10 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
     app.add_flag("--pieces", options.pieces,
                  "each rank writes its own cells of a frame (.pvtu names the pieces); by default rank 0 writes the whole")
         ->group("Output");
-    grouped(add_number(app, "--checkpoint", options.checkpoint,
-                       "minutes from one checkpoint to the next; at SIGINT and SIGTERM there is one, too; 0: none at all",
-                       {.unit = "min", .above = 0.0, .zero = true, .remedy = "Give minutes, or 0 for no checkpoints."}));
+    grouped(add_number(
+        app, "--checkpoint", options.checkpoint,
+        "minutes from one checkpoint to the next; at SIGINT, SIGTERM and SIGHUP there is one, too; 0: none at all",
+        {.unit = "min", .above = 0.0, .zero = true, .remedy = "Give minutes, or 0 for no checkpoints."}));
     grouped(add_count(app, "--checkpoint-steps", options.checkpoint_steps,
                       "steps from one checkpoint to the next, beside that; 0: by minutes alone", 0));
     app.add_flag("--keep-last-checkpoint", options.keep_last_checkpoint,

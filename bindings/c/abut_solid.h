@@ -42,7 +42,7 @@ ABUT_API int abut_solid_add_box(abut_solid* solid, const char* name, const doubl
 /* The bodies of a mesh file, .msh or .vtu, with its groups; all of one material and velocity. */
 ABUT_API int abut_solid_add_file(abut_solid* solid, const char* path, abut_material material, const double* velocity,
                                  abut_error* error);
-/* A group does not move at all, or not along its normals; it takes no part in contact. */
+/* A group does not move at all, or not along its normals; what touches it meets it as rigid. */
 ABUT_API int abut_solid_clamp(abut_solid* solid, const char* group, abut_error* error);
 ABUT_API int abut_solid_roller(abut_solid* solid, const char* group, abut_error* error);
 /* A group is loaded from outside; `traction` acts until the first is set, NULL: 0. */

@@ -158,7 +158,7 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
         }
     }
     py::list warnings;
-    for (const run::Warning& warning : run::without_notes(run::all_warnings(scene, *result))) 
+    for (const run::Warning& warning : run::without_notes(run::all_warnings(scene, *result)))
         warnings.append(text_of(warning.text));
     const run::Verdict said = run::verdict(scene, *result);
     return py::dict(

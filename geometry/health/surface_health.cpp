@@ -120,7 +120,8 @@ private:
     }
     void record_planarity(std::int32_t face, const std::vector<Vector<3>>& corners, double area) {
         const double deviation = planarity_deviation<3>(corners) / std::sqrt(area);
-        if (deviation > std::max(options_.planarity_tolerance, shape_tolerance(corners))) report_.non_planar_faces.push_back(face);
+        if (deviation > std::max(options_.planarity_tolerance, shape_tolerance(corners)))
+            report_.non_planar_faces.push_back(face);
         if (deviation <= report_.worst_planarity) return;
         report_.worst_planarity = deviation;
         report_.worst_planarity_face = face;

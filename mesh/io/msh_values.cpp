@@ -42,8 +42,8 @@ void MshValues::check_has_end(std::string_view section) const {
     // Some programs end no line between binary data and this.
     const std::string end = "$End" + std::string(section);
     if (text_.find(end, at_) != std::string_view::npos) return;
-    throw MeshError(name_ + ": the file is truncated: '" + end + "' is missing after " +
-                    std::to_string(text_.size()) + " bytes. Write the mesh again.");
+    throw MeshError(name_ + ": the file is truncated: '" + end + "' is missing after " + std::to_string(text_.size()) +
+                    " bytes. Write the mesh again.");
 }
 
 void MshValues::skip_section(std::string_view section) {

@@ -26,7 +26,7 @@ struct BoundaryReconstruction {
     std::vector<std::int32_t> answer_offsets{0};  ///< (n_boundary + 1)
     /// Free faces of the same cell that a correction of a face moves; itself where a direction is prescribed, which it undoes
     std::vector<BoundaryFace> answer_faces;
-    std::vector<Matrix<Dim>> answers;             ///< C: by how much
+    std::vector<Matrix<Dim>> answers;  ///< C: by how much
     /// k_f = n . A_ff n / |f|, what the answers leave of it, stabilisation left out (n_boundary); infinity: the displacement
     /// along the normal is prescribed [Pa/m]
     std::vector<double> normal_stiffness;

@@ -30,8 +30,8 @@ mesh::Mesh<Dim> block(const PatchOptions& options, std::size_t body) {
     std::array<int, Dim> counts;
     counts.fill(options.mesh == PatchMesh::matching || body == 0 ? cells_below : cells_below - 1);
     counts[Dim - 1] = layers[body];
-    return mesh::structured_box<Dim>(lower, upper, counts,
-                                     Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron, block_names[body]);
+    return mesh::structured_box<Dim>(
+        lower, upper, counts, Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron, block_names[body]);
 }
 
 /// Stress and strains of a block under the pressure p from above.

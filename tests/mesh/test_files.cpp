@@ -263,8 +263,9 @@ TEST_CASE("a truncated Gmsh file is refused wherever it is cut", "[mesh][files]"
 TEST_CASE("a Gmsh file with fewer elements than promised is refused", "[mesh][files]") {
     const test::ScratchFolder folder;
     save_text(folder / "a.msh", with_replaced(small_msh(), "22 4 2 9 1 11 12 13 14\n", ""));
-    CHECK_THAT(complaint_about_msh(folder / "a.msh"),
-               Contains("a.msh: line 19: the file is damaged: the tag of an element is missing, '$EndElements' stands there."));
+    CHECK_THAT(
+        complaint_about_msh(folder / "a.msh"),
+        Contains("a.msh: line 19: the file is damaged: the tag of an element is missing, '$EndElements' stands there."));
 }
 
 TEST_CASE("a Gmsh file whose header promises more than its blocks hold is refused, with both numbers", "[mesh][files]") {

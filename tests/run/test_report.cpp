@@ -86,7 +86,7 @@ std::string report_of(const Finished& run, const std::string& program = "mine") 
 
 TEST_CASE("a report holds the figures of its summary, each at its place", "[run][report]") {
     Finished run = finished();
-    run.result.findings = {{"bounce", "how it bounces [-]", 0.75}, {"unknown", "not known [m]", {}}};
+    run.result.findings = {{"bounce", "how it bounces [-]", 0.7531}, {"unknown", "not known [m]", {}}};
     const json summary = json::parse(run::summary_json("mine", run.scene, run.result));
     const auto root = parsed(report_of(run));
     const auto held = figures(root);
@@ -117,7 +117,7 @@ TEST_CASE("a report holds the figures of its summary, each at its place", "[run]
         CHECK(held.contains(path));
     CHECK(held.at("pseudo_energy_drift") == run.result.ledger.pseudo_energy_drift());
     const auto texts = all(root, "data");
-    CHECK(std::ranges::count(texts, "0.75") == 1);
+    CHECK(std::ranges::count(texts, "0.7531") == 1);
 }
 
 TEST_CASE("a report is a page by itself: no script, nothing from elsewhere", "[run][report]") {

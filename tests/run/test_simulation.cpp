@@ -275,7 +275,8 @@ TEST_CASE("a scene without contact has none, whatever the options of its solid s
 
 TEST_CASE("a step above the stable one is refused, whether dt or cfl asks for it", "[run]") {
     const run::Scene<2> scene = test::block_on_plane(0.01);
-    CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, {.cfl = 1.2})), Catch::Matchers::StartsWith("run.cfl (--cfl): "));
+    CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, {.cfl = 1.2})),
+                      Catch::Matchers::StartsWith("run.cfl (--cfl): "));
     CHECK_NOTHROW(static_cast<void>(run::simulate<2>(scene, {.steps = 1, .cfl = 1.2, .allow_unstable = true})));
 }
 
@@ -284,9 +285,9 @@ TEST_CASE("a rigid body that touches nothing has no longest step: a run asks for
     scene.contact = false;
     scene.solid.obstacles.clear();
     scene.solid.kinematics = {solid::Kinematics::rigid};
-    CHECK_THROWS_WITH(static_cast<void>(run::simulate<2>(scene, {.steps = 1})),
-                      Catch::Matchers::StartsWith("run.cfl (--cfl): ") &&
-                          Catch::Matchers::Contains("Give one by run.dt (--dt)"));
+    CHECK_THROWS_WITH(
+        static_cast<void>(run::simulate<2>(scene, {.steps = 1})),
+        Catch::Matchers::StartsWith("run.cfl (--cfl): ") && Catch::Matchers::Contains("Give one by run.dt (--dt)"));
     CHECK(run::simulate<2>(scene, {.steps = 1, .dt = 100.0}).steps == 1);
 }
 

@@ -1,6 +1,6 @@
 // A run that is saved and goes on elsewhere has the bits of the run that was not stopped.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <memory>
 #include <string>
 
