@@ -22,10 +22,10 @@ template <int Dim>
     return (surface.centroid[face_2] - surface.centroid[face_1]) + (u_2 - u_1);
 }
 
-/// One face is much larger than another whose |f| is that many times smaller: 1.23 in length. That is between meshes of one
+/// One face is much larger than another whose |f| is that many times smaller: 1.45 in length. That is between meshes of one
 /// kind, and near to no ratio that people choose, so that rounding has no say.
 template <int Dim>
-inline constexpr double much_larger_area = Dim == 2 ? 1.23 : 1.23 * 1.23;
+inline constexpr double much_larger_area = Dim == 2 ? 1.45 : 1.45 * 1.45;
 
 template <int Dim>
 [[nodiscard]] bool is_much_larger(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2) {

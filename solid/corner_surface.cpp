@@ -7,6 +7,7 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
 
 namespace abut::solid {
@@ -51,10 +52,11 @@ void CornerSurface<Dim>::add_face(std::span<const Vector<Dim>> corners, double d
 }
 
 template <int Dim>
-void CornerSurface<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body, double stiffness) {
+void CornerSurface<Dim>::append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, double depth, std::int32_t body,
+                                     double stiffness) {
     std::vector<Vector<Dim>> corners;
     for (const std::int32_t v : mesh.face_vertices[face]) corners.push_back(mesh.vertices[v]);
-    add_face(corners, cell_depth(mesh, face), body, stiffness);
+    add_face(corners, depth, body, stiffness);
 }
 
 /// How far a corner moves in its frame at most when no cell moves by more than 1.
@@ -83,7 +85,8 @@ void CornerSurface<Dim>::append_deformable() {
     const std::vector<BoundaryFace> in_mesh = deformable_in_mesh();
     for (const BoundaryFace b : ccg_.boundary_faces()) {
         amplification_.push_back(amplification_of(b));
-        append_face(mesh_, mesh_face(mesh_, b), mesh_.cell_body[cell_of(mesh_, b)], ccg_.normal_stiffness(b));
+        append_face(mesh_, mesh_face(mesh_, b), contact_depth(mesh_, ccg_, b), mesh_.cell_body[cell_of(mesh_, b)],
+                    ccg_.normal_stiffness(b));
         boundary_.push_back(b);
         mesh_boundary_.push_back(in_mesh[static_cast<std::size_t>(b)]);
     }
@@ -115,7 +118,7 @@ void CornerSurface<Dim>::append_rigid() {
         for (const BoundaryFace b : boundary_faces(mesh)) {
             const std::int32_t cell = cell_of(mesh, b), face = mesh_face(mesh, b);
             if (mesh.cell_body[cell] != rigid.mesh_body(i)) continue;
-            append_face(mesh, face, mesh_.n_bodies() + static_cast<std::int32_t>(i),
+            append_face(mesh, face, cell_depth(mesh, face), mesh_.n_bodies() + static_cast<std::int32_t>(i),
                         bodies_.rigid_skin(i) * mesh.face_measure[face] / mesh.cell_measure[cell]);
             rigid_of_.push_back(i);
             mesh_boundary_.push_back(b);

@@ -101,7 +101,7 @@ private:
     void gather_nodes(const Listed& listed, Points& x);
     void append_rigid();
     void append_obstacles();
-    void append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, std::int32_t body, double stiffness);
+    void append_face(const mesh::Mesh<Dim>& mesh, std::int32_t face, double depth, std::int32_t body, double stiffness);
 
     const Bodies<Dim>& bodies_;
     const mesh::Mesh<Dim>& mesh_;  // of the bodies that deform

@@ -302,7 +302,7 @@ class Runs(unittest.TestCase):
         for name in ("out", "time", "steps", "threads", "integrator", "levels"):
             with self.assertRaisesRegex(TypeError, f"memm takes no '{name}'"):
                 solid.memm(mesh, **falling(), **{name: 1})
-        with self.assertRaisesRegex(abut.BadInput, "restart: -5 steps"):
+        with self.assertRaisesRegex(abut.BadInput, "restart.*: -5 steps"):
             solid.memm(mesh, **falling(), restart=-5)
         with self.assertRaisesRegex(abut.BadInput, "^time, dt: "):  # in the words of Python
             solid.simulate(mesh, **falling())

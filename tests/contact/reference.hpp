@@ -110,8 +110,8 @@ public:
                 if (steps_1 > steps_2) pair.normal = surface.normal[f_1];
             }
             const double ratio = std::pow(surface.area[f_1] / surface.area[f_2], 1.0 / (Dim - 1));  // of sizes
-            if (ratio > 1.23) pair.normal = surface.normal[f_1];
-            if (ratio < 1.0 / 1.23) pair.normal = -surface.normal[f_2];
+            if (ratio > 1.45) pair.normal = surface.normal[f_1];
+            if (ratio < 1.0 / 1.45) pair.normal = -surface.normal[f_2];
             const double k_1 = surface.stiffness[f_1], k_2 = surface.stiffness[f_2];
             if (weighting == contact::InterfaceWeighting::stiffness)
                 pair.theta_1 = k_2 / (k_1 + k_2), pair.theta_2 = k_1 / (k_1 + k_2);

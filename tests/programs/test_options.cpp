@@ -185,7 +185,7 @@ TEST_CASE("warped hexahedra of a file are refused, or cut and counted where aske
     const auto refused = run_program("slipping_cylinders", arguments, "warped_refused");
     CHECK(refused.exit_code == 1);
     CHECK(refused.error.find("is not planar") != std::string::npos);
-    CHECK(refused.error.find("non-planar faces \"split\"") != std::string::npos);
+    CHECK(refused.error.find("non_planar = \"split\"") != std::string::npos);
     const auto summary = read_summary(run_well("slipping_cylinders", arguments + " --non-planar split", "warped_split"));
     CHECK(summary["mesh"]["cut_cells"] == 16);
     CHECK(summary["cells"].get<int>() >= 5 * 16);

@@ -330,7 +330,7 @@ TEST_CASE("what a run on ranks cannot do is refused by name on all of them", "[r
     SECTION("pilot runs") { options.kinematics = run::BodyKinematics::automatic, name = "a pilot run"; }
     SECTION("after_step") {
         scene.after_step = [](const solid::Solid<2>&, double) {};
-        name = "Scene::after_step";
+        name = "after_step";
     }
     const SharedMesh<2> mesh(all, scene.mesh, test::even(all, scene.mesh));
     run::Observer<2> nobody;

@@ -93,7 +93,8 @@ def a_disc_on_a_coarse_block_is_not_pushed_sideways(programs):
         for law in ("automatic", "pair_potential", "reconstruction"):
             run = Run(programs, "coarse_below_2d.toml", "--law", law, "--set", f"bodies.block.counts={counts}").require_end()
             x, y = run.body("disc")["velocity_final"]
-            require(abs(x) <= 0.01 * 0.02, f"{law}, {counts}: the disc leaves sideways with {abs(x) / 0.02:.2%} of its speed")
+            # A flat block pushes nothing sideways; a face as wide as the disc, which tilts as one, by 2 to 3 % (docs/validation.md).
+            require(abs(x) <= 0.03 * 0.02, f"{law}, {counts}: the disc leaves sideways with {abs(x) / 0.02:.2%} of its speed")
             require(0.0 < y <= 0.02, f"{law}, {counts}: the disc rebounds with {y:.4g} of 0.02")
 
 
