@@ -304,7 +304,7 @@ class Runs(unittest.TestCase):
                 solid.memm(mesh, **falling(), **{name: 1})
         with self.assertRaisesRegex(abut.BadInput, "restart.*: -5 steps"):
             solid.memm(mesh, **falling(), restart=-5)
-        with self.assertRaisesRegex(abut.BadInput, "^time, dt: "):  # in the words of Python
+        with self.assertRaisesRegex(abut.BadInput, r"^run\.time \(time\), run\.dt \(dt\): "):  # keys, and the words of Python
             solid.simulate(mesh, **falling())
         with self.assertRaisesRegex(ValueError, "n is -1"):
             solid.memm(mesh, **falling()).step(-1)
