@@ -122,7 +122,7 @@ private:
 
     /// docs/method.md: that of a much larger face, else the mean.
     [[nodiscard]] Vector<3> pair_normal(std::int32_t face_1, std::int32_t face_2) const {
-        constexpr double much_larger = 1.23 * 1.23;
+        constexpr double much_larger = 1.45 * 1.45;
         const double area_1 = surface_.area[at(face_1)], area_2 = surface_.area[at(face_2)];
         if (area_1 > much_larger * area_2) return surface_.normal[at(face_1)];
         if (area_2 > much_larger * area_1) return -surface_.normal[at(face_2)];

@@ -79,7 +79,7 @@ void add_time_options(CLI::App& app, run::RunOptions& options, const std::string
         ->group("Time");
     add_count(
         app, "--restart", options.restart,
-        "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none. By default 50 "
+        "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none; by default 50 "
         "where a body is finite, else 0",
         0)
         ->default_str("")
@@ -187,6 +187,7 @@ void add_output_options(CLI::App& app, run::RunOptions& options) {
                       "steps from one checkpoint to the next, beside that; 0: by minutes alone", 0));
     app.add_flag("--keep-last-checkpoint", options.keep_last_checkpoint,
                  "of a run that comes to its end, too: abut restart DIR --until TIME goes on from there")
+        ->default_str("off")
         ->group("Output");
     app.add_flag("--resume", options.resume,
                  "goes on from the last checkpoint in the folder of --out; by default a run begins at its start")

@@ -87,8 +87,7 @@ TEMPLATE_TEST_CASE_SIG("swapping the faces of a pair negates its normal and chan
 }
 
 TEMPLATE_TEST_CASE_SIG(
-    "of faces of one size, far from sharp edges, the pair normal halves the angle between them; an obstacle's face gives "
-    "its own",
+    "of faces of one size, far from sharp edges, the pair normal is halfway; an obstacle's face gives its own",
     "[contact][pairs]", ((int Dim), Dim), 2, 3) {
     const double angle = 0.4;
     const Vector<Dim> tilted = -(std::cos(angle) * up<Dim>() + std::sin(angle) * axis<Dim>(0));

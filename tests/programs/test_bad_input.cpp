@@ -79,7 +79,6 @@ const std::vector<BadInput> bad_options = {
     {"--gap -4.02", {"'left'", "'right'", "overlap", "Raise --gap"}},
     {"--time 1e300", {"--time", "1e+300 s", "steps", "1 to 1e+15 are allowed", "--dt"}},
     {"--dt 1e-300", {"--time", "steps of 1e-300 s", "1 to 1e+15 are allowed", "--dt"}},
-    {"--speed 1e-200 --time 1", {"kinetic energy", "0 J", "Raise the speed"}},
     {"--steps 1e3", {"--steps", "1e3", "whole number"}},
     {"--non-planar split", {"--non-planar", "--mesh"}},
     {"--mesh left.msh", {"--mesh", "2"}},
