@@ -46,6 +46,7 @@ const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 2;
 const std::string looks_kind = "looks at surfaces";
 constexpr int looks_version = 2;
+constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
 
 template <int Dim>
 void save_sightings(StateWriter& state, const RunResult<Dim>& result) {
@@ -399,6 +400,9 @@ private:
             result_.contact = solid_.contact_report();
             result_.inadmissible_overlaps_max =
                 std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+        }
+        if (is_sighting_due(integrator_->steps())) {
+            const Stopwatch watch(result_.seconds.looks);
             obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.past_rims);
             self_watch_.look(solid_, integrator_->q(), integrator_->time(), integrator_->steps(), result_.near_themselves);
         }
@@ -410,6 +414,13 @@ private:
         check_alive(entries.back(), scale, excess_before);
         const dynamics::LedgerEntry<Dim>& last = entries.back();
         if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale) keep_sound();
+    }
+
+    /// At the end, and at evenly spaced records before it: a look costs about as much as a tenth of a step.
+    [[nodiscard]] bool is_sighting_due(std::int64_t step) const {
+        const std::int64_t interval = options_.interval;
+        const std::int64_t every = interval * std::max<std::int64_t>(1, result_.steps / (interval * sightings_per_run));
+        return step % every == 0 || step == result_.steps;
     }
 
     void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
