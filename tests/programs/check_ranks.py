@@ -102,7 +102,7 @@ def check_pieces(program, scene, folder, expected):
 
 def check_choices(program, scene, folder):
     """Bodies that turn in a frame, that bend, and that are rigid, under the other law of contact; the filter; neutral restarts."""
-    for choice in (("--kinematics", "floating", "--law", "pair_potential"), ("--kinematics", "finite"), ("--kinematics", "rigid"), ("--filter", "neutral"), ("--restart", "5")):
+    for choice in (("--kinematics", "floating", "--law", "pair_potential"), ("--kinematics", "finite", "--law", "pair_potential"), ("--kinematics", "rigid", "--law", "pair_potential"), ("--filter", "neutral"), ("--restart", "5")):
         alone, shared = folder / choice[1], folder / (choice[1] + "_on_3")
         subprocess.run(command(program, scene, alone, *choice), check=True)
         subprocess.run(command(program, scene, shared, *choice, "--ranks", "3"), check=True)
