@@ -121,6 +121,7 @@ public:
         const contact::ContactReport contact = solid_.contact_report();
         show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
             result_.end = solid::body_motions<Dim>(run, solid);
+            evaluate_whole(run, solid);
             watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
         });
         result_.looks = watch_.looks();
@@ -189,6 +190,12 @@ private:
         });
     }
 
+    /// Faces stand where contact has moved them in the last evaluation. On one rank that was at the record before; the whole that
+    /// rank 0 sees was only restored.
+    void evaluate_whole(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+        if (solid_.ranks()) static_cast<void>(solid.potential(run.q));
+    }
+
     /// What rank 0 wants now, in one message; progress is told of with it.
     [[nodiscard]] Wanted ask(bool records) {
         return Wanted::of(first_says(solid_.ranks(), [&] {
@@ -208,6 +215,7 @@ private:
         if (wanted.measure)
             show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
                 const Stopwatch watch(result_.seconds.looks);
+                evaluate_whole(run, solid);
                 watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
             });
         if (wanted.look)
