@@ -55,6 +55,14 @@ double side_of(std::span<const std::vector<Vector<Dim>>> faces, const Vector<Dim
     return steepest < 0.0 ? -least : least;
 }
 
+template <int Dim>
+Placement<Dim> placement_at(const RigidObstacle<Dim>& obstacle, double time) {
+    if (obstacle.placement) return obstacle.placement(time);
+    return {.offset = obstacle.path ? obstacle.path(time) : Vector<Dim>(Vector<Dim>::Zero())};
+}
+
+template Placement<2> placement_at<2>(const RigidObstacle<2>&, double);
+template Placement<3> placement_at<3>(const RigidObstacle<3>&, double);
 template double side_of<2>(std::span<const std::vector<Vector<2>>>, const Vector<2>&);
 template double side_of<3>(std::span<const std::vector<Vector<3>>>, const Vector<3>&);
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_distance.hpp"
@@ -28,11 +29,7 @@ using Points = std::vector<Vector<Dim>>;
 
 template <int Dim>
 std::vector<Points<Dim>> faces_at_start(const contact::RigidObstacle<Dim>& obstacle) {
-    contact::Placement<Dim> placement;
-    if (obstacle.placement)
-        placement = obstacle.placement(0.0);
-    else if (obstacle.path)
-        placement.offset = obstacle.path(0.0);
+    const contact::Placement<Dim> placement = contact::placement_at(obstacle, 0.0);
     std::vector<Points<Dim>> faces = obstacle.faces;
     for (Points<Dim>& face : faces)
         for (Vector<Dim>& corner : face) corner = placement(corner);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "abut/run/body_names.hpp"
 #include "abut/run/files.hpp"
 
 namespace abut::run {
@@ -15,8 +16,7 @@ ForceFile<Dim>::ForceFile(std::filesystem::path path) : file_(std::move(path)) {
 template <int Dim>
 void ForceFile<Dim>::look_up(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     names_ = scene.mesh.body_names;
-    for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i)
-        names_.push_back(i < scene.outputs.obstacles.size() ? scene.outputs.obstacles[i] : fmt::format("obstacle_{}", i));
+    for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i) names_.push_back(name_of_obstacle(scene, i));
     for (std::string& name : names_) name = in_csv(name);
     interval_ = scene.outputs.interval > 0 ? scene.outputs.interval : result.options.interval;
     n_steps_ = result.steps;

@@ -9,15 +9,10 @@
 #include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/run/body_names.hpp"
 
 namespace abut::run {
 namespace {
-
-template <int Dim>
-contact::Placement<Dim> placement(const contact::RigidObstacle<Dim>& obstacle, double time) {
-    if (obstacle.placement) return obstacle.placement(time);
-    return {.offset = obstacle.path ? obstacle.path(time) : Vector<Dim>(Vector<Dim>::Zero())};
-}
 
 template <int Dim>
 bool is_flat(const contact::RigidObstacle<Dim>& obstacle) {
@@ -87,19 +82,13 @@ bool is_behind_face(const std::vector<Vector<Dim>>& corners, const std::vector<V
 }  // namespace
 
 template <int Dim>
-std::string name_of_obstacle(const Scene<Dim>& scene, std::size_t obstacle) {
-    return obstacle < scene.outputs.obstacles.size() ? scene.outputs.obstacles[obstacle]
-                                                     : fmt::format("obstacle_{}", obstacle);
-}
-
-template <int Dim>
 std::vector<Behind> behind_at_start(const Scene<Dim>& scene) {
     std::vector<Behind> behind;
     if (!scene.contact || scene.solid.obstacles.empty()) return behind;
     const auto points = outermost_points(scene);
     for (std::size_t i = 0; i < scene.solid.obstacles.size(); ++i) {
         std::vector<std::vector<Vector<Dim>>> faces = scene.solid.obstacles[i].faces;
-        const contact::Placement<Dim> placed = placement(scene.solid.obstacles[i], 0.0);
+        const contact::Placement<Dim> placed = contact::placement_at(scene.solid.obstacles[i], 0.0);
         for (auto& face : faces)
             for (Vector<Dim>& corner : face) corner = placed(corner);
         std::size_t n = 0, n_behind = 0;  // of bodies that it is there for
@@ -149,7 +138,7 @@ ObstacleWatch<Dim>::ObstacleWatch(const Scene<Dim>& scene) : scene_(scene) {
 template <int Dim>
 auto ObstacleWatch<Dim>::place(const Watched& pair, const Vector<Dim>& centre, double time) const -> Place {
     const contact::RigidObstacle<Dim>& obstacle = scene_.solid.obstacles[static_cast<std::size_t>(pair.obstacle)];
-    const contact::Placement<Dim> placed = placement(obstacle, time);
+    const contact::Placement<Dim> placed = contact::placement_at(obstacle, time);
     const Vector<Dim> at_rest = placed.turn.transpose() * (centre - placed.offset);
     const std::vector<Vector<Dim>>& corners = obstacle.faces[0];
     const Vector<Dim> normal = geometry::face_normal<Dim>(corners);
@@ -197,9 +186,8 @@ void ObstacleWatch<Dim>::look(const solid::Solid<Dim>& solid, std::span<const do
     }
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                  \
-    template std::string name_of_obstacle<Dim>(const Scene<Dim>& scene, std::size_t obstacle); \
-    template std::vector<Behind> behind_at_start<Dim>(const Scene<Dim>& scene);                \
+#define ABUT_INSTANTIATE(Dim)                                                   \
+    template std::vector<Behind> behind_at_start<Dim>(const Scene<Dim>& scene); \
     template class ObstacleWatch<Dim>;
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

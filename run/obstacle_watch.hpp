@@ -9,10 +9,6 @@
 
 namespace abut::run {
 
-/// What messages call an obstacle.
-template <int Dim>
-[[nodiscard]] std::string name_of_obstacle(const Scene<Dim>& scene, std::size_t obstacle);
-
 /// Obstacles of a scene that do nothing for a body, since it begins behind them.
 struct Behind {
     std::int32_t body;  ///< -1: all of them

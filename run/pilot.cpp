@@ -12,6 +12,7 @@
 #include "abut/run/observer.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
+#include "abut/solid/law_options.hpp"
 
 namespace abut::run {
 namespace {
@@ -143,14 +144,12 @@ RunOptions of_one_kind(RunOptions options, BodyKinematics kinematics) {
     options.filter = false;
     options.restart = 0;
     options.law = solid::ContactLaw::automatic;
-    const contact::ContactOptions& plain = by_default.contact;  // what one law alone reads
-    options.contact.overlap = plain.overlap;
-    options.contact.weighting = plain.weighting;
-    options.contact.area = plain.area;
-    options.contact.quadrature = plain.quadrature;
-    options.contact.search.facing_cosine = plain.search.facing_cosine;
-    options.contact.search.self_contact = plain.search.self_contact;
-    options.facing = by_default.facing;
+    solid::SolidOptions<2> choices;  // of contact, whatever the dimension
+    choices.contact = options.contact;
+    choices.facing = options.facing;
+    solid::take_back_choices_of_one_law(choices);
+    options.contact = *choices.contact;
+    options.facing = choices.facing;
     return options;
 }
 

@@ -69,7 +69,8 @@ struct RunSeconds {
 /// A finished run, or one that is under way.
 template <int Dim>
 struct RunResult {
-    RunOptions options;  ///< with the defaults filled in
+    RunOptions options;  ///< with the defaults filled in, the law of contact that acts among them
+    solid::ContactLaw asked_law = solid::ContactLaw::automatic;  ///< of contact
     dynamics::Ledger<Dim> ledger;
     Accounts<Dim> accounts;
     dynamics::StableStep stable;
@@ -101,11 +102,10 @@ struct RunResult {
     solid::StencilReport boundary_stencils;        ///< of the boundary faces that local equilibrium leaves undetermined
     std::vector<solid::BodyMotion<Dim>> start;
     std::vector<solid::BodyMotion<Dim>> end;
-    solid::FiniteExtremes finite;                  ///< of all steps: Solid::finite_extremes
-    std::vector<double> local_rotations;           ///< at the end: Solid::local_rotations [rad]
-    std::vector<PastRim> past_rims;                ///< at records
-    std::vector<NearItself<Dim>> near_themselves;  ///< at records, where contact does not look at it
-    solid::SolidTimes times;                       ///< of the steps
+    solid::FiniteExtremes finite;         ///< of all steps: Solid::finite_extremes
+    std::vector<double> local_rotations;  ///< at the end: Solid::local_rotations [rad]
+    Sightings<Dim> sightings;             ///< at records; on rank 0 all of them
+    solid::SolidTimes times;              ///< of the steps
     RunSeconds seconds;
     Rebalancing rebalancing;        ///< on several ranks
     std::vector<Finding> findings;  ///< of the scene

@@ -48,7 +48,7 @@ public:
     }
 
     void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
-              std::vector<NearItself<Dim>>& found) {
+              Sightings<Dim>& found) {
         if (is_done_ || (has_looked_ && step < last_look_ + least_steps)) return;
         deform(solid, q);
         if (has_looked_ && 2.0 * farthest_since_look() < least_gap_) return;
@@ -56,9 +56,11 @@ public:
         last_look_ = step;
         deformed_at_look_ = deformed_;
         try {
-            look_at_surface(solid, q, time, found);
-        } catch (const Error&) {  // a face without a plane is lost, which the run says itself; too many pairs: out of bounds
+            look_at_surface(solid, q, time, found.near_themselves);
+        } catch (const Error& error) {  // a face without a plane, or more pairs than a search may find
             is_done_ = true;
+            if (std::ranges::find(found.looks_ended, name_, &LookEnded::body) == found.looks_ended.end())
+                found.looks_ended.push_back({name_, time, error.what()});
         }
     }
 
@@ -139,7 +141,9 @@ private:
                 continue;
             }
             if (nearest && nearest->gap <= pair.gap) continue;
-            nearest = {name_, time, pair.gap, at_rest, 0.5 * (from_1 + from_2)};
+            const Vector<Dim>& normal = surface_.normal[static_cast<std::size_t>(pair.face_1)];
+            const double gap_at_rest = std::abs((rest_middle(pair.face_2) - rest_middle(pair.face_1)).dot(normal));
+            nearest = {name_, time, pair.gap, gap_at_rest, 0.5 * (from_1 + from_2)};
         }
         if (!nearest) return;
         is_done_ = true;
@@ -172,11 +176,13 @@ private:
 template <int Dim>
 SelfWatch<Dim>::SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid) {
     const auto& contact = solid.options().contact;
-    if (!contact || contact->search.self_contact || solid.ranks()) return;
+    if (!contact || contact->search.self_contact) return;
     const auto& kinematics = solid.options().kinematics;
-    for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body)
-        if (kinematics.empty() || kinematics[static_cast<std::size_t>(body)] != solid::Kinematics::rigid)
-            bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));
+    for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body) {
+        if (!kinematics.empty() && kinematics[static_cast<std::size_t>(body)] == solid::Kinematics::rigid) continue;
+        is_on_ = true;
+        if (!solid.ranks()) bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));
+    }
 }
 
 template <int Dim>
@@ -184,7 +190,7 @@ SelfWatch<Dim>::~SelfWatch() = default;
 
 template <int Dim>
 void SelfWatch<Dim>::look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
-                          std::vector<NearItself<Dim>>& found) {
+                          Sightings<Dim>& found) {
     for (const auto& body : bodies_) body->look(solid, q, time, step, found);
 }
 

@@ -18,18 +18,22 @@ namespace abut::run {
 template <int Dim>
 class SelfWatch {
 public:
-    /// Watches the bodies of the scene that deform; none where there are ranks, or where contact acts within bodies.
+    /// Watches the bodies of the scene that deform; none where contact acts within bodies. `solid`: the whole of them, or that of
+    /// a rank that only says with the others whether there is anything to watch.
     SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
     ~SelfWatch();
     SelfWatch(const SelfWatch&) = delete;
     SelfWatch& operator=(const SelfWatch&) = delete;
 
-    /// `solid` has been evaluated in q last.
+    /// Whether any body is watched, on any rank.
+    [[nodiscard]] bool is_on() const { return is_on_; }
+    /// `solid`, which has the whole of all bodies, has been evaluated in q last.
     void look(const solid::Solid<Dim>& solid, std::span<const double> q, double time, std::int64_t step,
-              std::vector<NearItself<Dim>>& found);
+              Sightings<Dim>& found);
 
 private:
     class Body;
+    bool is_on_ = false;
     std::vector<std::unique_ptr<Body>> bodies_;
 };
 

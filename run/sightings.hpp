@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
+#include <vector>
 
+#include "abut/base/state_bytes.hpp"
 #include "abut/base/vector.hpp"
 
 namespace abut::run {
@@ -17,8 +19,26 @@ struct NearItself {
     std::string body;      ///< its name
     double time;           ///< of the first record at which it was seen [s]
     double gap;            ///< between the two faces there that are nearest, or deepest in each other [m]
-    double gap_at_rest;    ///< between the same two [m]
+    double gap_at_rest;    ///< between the same two, along the normal of one of them [m]
     Vector<Dim> position;  ///< between them, at that time [m]
+};
+
+/// A body that is not looked at any more for parts of it that come together, since a look could not be made.
+struct LookEnded {
+    std::string body;    ///< its name
+    double time;         ///< of the record [s]
+    std::string reason;  ///< the message of the error
+};
+
+/// What was seen of bodies at the records of a run, each body once.
+template <int Dim>
+struct Sightings {
+    std::vector<PastRim> past_rims;
+    std::vector<NearItself<Dim>> near_themselves;  ///< where contact does not look at it
+    std::vector<LookEnded> looks_ended;
+
+    void save(StateWriter& state) const;
+    void restore(StateReader& state);
 };
 
 }  // namespace abut::run

@@ -45,36 +45,8 @@ constexpr double sound_share = 0.5;
 const std::string observers_kind = "observers of a run";
 constexpr int observers_version = 2;
 const std::string looks_kind = "looks at surfaces";
-constexpr int looks_version = 2;
+constexpr int looks_version = 3;
 constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
-
-template <int Dim>
-void save_sightings(StateWriter& state, const RunResult<Dim>& result) {
-    state.put(static_cast<std::uint64_t>(result.past_rims.size()));
-    for (const PastRim& past : result.past_rims) {
-        state.put(past.body);
-        state.put(past.obstacle);
-        state.put(past.time);
-    }
-    state.put(static_cast<std::uint64_t>(result.near_themselves.size()));
-    for (const NearItself<Dim>& near : result.near_themselves) {
-        state.put(near.body);
-        for (const double value : {near.time, near.gap, near.gap_at_rest}) state.put(value);
-        for (const double x : near.position) state.put(x);
-    }
-}
-
-template <int Dim>
-void restore_sightings(StateReader& state, RunResult<Dim>& result) {
-    for (auto n = state.get<std::uint64_t>(); n > 0; --n)
-        result.past_rims.push_back(PastRim{state.get_text(), state.get_text(), state.get<double>()});
-    for (auto n = state.get<std::uint64_t>(); n > 0; --n) {
-        NearItself<Dim> near{state.get_text(), state.get<double>(), state.get<double>(), state.get<double>(),
-                             Vector<Dim>::Zero()};
-        for (double& x : near.position) x = state.get<double>();
-        result.near_themselves.push_back(near);
-    }
-}
 
 /// One run, from the first step to the last.
 template <int Dim, class Integrator>
@@ -90,7 +62,7 @@ public:
           result_(start.result),
           filter_(solid_),
           obstacle_watch_(scene_),
-          self_watch_(scene_, solid_),
+          self_watch_(scene_, seen()),
           make_(std::move(make)),
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
@@ -303,7 +275,7 @@ private:
             StateWriter looks(looks_kind, looks_version);
             result_.accounts.save(looks);
             watch_.save(looks);
-            save_sightings(looks, result_);
+            result_.sightings.save(looks);
             checkpoint.looks = std::move(looks).finish();
             StateWriter state(observers_kind, observers_version);
             observer_.save(state);
@@ -328,7 +300,7 @@ private:
         StateReader looks(from.looks, looks_kind, looks_version);
         result_.accounts.restore(looks);
         watch_.restore(looks);
-        restore_sightings(looks, result_);
+        result_.sightings.restore(looks);
         looks.finish();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
         result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
@@ -411,8 +383,12 @@ private:
         }
         if (is_sighting_due(integrator_->steps())) {
             const Stopwatch watch(result_.seconds.looks);
-            obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.past_rims);
-            self_watch_.look(solid_, integrator_->q(), integrator_->time(), integrator_->steps(), result_.near_themselves);
+            obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
+            if (self_watch_.is_on())
+                show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+                    evaluate_whole(run, solid);
+                    self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
+                });
         }
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
@@ -539,6 +515,7 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         if (options.interval == 0 && from && options.other_end) options.interval = recorded_interval(from->run);
         if (options.interval == 0) options.interval = records_interval<Dim>(result.steps, options.restart);
         result.options = options;
+        result.asked_law = options.law;
         if (start->solid->contact()) result.options.law = solid::ContactLaw::reconstruction;
         if (start->solid->nodal_contact()) result.options.law = solid::ContactLaw::pair_potential;
         result.threads = static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism));

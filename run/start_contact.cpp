@@ -13,9 +13,11 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_distance.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/run/body_names.hpp"
 
 namespace abut::run {
 namespace {
@@ -57,11 +59,7 @@ PlacedSurface<Dim> placed_body(const Scene<Dim>& scene, std::int32_t body) {
 
 template <int Dim>
 PlacedSurface<Dim> placed_obstacle(const contact::RigidObstacle<Dim>& obstacle) {
-    contact::Placement<Dim> placement;
-    if (obstacle.placement)
-        placement = obstacle.placement(0.0);
-    else if (obstacle.path)
-        placement.offset = obstacle.path(0.0);
+    const contact::Placement<Dim> placement = contact::placement_at(obstacle, 0.0);
     PlacedSurface<Dim> placed;
     for (std::vector<Vector<Dim>> corners : obstacle.faces) {
         for (Vector<Dim>& corner : corners) corner = placement(corner);
@@ -76,14 +74,6 @@ template <int Dim>
 PlacedSurface<Dim> placed(const Scene<Dim>& scene, std::int32_t body) {
     const std::int32_t n = scene.mesh.n_bodies();
     return body < n ? placed_body(scene, body) : placed_obstacle(scene.solid.obstacles[static_cast<std::size_t>(body - n)]);
-}
-
-template <int Dim>
-std::string name_of(const Scene<Dim>& scene, std::int32_t body) {
-    if (body < scene.mesh.n_bodies()) return "'" + scene.mesh.body_names[static_cast<std::size_t>(body)] + "'";
-    const auto obstacle = static_cast<std::size_t>(body - scene.mesh.n_bodies());
-    const auto& names = scene.outputs.obstacles;
-    return obstacle < names.size() ? "'" + names[obstacle] + "'" : fmt::format("obstacle {}", obstacle);
 }
 
 /// The bodies that push each other in the state that was evaluated last, the lower number first.
@@ -190,7 +180,7 @@ void check_start_contact(const Scene<Dim>& scene, solid::Solid<Dim>& solid, std:
             fmt::format(
                 "{} and {} are {:.4g} m apart at the start, nearest at ({}) m, and contact stores {:.4g} J; {:.4g} J is "
                 "allowed, {:g} of the energy that the run begins with. {}",
-                name_of(scene, a), name_of(scene, b), apart->distance, fmt::join(place, ", "), energy,
+                quoted_name(scene, a), quoted_name(scene, b), apart->distance, fmt::join(place, ", "), energy,
                 allowed_energy * scale, allowed_energy,
                 by_nodes ? "A face of one looks at one of the other from behind, nearer than cells are deep: make "
                            "cells smaller there, or move the bodies farther apart."

@@ -9,8 +9,10 @@
 #include <numeric>
 #include <utility>
 
+#include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_distance.hpp"
+#include "abut/run/body_names.hpp"
 #include "abut/run/cell_velocity.hpp"
 
 namespace abut::run {
@@ -221,14 +223,6 @@ bool SurfaceWatch<Dim>::may_meet(const Body& body_1, const Body& body_2) const {
 }
 
 template <int Dim>
-std::string SurfaceWatch<Dim>::name(std::int32_t body) const {
-    if (!is_obstacle(body)) return fmt::format("'{}'", scene_.mesh.body_names[static_cast<std::size_t>(body)]);
-    const auto obstacle = static_cast<std::size_t>(body - scene_.mesh.n_bodies());
-    return obstacle < scene_.outputs.obstacles.size() ? fmt::format("obstacle '{}'", scene_.outputs.obstacles[obstacle])
-                                                      : fmt::format("obstacle {}", obstacle);
-}
-
-template <int Dim>
 auto SurfaceWatch<Dim>::points(std::span<const std::int32_t> corners) const -> Points {
     Points points;
     for (const std::int32_t corner : corners) points.push_back(position_[static_cast<std::size_t>(corner)]);
@@ -259,8 +253,7 @@ void SurfaceWatch<Dim>::move(const dynamics::RunView<Dim>& run, const solid::Sol
     for (std::size_t i = 0; i < at_rest_.size(); ++i) {
         const contact::RigidObstacle<Dim>& obstacle = scene_.solid.obstacles[static_cast<std::size_t>(obstacle_[i])];
         Vector<Dim>& x = position_[n_of_mesh + i];
-        x = obstacle.placement ? obstacle.placement(run.time)(at_rest_[i]) : at_rest_[i];
-        if (!obstacle.placement && obstacle.path) x += obstacle.path(run.time);
+        x = contact::placement_at(obstacle, run.time)(at_rest_[i]);
     }
 }
 
@@ -313,7 +306,7 @@ double SurfaceWatch<Dim>::depth(const Part& part_1, const Part& part_2, double a
     return depth > tolerance ? depth : 0.0;
 }
 
-/// Gives what it has cost.
+/// How deep cells are inside each other. Returns what it has cost.
 template <int Dim>
 std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
     std::int64_t cost = 0;
@@ -347,7 +340,8 @@ std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
                 const double deep = depth(part_1, part_2, looks_.deepest.ratio * smaller), ratio = deep / smaller;
                 cost += cost_of_pair;
                 if (ratio > looks_.deepest.ratio)
-                    looks_.deepest = {name(bodies_[a].number), name(bodies_[b].number), deep, ratio, time};
+                    looks_.deepest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), deep,
+                                      ratio, time};
             }
         }
     return cost;
@@ -373,9 +367,9 @@ std::int64_t SurfaceWatch<Dim>::look_at_pairs(const dynamics::RunView<Dim>& run,
         const Points of_1 = of_face(face_1), of_2 = of_face(face_2);
         const double apart = gap_between<Dim>(of_1, of_2);
         if (apart / size <= looks_.remote.ratio) continue;
-        looks_.remote = {name(mesh.cell_body[static_cast<std::size_t>(cell_of(mesh, pair.face_1))]),
-                         name(mesh.cell_body[static_cast<std::size_t>(cell_of(mesh, pair.face_2))]), apart, apart / size,
-                         run.time};
+        looks_.remote = {quoted_name(scene_, mesh.cell_body[static_cast<std::size_t>(cell_of(mesh, pair.face_1))]),
+                         quoted_name(scene_, mesh.cell_body[static_cast<std::size_t>(cell_of(mesh, pair.face_2))]), apart,
+                         apart / size, run.time};
     }
     look_at_pressure(run, solid, pairs, speed);
     return cost_of_acting_pair * static_cast<std::int64_t>(pairs.size());
@@ -409,7 +403,7 @@ void SurfaceWatch<Dim>::look_at_pressure(const dynamics::RunView<Dim>& run, cons
         const auto young = [&](std::int32_t i) { return scene_.solid.materials[static_cast<std::size_t>(i)].young; };
         const double ratio = sum.force / sum.area / std::min(young(sum.bodies[0]), young(sum.bodies[1]));
         if (ratio > looks_.pressed.ratio && sum.slip / sum.area > sliding_share * speed)
-            looks_.pressed = {name(sum.bodies[0]), name(sum.bodies[1]), 0.0, ratio, run.time};
+            looks_.pressed = {quoted_name(scene_, sum.bodies[0]), quoted_name(scene_, sum.bodies[1]), 0.0, ratio, run.time};
     }
 }
 
@@ -428,7 +422,9 @@ void SurfaceWatch<Dim>::look_for_nearest(double time) {
             if (!may_meet(bodies_[a], bodies_[b])) continue;
             const double before = best;
             lower_to_distance<Dim>(trees[a], trees[b], best);
-            if (best < before) looks_.nearest = {name(bodies_[a].number), name(bodies_[b].number), best, 0.0, time};
+            if (best < before)
+                looks_.nearest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), best, 0.0,
+                                  time};
         }
 }
 

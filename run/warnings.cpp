@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "abut/contact/nodal_contact.hpp"
+#include "abut/run/body_names.hpp"
 #include "abut/run/obstacle_watch.hpp"
 #include "abut/run/user_words.hpp"
 
@@ -55,9 +56,7 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report) {
 /// How a body or an obstacle is called in messages.
 template <int Dim>
 std::string name_in(const Scene<Dim>& scene, std::int32_t body) {
-    const auto i = static_cast<std::size_t>(body), n = scene.mesh.body_names.size();
-    return i < n ? fmt::format("body '{}'", scene.mesh.body_names[i])
-                 : fmt::format("obstacle '{}'", name_of_obstacle(scene, i - n));
+    return (body < scene.mesh.n_bodies() ? "body " : "") + quoted_name(scene, body);
 }
 
 /// By the law that acts: what two faces that look at each other less than this miss, and how that is changed.
@@ -124,14 +123,14 @@ void add_behind(Counts& counts, const Scene<Dim>& scene) {
 /// What was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
 template <int Dim>
 void add_sightings(Counts& counts, const RunResult<Dim>& result) {
-    for (const PastRim& past : result.past_rims)
+    for (const PastRim& past : result.sightings.past_rims)
         counts.warnings.push_back(
             {WarningKind::past_rim, Severity::warning,
              fmt::format("by t = {:.4g} s body '{}' is past the rim of obstacle '{}', and nothing is below it there. A "
                          "plane without half_width has no end",
                          past.time, past.body, past.obstacle),
              past.time, 0.0});
-    for (const NearItself<Dim>& near : result.near_themselves)
+    for (const NearItself<Dim>& near : result.sightings.near_themselves)
         counts.warnings.push_back(
             {WarningKind::near_itself, Severity::warning,
              fmt::format("by t = {:.4g} s body '{}' has come together with itself at ({:.4g}): two parts of its surface, "
@@ -139,6 +138,12 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
                          near.time, near.body, fmt::join(near.position, ", "), near.gap_at_rest, near.gap,
                          "contact.self = true lets it act, under law = \"reconstruction\""),
              near.gap, 0.0});
+    for (const LookEnded& ended : result.sightings.looks_ended)
+        counts.warnings.push_back(
+            {WarningKind::look_ended, Severity::warning,
+             fmt::format("from t = {:.4g} s on nobody looks whether body '{}' comes together with itself: {}", ended.time,
+                         ended.body, ended.reason),
+             ended.time, 0.0});
 }
 
 /// That the mass of cells at their centroids leaves out a part of the inertia of a body that turns.

@@ -60,6 +60,7 @@ enum class WarningKind {
     compression,     ///< largest |g|/D [-]; threshold: ContactOptions::compression_warning
     stiff_sliding,   ///< ContactReport::sliding_ratio_max [-]; threshold: stiff_sliding_ratio
     past_rim,        ///< time at which a body was past the rim of a flat obstacle [s]
+    look_ended,      ///< the time from which on a body is not watched any more for parts that come together [s]
     near_itself,     ///< gap of a body with itself [m]; threshold: that at which it is said
     deep_slip,       ///< ContactReport::slipped_compression_max [-]; threshold: deep_slip_compression
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation

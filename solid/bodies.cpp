@@ -93,7 +93,19 @@ void Bodies<Dim>::place_cell_points(const RankPart<Dim>* part) {
     }
 }
 
-/// What is given at the points of the cells, in the order of the whole mesh.
+/// Sum of m v (x - centre)^T over the cells of a body, `x_of` being where the values v are.
+template <int Dim>
+template <class PositionOf>
+Matrix<Dim> Bodies<Dim>::mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
+                                    const PositionOf& x_of) const {
+    return sum_over_body(rank_part_, static_cast<std::ptrdiff_t>(body),
+                         cells_of_body(deformable(), static_cast<std::int32_t>(body)), Matrix<Dim>(Matrix<Dim>::Zero()),
+                         [&](std::int32_t c) -> Matrix<Dim> {
+                             return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
+                         });
+}
+
+/// Takes values at the points of the cells to their centroids, in the order of the whole mesh.
 template <int Dim>
 void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const {
     for (std::size_t i = 0; i < cell_points_.size(); ++i) {
@@ -102,11 +114,7 @@ void Bodies<Dim>::to_centroids(std::vector<Vector<Dim>>& of_mesh_cells) const {
         const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
         const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
         const Matrix<Dim> slope =
-            sum_over_body(rank_part_, static_cast<std::ptrdiff_t>(i), cells, Matrix<Dim>(Matrix<Dim>::Zero()),
-                          [&](std::int32_t c) -> Matrix<Dim> {
-                              return masses_[c] * of_mesh_cells[c + on] * (rest_[c] - points.centre).transpose();
-                          }) *
-            points.inverse_y;
+            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return rest_[c]; }) * points.inverse_y;
         for (std::int32_t c = cells.first; c < cells.second; ++c)
             of_mesh_cells[c + on] += slope * (mesh_.cell_centroid[c + on] - rest_[c]);
     }
@@ -122,12 +130,7 @@ std::vector<Vector<Dim>> Bodies<Dim>::to_points(std::span<const Vector<Dim>> of_
         const auto cells = cells_of_body(deformable(), static_cast<std::int32_t>(i));
         const std::int32_t on = cells_of_body(mesh_, deformable_bodies_[i]).first - cells.first;
         const Matrix<Dim> slope =
-            sum_over_body(rank_part_, static_cast<std::ptrdiff_t>(i), cells, Matrix<Dim>(Matrix<Dim>::Zero()),
-                          [&](std::int32_t c) -> Matrix<Dim> {
-                              return masses_[c] * of_mesh_cells[c + on] *
-                                     (mesh_.cell_centroid[c + on] - points.centre).transpose();
-                          }) *
-            points.inverse_x;
+            mean_slope(i, of_mesh_cells, on, [&](std::int32_t c) { return mesh_.cell_centroid[c + on]; }) * points.inverse_x;
         for (std::int32_t c = cells.first; c < cells.second; ++c)
             at_points[c + on] += slope * (rest_[c] - mesh_.cell_centroid[c + on]);
     }

@@ -122,6 +122,9 @@ private:
     SolidOptions<Dim> options_;
     std::vector<TractionHold> traction_holds_;
     std::optional<mesh::Mesh<Dim>> part_;  // none: all bodies deform, and no cell has its point beside its centroid
+    template <class PositionOf>
+    [[nodiscard]] Matrix<Dim> mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
+                                         const PositionOf& x_of) const;
     std::vector<std::optional<CellPoints<Dim>>> cell_points_;  // by body that deforms; none: at the centroids
     const RankPart<Dim>* rank_part_ = nullptr;
     SolidOptions<Dim> part_options_;

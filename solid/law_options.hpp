@@ -1,5 +1,4 @@
 #pragma once
-// Private to the sources of this layer.
 #include "abut/solid/options.hpp"
 
 namespace abut::solid {
@@ -12,5 +11,9 @@ template <int Dim>
 /// may be given. Nothing is refused without contact.
 template <int Dim>
 void refuse_choices_of_other_law(ContactLaw acting, const SolidOptions<Dim>& options);
+
+/// Sets all choices that one law alone reads to their defaults, so that every law takes the options.
+template <int Dim>
+void take_back_choices_of_one_law(SolidOptions<Dim>& options);
 
 }  // namespace abut::solid

@@ -123,7 +123,8 @@ Markup settings_part(const Figures& figures, const Scene<Dim>& scene, const RunR
         const bool chosen_by_run =
             (name == "skin" && result.options.contact.search.skin == 0.0) ||
             (name == "interval" && result.options.interval == records_interval<Dim>(result.steps, result.options.restart)) ||
-            (name == "threads" && result.options.threads == 0);
+            (name == "threads" && result.options.threads == 0) ||
+            (name == "law" && result.asked_law == solid::ContactLaw::automatic);
         if (own.contains(name) || name == "time" || name == "steps" || name == "out")
             of_scene.push_back(row({name, shown_value}));
         else if (chosen_by_run || (by_default.contains(name) && by_default.at(name) == value))

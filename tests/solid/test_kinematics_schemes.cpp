@@ -78,8 +78,8 @@ TEST_CASE("leapfrog keeps the energy of bodies that turn, with order 2 while the
     CHECK(std::log2(drift(0.4, 0.15) / drift(0.1, 0.15)) / 2.0 == Approx(2.0).margin(0.3));
     // The ends that faces pass differ from step to step, so that only a long range of steps shows the order: 2/3 at least.
     const double coarse = drift(0.2, 20.0), fine = drift(0.025, 20.0);
-    CAPTURE(coarse, fine, drift(0.1, 20.0), drift(0.05, 20.0));
-    CHECK(fine < 1e-4);
+    CAPTURE(coarse, fine);
+    CHECK(drift(0.05, 20.0) < 1e-4);
     CHECK(coarse / fine > 4.0);
 }
 

@@ -89,12 +89,13 @@ def a_ball_on_a_coarse_plate_comes_back_with_its_own_speed(programs):
 
 @claim
 def a_disc_on_a_coarse_block_is_not_pushed_sideways(programs):
-    for counts in ("[4,2]", "[10,5]", "[40,20]"):
+    for counts in ("[4,2]", "[10,5]", "[17,8]", "[40,20]"):  # cells of 50, 20, 12 and 5 times those of the disc
         for law in ("automatic", "pair_potential", "reconstruction"):
             run = Run(programs, "coarse_below_2d.toml", "--law", law, "--set", f"bodies.block.counts={counts}").require_end()
             x, y = run.body("disc")["velocity_final"]
-            # A flat block pushes nothing sideways; a face as wide as the disc, which tilts as one, by 2 to 3 % (docs/validation.md).
-            require(abs(x) <= 0.03 * 0.02, f"{law}, {counts}: the disc leaves sideways with {abs(x) / 0.02:.2%} of its speed")
+            # A flat block pushes nothing sideways. Under the potential a coarse face tilts as one, by 2 to 3 % (docs/validation.md).
+            allowed = 0.01 if law == "reconstruction" else 0.03
+            require(abs(x) <= allowed * 0.02, f"{law}, {counts}: the disc leaves sideways with {abs(x) / 0.02:.2%} of its speed")
             require(0.0 < y <= 0.02, f"{law}, {counts}: the disc rebounds with {y:.4g} of 0.02")
 
 
@@ -172,8 +173,9 @@ def a_disc_lands_on_a_face_that_is_held(programs):
 
 @claim
 def a_body_that_closes_on_itself_is_said(programs):
-    run = Run(programs, "fold/scene.toml", "--set", "energy_scale=10")
-    require(run.warns_of("clip", "itself"), run.said)
+    for ranks in ("1", "2"):
+        run = Run(programs, "fold/scene.toml", "--set", "energy_scale=10", "--ranks", ranks)
+        require(run.warns_of("clip", "itself"), f"{ranks} ranks: {run.said}")
 
 
 @claim
@@ -199,7 +201,7 @@ def a_disc_under_pressure_stays_at_rest(programs):
     run = Run(programs, "pressed_disc_finite.toml", "--set", "tractions.p.follows=true").require_end()
     spin = abs(run.body("b")["spin_final"][0])
     # It rings within itself, at 1e-2 of the speed of sound, so that its mean spin swings; it does not grow.
-    require(spin <= 1e-7, f"the disc spins with {spin:.3g} rad/s")
+    require(spin <= 2e-8, f"the disc spins with {spin:.3g} rad/s")
 
 
 # --- Files --------------------------------------------------------------------------------------------------------------
