@@ -34,7 +34,7 @@ std::vector<double> face_distances(const SurfaceView<Dim>& surface, PointsView<D
     parallel_each(static_cast<std::ptrdiff_t>(pairs.size()), [&](std::ptrdiff_t i) {
         const auto& [face_1, face_2] = pairs[static_cast<std::size_t>(i)];
         distances[static_cast<std::size_t>(i)] =
-            geometry::convex_proximity<Dim>(corners_of(surface, x, face_1), corners_of(surface, x, face_2)).distance;
+            geometry::convex_distance<Dim>(corners_of(surface, x, face_1), corners_of(surface, x, face_2));
     });
     return distances;
 }

@@ -12,7 +12,6 @@ namespace abut::contact {
 /// It is never too large, and right to 1e-6 of the size of the faces. For reports: it costs about as much as a hundred
 /// overlaps. Faces are taken as the convex hulls of their corners. Throws BadInput for a face that does not exist, another
 /// number of positions than vertices, and a corner that is not finite.
-/// Where geometry is built without libccd (ABUT_LAYERS=contact) there is none.
 template <int Dim>
 [[nodiscard]] std::vector<double> face_distances(const SurfaceView<Dim>& surface, PointsView<Dim> x,
                                                  std::span<const Overlap<Dim>> overlaps);

@@ -15,7 +15,7 @@
 #include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
-#include "abut/geometry/convex_distance.hpp"
+#include "abut/geometry/convex_proximity.hpp"
 #include "abut/geometry/polygon.hpp"
 #include "abut/input/values.hpp"
 #include "abut/mesh/interpenetration.hpp"

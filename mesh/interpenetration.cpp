@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "abut/base/messages.hpp"
-#include "abut/geometry/convex_distance.hpp"
+#include "abut/geometry/convex_proximity.hpp"
 #include "abut/mesh/measures.hpp"
 #include "abut/mesh/quality.hpp"
 

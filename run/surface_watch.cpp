@@ -11,7 +11,8 @@
 
 #include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
-#include "abut/geometry/convex_distance.hpp"
+#include "abut/geometry/convex_proximity.hpp"
+#include "abut/geometry/face_tree.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/cell_velocity.hpp"
 
@@ -85,71 +86,6 @@ double gap_between(std::span<const Vector<Dim>> face_1, std::span<const Vector<D
         for (std::size_t i = 1; i < face.size(); ++i) along(face[i] - face[i - 1]);
     }
     return gap;
-}
-
-template <int Dim>
-double distance(const Box<Dim>& a, const Box<Dim>& b) {
-    return (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(0.0).norm();
-}
-
-/// Of a surface, halved along the longest side of its box until few faces are left.
-template <int Dim>
-struct BoxTree {
-    struct Node {
-        Box<Dim> box;
-        std::size_t begin, end;    // of `faces`
-        std::size_t children = 0;  // the first of two; 0: none
-    };
-    std::vector<std::vector<Vector<Dim>>> faces;
-    std::vector<Node> nodes;
-
-    explicit BoxTree(std::vector<std::vector<Vector<Dim>>> of) : faces(std::move(of)) {
-        nodes.push_back({{}, 0, faces.size()});
-        for (std::size_t i = 0; i < nodes.size(); ++i) split(i);
-    }
-
-private:
-    void split(std::size_t i) {
-        constexpr std::size_t few = 4;
-        const auto [begin, end] = std::pair(nodes[i].begin, nodes[i].end);
-        for (std::size_t f = begin; f < end; ++f) nodes[i].box.extend(box_of<Dim>(faces[f]));
-        if (end - begin <= few) return;
-        int axis = 0;
-        (nodes[i].box.upper - nodes[i].box.lower).maxCoeff(&axis);
-        const auto at = [&](std::size_t f) { return faces.begin() + static_cast<std::ptrdiff_t>(f); };
-        const std::size_t middle = (begin + end) / 2;
-        std::nth_element(at(begin), at(middle), at(end),
-                         [axis](const auto& a, const auto& b) { return mean_of<Dim>(a)[axis] < mean_of<Dim>(b)[axis]; });
-        nodes[i].children = nodes.size();
-        nodes.push_back({{}, begin, middle});
-        nodes.push_back({{}, middle, end});
-    }
-};
-
-/// Lowers `best` to the distance of two faces, one of each surface, where one is nearer.
-template <int Dim>
-void lower_to_distance(const BoxTree<Dim>& a, const BoxTree<Dim>& b, double& best) {
-    std::vector<std::array<std::size_t, 2>> open{{0, 0}};
-    while (!open.empty()) {
-        const auto [i, k] = open.back();
-        open.pop_back();
-        const auto &at_a = a.nodes[i], &at_b = b.nodes[k];
-        if (!(distance<Dim>(at_a.box, at_b.box) < best)) continue;
-        if (at_a.children == 0 && at_b.children == 0) {
-            for (std::size_t f = at_a.begin; f < at_a.end; ++f)
-                for (std::size_t g = at_b.begin; g < at_b.end; ++g)
-                    if (distance<Dim>(box_of<Dim>(a.faces[f]), box_of<Dim>(b.faces[g])) < best)
-                        best = std::min(best, geometry::convex_proximity<Dim>(a.faces[f], b.faces[g]).distance);
-            continue;
-        }
-        const bool halve_a = at_b.children == 0 || (at_a.children != 0 && at_a.end - at_a.begin > at_b.end - at_b.begin);
-        std::array<std::array<std::size_t, 2>, 2> next;
-        for (std::size_t half = 0; half < 2; ++half)
-            next[half] = halve_a ? std::array{at_a.children + half, k} : std::array{i, at_b.children + half};
-        const auto far = [&](const auto& pair) { return distance<Dim>(a.nodes[pair[0]].box, b.nodes[pair[1]].box); };
-        if (far(next[0]) < far(next[1])) std::swap(next[0], next[1]);
-        open.insert(open.end(), next.begin(), next.end());  // the nearer one first
-    }
 }
 
 void put(StateWriter& state, const Encounter& met) {
@@ -409,7 +345,7 @@ void SurfaceWatch<Dim>::look_at_pressure(const dynamics::RunView<Dim>& run, cons
 
 template <int Dim>
 void SurfaceWatch<Dim>::look_for_nearest(double time) {
-    std::vector<BoxTree<Dim>> trees;
+    std::vector<geometry::FaceTree<Dim>> trees;
     for (const Body& body : bodies_) {
         std::vector<Points> faces;
         for (const Part& part : body.parts)
@@ -420,11 +356,11 @@ void SurfaceWatch<Dim>::look_for_nearest(double time) {
     for (std::size_t a = 0; a < bodies_.size(); ++a)
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {
             if (!may_meet(bodies_[a], bodies_[b])) continue;
-            const double before = best;
-            lower_to_distance<Dim>(trees[a], trees[b], best);
-            if (best < before)
-                looks_.nearest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), best, 0.0,
-                                  time};
+            const double distance = geometry::distance_below(trees[a], trees[b], best);
+            if (distance < best)
+                looks_.nearest = {quoted_name(scene_, bodies_[a].number), quoted_name(scene_, bodies_[b].number), distance,
+                                  0.0, time};
+            best = std::min(best, distance);
         }
 }
 

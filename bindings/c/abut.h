@@ -185,6 +185,7 @@ typedef struct abut_overlap {
     double area;
     double normal[3]; /* unit, from face 1 into face 2 */
     double gap;       /* between the centroids, > 0 apart */
+    double distance;  /* of the faces in space, 0 where they touch or cross; right to 1e-6 of their size */
 } abut_overlap;
 
 /* "0.1.0" */

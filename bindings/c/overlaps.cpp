@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "abut.h"
 #include "abut/base/ids.hpp"
 #include "abut/base/sort_unique.hpp"
+#include "abut/contact/face_distance.hpp"
 #include "abut/contact/near_overlaps.hpp"
 #include "arguments.hpp"
 
@@ -42,12 +44,17 @@ void find_all_overlaps(const abut_array& x, const abut_faces& faces, double dist
     const SurfaceForOverlaps of_bodies(faces);
     const contact::NodalSurface<Dim> surface = surface_of<Dim>(x, of_bodies.faces);
     const auto near = contact::find_near_overlaps<Dim>(surface, distance);
+    const contact::Surface<Dim>& facets = surface.facets();
+    const std::size_t n_wanted = std::min(near.found.size(), static_cast<std::size_t>(std::max<std::int64_t>(capacity, 0)));
+    const std::vector<double> distances =
+        contact::face_distances<Dim>(facets.view(), facets.vertices, std::span(near.found).first(n_wanted));
     copy_entries(near.found, overlaps, entry_size, capacity, n, [&](const contact::Overlap<Dim>& overlap) {
         abut_overlap entry{};
         entry.face_1 = number_of(surface.face_of(overlap.face_1)) + faces.index_base;
         entry.face_2 = number_of(surface.face_of(overlap.face_2)) + faces.index_base;
         entry.area = overlap.area;
         entry.gap = overlap.gap;
+        entry.distance = distances[static_cast<std::size_t>(&overlap - near.found.data())];
         copy_vector<Dim>(overlap.normal, entry.normal);
         return entry;
     });

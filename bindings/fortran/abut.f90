@@ -85,7 +85,7 @@ module abut
 
   type, bind(c), public :: abut_overlap
     integer(c_int32_t) :: face_1, face_2
-    real(c_double) :: area, normal(3), gap
+    real(c_double) :: area, normal(3), gap, distance
   end type
 
   public :: abut_options_init, abut_limit_threads, abut_skin_stiffness, abut_create, abut_destroy, abut_step, abut_evaluate, &

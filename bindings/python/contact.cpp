@@ -196,7 +196,7 @@ PYBIND11_MODULE(_contact, module) {
                          compression);
     PYBIND11_NUMPY_DTYPE(abut_body, body, force, moment, work);
     PYBIND11_NUMPY_DTYPE(abut_body_pair, body_1, body_2, active_pairs, force, normal_force);
-    PYBIND11_NUMPY_DTYPE(abut_overlap, face_1, face_2, area, normal, gap);
+    PYBIND11_NUMPY_DTYPE(abut_overlap, face_1, face_2, area, normal, gap, distance);
 
     exceptions = new Exceptions;
     const py::object plain = py::reinterpret_borrow<py::object>(PyExc_Exception);
@@ -257,7 +257,7 @@ PYBIND11_MODULE(_contact, module) {
     module.def(
         "find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
         "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance, as a "
-        "structured array; faces with four corners appear by halves.");
+        "structured array with their distance in space beside it; faces with four corners appear by halves.");
     module.def("skin_stiffness", &skin_stiffness, "p_wave_modulus"_a, "depth"_a,
                "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch.");
     module.def("limit_threads", &limit_threads, "n"_a, "Threads that all contacts use together; 0: all cores.");

@@ -9,11 +9,11 @@
 #include <cstddef>
 #include <exception>
 #include <iterator>
-#include <unordered_map>
 #include <utility>
 
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/connected_bodies.hpp"
+#include "abut/mesh/io/node_numbers.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
@@ -85,33 +85,6 @@ CellShape shape_of(const std::string& name, const ElementBlock& block) {
     return found->shape;
 }
 
-/// From Gmsh's node tags to indices into CellSoup::vertices.
-class NodeNumbers {
-public:
-    explicit NodeNumbers(const std::vector<std::size_t>& tags) {
-        const auto largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
-        const bool is_dense = largest <= 4 * tags.size() + 1000;
-        if (is_dense) dense_.assign(largest + 1, -1);
-        for (std::size_t i = 0; i < tags.size(); ++i) {
-            const auto index = static_cast<std::int32_t>(i);
-            if (is_dense)
-                dense_[tags[i]] = index;
-            else
-                sparse_.emplace(tags[i], index);
-        }
-    }
-    /// -1 for a node that is not there.
-    [[nodiscard]] std::int32_t operator()(std::size_t tag) const {
-        if (!dense_.empty()) return tag < dense_.size() ? dense_[tag] : -1;
-        const auto found = sparse_.find(tag);
-        return found == sparse_.end() ? -1 : found->second;
-    }
-
-private:
-    std::vector<std::int32_t> dense_;                       ///< by tag, -1 for none
-    std::unordered_map<std::size_t, std::int32_t> sparse_;  ///< instead, where tags have large gaps
-};
-
 template <int Dim>
 std::vector<std::size_t> read_nodes(CellSoup<Dim>& soup) {
     std::vector<std::size_t> tags;
@@ -144,7 +117,8 @@ std::int32_t body_of_entity(const std::string& mesh_name, int dimension, int ent
 }
 
 template <int Dim>
-void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumbers& number, std::int32_t body) {
+void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumbers<std::size_t>& number,
+                  std::int32_t body) {
     const CellShape shape = shape_of(soup.name, block);
     std::array<std::int32_t, max_cell_vertices> vertices{};
     for (std::size_t i = 0; i < block.tags.size(); ++i) {
@@ -163,7 +137,7 @@ void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumb
 }
 
 template <int Dim>
-void read_cells(CellSoup<Dim>& soup, const NodeNumbers& number) {
+void read_cells(CellSoup<Dim>& soup, const NodeNumbers<std::size_t>& number) {
     constexpr int dimension = Dim;
     gmsh::vectorpair groups, entities;
     gmsh::model::getPhysicalGroups(groups, dimension);
@@ -182,7 +156,7 @@ void read_cells(CellSoup<Dim>& soup, const NodeNumbers& number) {
 }
 
 template <int Dim>
-void read_group(CellSoup<Dim>& soup, int tag, const NodeNumbers& number) {
+void read_group(CellSoup<Dim>& soup, int tag, const NodeNumbers<std::size_t>& number) {
     const auto group = static_cast<std::int32_t>(soup.group_names.size());
     soup.group_names.push_back(group_name(Dim - 1, tag));
     std::vector<int> entities;
@@ -287,7 +261,7 @@ CellSoup<Dim> soup_of_gmsh_model(const std::string& name) {
     check_dimension<Dim>(name);
     CellSoup<Dim> soup;
     soup.name = name;
-    const NodeNumbers number(read_nodes(soup));
+    const NodeNumbers<std::size_t> number(read_nodes(soup));
     read_cells(soup, number);
     name_connected_bodies(soup);
     gmsh::vectorpair groups;

@@ -4,46 +4,16 @@
 #include <array>
 #include <limits>
 #include <tuple>
-#include <unordered_map>
 
 #include "abut/base/sort_unique.hpp"
 #include "abut/mesh/io/file.hpp"
 #include "abut/mesh/io/msh_values.hpp"
+#include "abut/mesh/io/node_numbers.hpp"
 #include "abut/mesh/io/text_words.hpp"
 #include "abut/mesh/quality.hpp"
 
 namespace abut::mesh {
 namespace {
-
-/// From node tags to indices into MshFile::vertices.
-class NodeNumbers {
-public:
-    NodeNumbers() = default;
-    explicit NodeNumbers(const std::vector<std::int64_t>& tags) {
-        const auto largest = tags.empty() ? 0 : *std::max_element(tags.begin(), tags.end());
-        const bool is_dense = largest <= 4 * static_cast<std::int64_t>(tags.size()) + 1000;
-        if (is_dense) dense_.assign(static_cast<std::size_t>(largest) + 1, -1);
-        for (std::size_t i = 0; i < tags.size(); ++i) {
-            const auto index = static_cast<std::int32_t>(i);
-            if (is_dense)
-                dense_[static_cast<std::size_t>(tags[i])] = index;
-            else
-                sparse_.emplace(tags[i], index);
-        }
-    }
-    /// -1 for a node that is not there.
-    [[nodiscard]] std::int32_t operator()(std::int64_t tag) const {
-        if (tag < 0) return -1;
-        if (!dense_.empty())
-            return static_cast<std::size_t>(tag) < dense_.size() ? dense_[static_cast<std::size_t>(tag)] : -1;
-        const auto found = sparse_.find(tag);
-        return found == sparse_.end() ? -1 : found->second;
-    }
-
-private:
-    std::vector<std::int32_t> dense_;                        ///< by tag, -1 for none
-    std::unordered_map<std::int64_t, std::int32_t> sparse_;  ///< instead, where tags have large gaps
-};
 
 /// The name between quotes, or the whole of a text without.
 std::string name_in(std::string_view text) {
@@ -213,7 +183,7 @@ private:
         if (file_.vertices.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
             throw MeshError(file_.name + ": has " + std::to_string(file_.vertices.size()) +
                             " nodes, at most 2147483647 are allowed. Coarsen the mesh.");
-        number_ = NodeNumbers(file_.vertex_label);
+        number_ = NodeNumbers<std::int64_t>(file_.vertex_label);
         drop_repeated_nodes();
     }
     void read_nodes_2() {
@@ -289,7 +259,7 @@ private:
         }
         file_.vertices = std::move(vertices);
         file_.vertex_label = std::move(labels);
-        number_ = NodeNumbers(file_.vertex_label);
+        number_ = NodeNumbers<std::int64_t>(file_.vertex_label);
     }
 
     void read_elements() {
@@ -406,7 +376,7 @@ private:
     MshFile file_;
     bool is_version_4_ = false, has_nodes_ = false, has_elements_ = false;
     std::size_t n_bytes_ = 0;
-    NodeNumbers number_;
+    NodeNumbers<std::int64_t> number_;
     std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::int32_t>> groups_of_entity_;  ///< format 4.1
     std::map<std::array<std::int32_t, 3>, std::size_t> block_;  ///< by type, entity and group
     std::array<std::int32_t, 3> last_key_{};

@@ -392,6 +392,7 @@ static void overlaps_alone(void) {
     CHECK(abut_find_overlaps(2, packed(x), &faces, 0.05, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 0);
     CHECK(abut_find_overlaps(2, packed(x), &faces, 0.2, &overlap, sizeof(overlap), 1, &n, &error) == ABUT_OK && n == 1);
     CHECK(overlap.face_1 == 2 && overlap.face_2 == 4 && fabs(overlap.area - 0.8) < 1e-15 && fabs(overlap.gap - 0.1) < 1e-15);
+    CHECK(fabs(overlap.distance - 0.1) < 1e-6);
     /* Bodies may have any numbers, and nobody looks at depths. */
     const int32_t far[n_faces] = {7, 7, 7, 7, 2000000000, 2000000000, 2000000000, 2000000000};
     abut_faces bare = faces_from(0, corners, far);

@@ -165,6 +165,14 @@ class Contact(unittest.TestCase):
             self.assertEqual(len(abut.find_overlaps(REST, FACES.astype(kind), BODY.astype(kind), 0.2)), 1)
         self.assertEqual(len(abut.find_overlaps(REST, FACES, BODY * 2000000000, 0.2)), 1)
 
+    def test_overlaps_tell_the_distance_in_space_beside_the_gap(self):
+        # A face that rises from 0.1 to 0.3 above a flat one: the gap is read between the centroids along the mean normal.
+        nodes = np.array([[1.0, 0.0], [0.0, 0.0], [0.0, 0.1], [1.0, 0.3]])
+        found = abut.find_overlaps(nodes, np.array([[0, 1], [2, 3]]), np.array([0, 1]), 0.25)
+        self.assertEqual(len(found), 1)
+        self.assertAlmostEqual(found["gap"][0], 0.2 * np.cos(np.arctan(0.2) / 2.0), delta=1e-12)
+        self.assertAlmostEqual(found["distance"][0], 0.1, delta=1e-6)
+
     def test_what_is_wrong_is_refused_by_name(self):
         contact = made()
         contact.step(REST, REST)

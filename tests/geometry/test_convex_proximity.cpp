@@ -9,6 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/geometry/convex_distance.hpp"
+#include "abut/geometry/convex_proximity.hpp"
 
 using namespace abut;
 using geometry::convex_proximity;
