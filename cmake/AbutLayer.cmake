@@ -1,10 +1,12 @@
-# abut_layer(<name> SOURCES ... HEADERS ... [DEPENDS layers...] [PUBLIC targets...] [PRIVATE targets...])
+# abut_layer(<name> SOURCES ... HEADERS ... [DEPENDS layers...] [PUBLIC targets...] [PRIVATE targets...] [JOIN])
 #
 # One library per layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
 # relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them
 # compiles on its own: the source of the same name includes it first, as CMake finds when it configures, or the target
 # all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever
 # sees; cmake/AbutDependencies.cmake finds their packages.
+# JOIN: abut_join_sources may take the layer; all_verify_interface_header_sets then compiles all of its headers, since a
+# joined source may find what another one includes.
 #
 # abut_install_package() once, after the layers: what find_package(abut) reads.
 
@@ -44,7 +46,7 @@ function(abut_is_first_include result layer header)
 endfunction()
 
 function(abut_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 layer "" "" "SOURCES;HEADERS;DEPENDS;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 layer "JOIN" "" "SOURCES;HEADERS;DEPENDS;PUBLIC;PRIVATE")
   set(target abut_${name})
   add_library(${target} ${layer_SOURCES})
   add_library(abut::${name} ALIAS ${target})
@@ -55,7 +57,7 @@ function(abut_layer name)
   foreach(header IN LISTS layer_HEADERS)
     abut_is_first_include(is_first_include ${name} ${header})
     cmake_path(ABSOLUTE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut/${name})
-    if(is_first_include)
+    if(is_first_include AND NOT (layer_JOIN AND ABUT_JOIN_SOURCES))
       list(APPEND headers_of_sources ${header})
     else()
       list(APPEND headers_to_verify ${header})
@@ -83,6 +85,10 @@ function(abut_layer name)
     EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
     VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY headers_to_verify
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
+
+  if(layer_JOIN)
+    abut_join_sources(${target})
+  endif()
 
   abut_install_layer(${name} "${layer_DEPENDS}" "${layer_PUBLIC}" "${layer_PRIVATE}")
   set_property(GLOBAL APPEND PROPERTY abut_layers ${name})

@@ -10,13 +10,13 @@ add_library(abut_joined_options INTERFACE)
 target_compile_options(abut_joined_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>)
 
 # abut_join_sources(targets...): with ABUT_JOIN_SOURCES, eight sources of a target are compiled at a time, and share their
-# headers. Names in unnamed namespaces must differ then, and warnings that see names of other sources are off. Not for the
-# library, since a call may silently find a better match in another source.
+# headers. Names in unnamed namespaces must differ then, and warnings that see names of other sources are off. Not for
+# geometry, contact and dynamics, since a call may silently find a better match in another source.
 function(abut_join_sources)
   if(ABUT_JOIN_SOURCES)
     foreach(target IN LISTS ARGN)
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-      target_link_libraries(${target} PRIVATE abut_joined_options)
+      target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:abut_joined_options>)
     endforeach()
   endif()
 endfunction()

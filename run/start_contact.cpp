@@ -23,7 +23,7 @@ namespace abut::run {
 namespace {
 
 constexpr double allowed_energy = 1e-6;  // of the scale
-constexpr double touching = 1e-9;        // of the size of a face: nearer faces touch
+constexpr double touching_faces = 1e-9;  // of the size of a face: nearer faces touch
 constexpr double as_near = 1e-6;         // of the size of a face: so accurate is a distance
 
 /// The surface of a body or an obstacle at the start.
@@ -156,7 +156,7 @@ std::optional<Nearest<Dim>> how_far_apart(const PlacedSurface<Dim>& a, const Pla
     for (double bound = 1e-3 * size; bound < 4.0 * most; bound *= 4.0) {
         const Nearest<Dim> found = nearest(a, b, bound, search);
         if (found.distance > bound) continue;
-        if (found.distance <= touching * size || !found.apart) return {};
+        if (found.distance <= touching_faces * size || !found.apart) return {};
         return found;
     }
     return {};

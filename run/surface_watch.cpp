@@ -26,7 +26,7 @@ constexpr std::int64_t cost_of_part = 8, cost_of_pair = 25, cost_of_acting_pair 
 constexpr std::int64_t steps_per_cost = 100;  // a look takes a hundredth of the steps until the next one
 
 /// Cells inside each other by this part of the smaller one touch: mesh::touching_tolerance.
-constexpr double touching = 1e-6;
+constexpr double touching_cells = 1e-6;
 /// Bodies slide along each other where their speed along the faces is more than this part of the largest speed.
 constexpr double sliding_share = 0.1;
 
@@ -227,7 +227,7 @@ double SurfaceWatch<Dim>::size(const Part& part) const {
 template <int Dim>
 double SurfaceWatch<Dim>::depth(const Part& part_1, const Part& part_2, double at_least) const {
     const Points of_1 = points(part_1.corners), of_2 = points(part_2.corners);
-    const double tolerance = touching * std::min(size(part_1), size(part_2));
+    const double tolerance = touching_cells * std::min(size(part_1), size(part_2));
     double depth = std::numeric_limits<double>::infinity();
     for (const Part* part : {&part_1, &part_2})
         for (const auto& side : part->sides) {

@@ -8,7 +8,7 @@
 namespace abut::mesh {
 namespace {
 
-constexpr const char* correct = "Correct the line, or write the mesh again.";
+constexpr const char* correct_line = "Correct the line, or write the mesh again.";
 
 /// One line per vertex and per face; colours, normals and textures behind them are numbers that are not read.
 class OffReader {
@@ -54,7 +54,8 @@ private:
     }
     std::int64_t read_count(std::string_view word, const char* what) {
         const std::int64_t count = words_.whole_number(word, what);
-        if (count < 0) words_.refuse(std::string(what) + " is " + std::to_string(count) + ", at least 0 is needed", correct);
+        if (count < 0)
+            words_.refuse(std::string(what) + " is " + std::to_string(count) + ", at least 0 is needed", correct_line);
         return count;
     }
     void skip_numbers() {
@@ -74,7 +75,7 @@ private:
         for (double& x : vertex) {
             x = words_.number(word, "a coordinate");
             if (!std::isfinite(x))
-                words_.refuse("a coordinate of vertex " + std::to_string(i) + " is no finite number", correct);
+                words_.refuse("a coordinate of vertex " + std::to_string(i) + " is no finite number", correct_line);
             if (&x != &vertex[2]) word = words_.next_in_line();
         }
         if (is_homogeneous_) {
@@ -83,7 +84,7 @@ private:
             if (!vertex.allFinite())
                 words_.refuse(
                     "vertex " + std::to_string(i) + " has no finite place: its weight is " + std::to_string(weight),
-                    correct);
+                    correct_line);
         }
         skip_numbers();
         mesh_.vertices.push_back(vertex);
@@ -96,12 +97,12 @@ private:
             if (word.empty())
                 words_.refuse("face " + std::to_string(i) + " has " + std::to_string(n_corners) +
                                   " corners, its line names " + std::to_string(k),
-                              correct);
+                              correct_line);
             const std::int64_t vertex = words_.whole_number(word, "a vertex");
             if (vertex < 0 || vertex >= n_vertices_)
                 words_.refuse("face " + std::to_string(i) + " names vertex " + std::to_string(vertex) + ", the file has " +
                                   std::to_string(n_vertices_) + ", counted from 0",
-                              correct);
+                              correct_line);
             corners_.push_back(static_cast<std::int32_t>(vertex));
         }
         skip_numbers();

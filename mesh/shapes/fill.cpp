@@ -19,7 +19,7 @@
 namespace abut::mesh {
 namespace {
 
-constexpr int gmsh_triangle = 2, delaunay_3d = 1, surface_tag = 1, volume_tag = 1;
+constexpr int gmsh_triangle = 2, mesher_3d = 1, surface_tag = 1, volume_tag = 1;
 
 void refuse(const SurfaceMesh& surface, const std::string& what) {
     throw MeshError(surface.name + ": " + what +
@@ -92,7 +92,7 @@ void mesh_inside(const FillOptions& options, const Frame& frame) {
     gmsh::model::geo::synchronize();
     gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume_tag}), options.name);
     gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface_tag}), "boundary");
-    gmsh::option::setNumber("Mesh.Algorithm3D", delaunay_3d);
+    gmsh::option::setNumber("Mesh.Algorithm3D", mesher_3d);
     gmsh::option::setNumber("Mesh.Optimize", 1);
     gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / frame.unit);
     gmsh::model::mesh::generate(3);
