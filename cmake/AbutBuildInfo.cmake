@@ -19,7 +19,8 @@ function(abut_build_info file)
 
   set(abut_library_versions "")
   foreach(library IN ITEMS Eigen3=Eigen TBB=TBB CGAL=CGAL embree=Embree fcl=FCL Gmsh=Gmsh VTK=VTK nanoflann=nanoflann fmt=fmt
-                           nlohmann_json=nlohmann-json tomlplusplus=toml++ muparser=muParser CLI11=CLI11 spdlog=spdlog)
+                           nlohmann_json=nlohmann-json tomlplusplus=toml++ muparser=muParser CLI11=CLI11 spdlog=spdlog
+                           MPI_C=MPI Zoltan=Zoltan Kokkos=Kokkos)
     string(REGEX MATCH "^(.*)=(.*)$" matched ${library})
     string(APPEND abut_library_versions "{\"${CMAKE_MATCH_2}\", \"${${CMAKE_MATCH_1}_VERSION}\"}, ")
   endforeach()

@@ -39,13 +39,6 @@ std::vector<std::string> arguments() {
 
 }  // namespace
 
-bool is_launched() {
-    constexpr std::array names{"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"};
-    for (const char* name : names)
-        if (std::getenv(name) != nullptr) return true;
-    return false;
-}
-
 Session::Session() {
     int provided = 0;
     require(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");

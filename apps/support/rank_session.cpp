@@ -13,6 +13,8 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/mesh/part.hpp"
+#include "abut/ranks/partition.hpp"
 #include "abut/solid/share_out.hpp"
 
 namespace abut::apps {
@@ -88,6 +90,13 @@ void refuse_ranks(const char* what) {
 }
 
 template <int Dim>
+struct SceneShare<Dim>::Part {
+    Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::Kinematics> kinematics, std::span<const double> weights);
+    mesh::MeshPart<Dim> part;
+    std::optional<ranks::PointRanks> points;
+};
+
+template <int Dim>
 SceneShare<Dim>::Part::Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::Kinematics> kinematics,
                             std::span<const double> weights) {
     const ranks::Communicator& all = the_session->all();
@@ -113,6 +122,9 @@ SceneShare<Dim>::SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kine
     share_.emplace(share_out({}));
     share_->again = [this](std::span<const double> weights) { return share_out(weights); };
 }
+
+template <int Dim>
+SceneShare<Dim>::~SceneShare() = default;
 
 template <int Dim>
 run::Share<Dim> SceneShare<Dim>::share_out(std::span<const double> weights) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
-#include "abut/mesh/part.hpp"
-#include "abut/ranks/partition.hpp"
+#include "abut/mesh/mesh.hpp"
 #include "abut/ranks/session.hpp"
 #include "abut/run/share.hpp"
 #include "abut/solid/options.hpp"
@@ -25,7 +25,7 @@ namespace abut::apps {
 void leave_ranks(const std::string& error);
 
 /// Starts the program again where it runs alone and is to have `n_ranks` > 1. Throws BadInput where mpirun has started another
-/// number of them, or cannot be started.
+/// number of them, or cannot be started, or Abut was built without MPI.
 void start_ranks(int n_ranks);
 /// Throws BadInput where there are several: `what` is done by one.
 void refuse_ranks(const char* what);
@@ -50,17 +50,14 @@ public:
     /// A call of all ranks; nothing is made where the program runs alone. The mesh must outlive it. Throws BadInput on all where
     /// their meshes differ, and as solid::part_of and ranks::PointRanks.
     SceneShare(const mesh::Mesh<Dim>& mesh, std::vector<solid::Kinematics> kinematics);
+    ~SceneShare();
     SceneShare(const SceneShare&) = delete;
     SceneShare& operator=(const SceneShare&) = delete;
 
     [[nodiscard]] const run::Share<Dim>* get() const { return share_ ? &*share_ : nullptr; }  ///< null: alone
 
 private:
-    struct Part {
-        Part(const mesh::Mesh<Dim>& mesh, std::span<const solid::Kinematics> kinematics, std::span<const double> weights);
-        mesh::MeshPart<Dim> part;
-        std::optional<ranks::PointRanks> points;
-    };
+    struct Part;
     [[nodiscard]] run::Share<Dim> share_out(std::span<const double> weights);
 
     const mesh::Mesh<Dim>& mesh_;

@@ -8,8 +8,8 @@ namespace {
 
 [[noreturn]] void refuse() {
     throw BadInput(
-        "Abut was built without Kokkos, which steps on a device need. Take StepDevice::host (--device host), or "
-        "build Abut where CMake finds Kokkos.");
+        "this build of Abut has no Kokkos, which steps on a device need. Take StepDevice::host (--device host), or "
+        "install the package libtrilinos-kokkos-dev (scripts/setup scripts/packages-devices.txt) and build it again.");
 }
 
 }  // namespace

@@ -123,6 +123,8 @@ def check_refused(program, other, scene, folder):
                            ("a bulk on a device", "--device", "kokkos")):
         run = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "2", *options), capture_output=True, text=True)
         check_one_message(run, (name, not_made), options)
+    many = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "1000000"), capture_output=True, text=True)
+    check_one_message(many, ("--ranks: 1000000 are asked for", "processors"), "more ranks than a machine can have")
     for words, name in (([program, "run", scene, "--sweep", "bodies.left.density=1,2", "--out", str(folder / "sweep")], "--sweep"),
                         ([program, "check", scene], "this command"), ([other, "--out", str(folder / "other")], pathlib.Path(other).name)):
         run = subprocess.run([*MPIRUN, "-n", "2", *words], capture_output=True, text=True)

@@ -116,9 +116,3 @@ TEST_CASE("a folder whose name is no UTF-8 gets all results of a run", "[program
     const Outcome outcome{.exit_code = 0, .out = "", .error = "", .directory = out, .folder = nullptr};
     CHECK_THAT(read_summary(outcome)["options"]["out"].get<std::string>(), Contains("K\xEF\xBF\xBDrper"));
 }
-
-TEST_CASE("more ranks than a machine can have are refused with a sentence", "[programs][ranks]") {
-    const auto outcome = run_program("slipping_cylinders", "--ranks 1000000 " + short_run, "many_ranks");
-    CHECK(outcome.exit_code == 1);
-    CHECK_THAT(outcome.error, Contains("--ranks: 1000000 are asked for") && Contains("processors"));
-}
