@@ -36,13 +36,13 @@ TEST_CASE("every wrong scene gets a message that says where, what, how much is a
 }
 
 TEST_CASE("the page of wrong scenes has the messages that they get", "[input][faults]") {
-    std::ifstream file(ABUT_SOURCE "/docs/wrong_scenes.md");
+    std::ifstream file(ABUT_SOURCE "/tests/input/wrong_scenes.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     CHECK(text == test::page_of_wrong_scenes());  // test_input "[.page]" writes it
 }
 
 TEST_CASE("writes the page of wrong scenes", "[.page]") {
-    std::ofstream(ABUT_SOURCE "/docs/wrong_scenes.md") << test::page_of_wrong_scenes();
+    std::ofstream(ABUT_SOURCE "/tests/input/wrong_scenes.md") << test::page_of_wrong_scenes();
 }
 
 TEST_CASE("all faults of a scene come at once, those of meshes and groups too", "[input][faults]") {

@@ -19,7 +19,7 @@ std::string without_folder(std::string text, const std::filesystem::path& folder
 std::string page_of_wrong_scenes() {
     std::string page = fmt::format(R"md(# Wrong scenes, and what is said of each
 
-Two blocks of a scene ([scenes.md](scenes.md)) with something wrong behind its last line, 18, or set by `--set`, and what
+Two blocks of a scene ([scenes.md](../../docs/scenes.md)) with something wrong behind its last line, 18, or set by `--set`, and what
 `abut check` and `abut run` say of it. A test compares this page with that; `test_input "[.page]"` writes it. The scene:
 
 ```toml

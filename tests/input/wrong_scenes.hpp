@@ -14,7 +14,7 @@ struct WrongScene {
 
 [[nodiscard]] const std::vector<WrongScene>& wrong_scenes();
 
-/// docs/wrong_scenes.md: each of them with the message that it gets.
+/// tests/input/wrong_scenes.md: each of them with its message.
 [[nodiscard]] std::string page_of_wrong_scenes();
 
 }  // namespace abut::test
