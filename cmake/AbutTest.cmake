@@ -1,6 +1,6 @@
 # abut_test(<name> SOURCES files... LINK targets... [PROPERTIES name value...])
 #
-# One Catch2 program, test_<name>, and one CTest a TEST_CASE, called "<name>/<title>". LINK names what is under test, for
+# One Catch2 program, test_<name>, and one CTest per TEST_CASE, called "<name>/<title>". LINK names what is under test, for
 # example abut::contact. PROPERTIES go to every one of its CTests, for example TIMEOUT 300 or PROCESSORS 2. The main
 # program is compiled once, in tests/support; headers there are included as "support/<name>.hpp".
 include(Catch)
