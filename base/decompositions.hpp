@@ -6,7 +6,7 @@
 /// Decompositions of Eigen, compiled once: to instantiate one takes longer than to compile most sources that use it.
 namespace abut {
 
-/// Of a symmetric matrix of N rows: its eigenvalues, the least first, and its eigenvectors as columns, orthonormal.
+/// Eigenvalues of a symmetric matrix of N rows, the least first, and its orthonormal eigenvectors as columns.
 template <int N>
 struct SymmetricEigen {
     Eigen::Matrix<double, N, 1> values;
@@ -25,8 +25,8 @@ struct SymmetricEigen {
 /// it (n - 1). NaN if a number on the diagonal is.
 [[nodiscard]] double largest_eigenvalue(std::span<const double> diagonal, std::span<const double> beside);
 
-/// Of a symmetric matrix without negative eigenvalues. Those of at most `cut` times the largest count as 0, and so does the
-/// inverse in their directions.
+/// Pseudo-inverse of a symmetric matrix without negative eigenvalues. Those up to `cut` times the largest count as 0, as
+/// does the inverse in their directions.
 [[nodiscard]] Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix, double cut);
 
 /// A = u diag(values) v^T, the largest of the values first, none negative; u and v orthogonal.

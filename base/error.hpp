@@ -6,7 +6,7 @@
 
 namespace abut {
 
-/// What went wrong, for a program that has to decide what to do next.
+/// Kinds of errors, for a program that has to decide what to do next.
 enum class ErrorKind {
     bad_input,       ///< a mesh, a surface, an option or a file that cannot be used: correct it
     misuse,          ///< a call out of order, or a state that no step has reached: correct the program
@@ -18,7 +18,7 @@ enum class ErrorKind {
 /// "bad input", "misuse", ...
 [[nodiscard]] const char* name(ErrorKind kind);
 
-/// What the text of an error says, as numbers. What does not apply keeps its default.
+/// Numbers in the text of an error. Members that do not apply keep their defaults.
 struct ErrorFacts {
     static constexpr std::int64_t none = -1;
 

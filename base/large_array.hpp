@@ -7,7 +7,7 @@ namespace abut {
 /// Memory for arrays that are swept again and again: on a cache line of its own, from 2 MiB on with pages of 2 MiB where the
 /// system gives them (Linux, transparent huge pages "madvise" or "always"). Throws std::bad_alloc.
 [[nodiscard]] void* allocate_large(std::size_t bytes);
-/// What `allocate_large` gave for that many bytes.
+/// Frees memory that `allocate_large` gave for that many bytes.
 void release_large(void* memory, std::size_t bytes) noexcept;
 
 /// The allocator of LargeArray.

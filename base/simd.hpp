@@ -60,13 +60,13 @@ inline void store_lanes(Lanes lanes, double* values) { std::memcpy(values, &lane
 #endif
 }
 
-/// What rounding takes off a - b: a - b is the rounded difference and this, exactly (Knuth).
+/// Rounding error of a - b: the rounded difference and this add up to a - b exactly (Knuth).
 [[nodiscard]] inline Lanes difference_error(Lanes a, Lanes b) {
     const Lanes difference = a - b, of_b = a - difference;
     return (a - (difference + of_b)) + (of_b - b);
 }
 
-/// What rounding takes off a b, exactly where neither overflows nor underflows: the same bits with fused multiply-add as
+/// Rounding error of a b, exact where neither overflows nor underflows: bitwise identical with fused multiply-add and
 /// without, where the factors are cut in halves whose products are doubles (Dekker).
 [[nodiscard]] inline Lanes product_error(Lanes a, Lanes b) {
 #if defined(__AVX512F__)

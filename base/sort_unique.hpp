@@ -10,7 +10,7 @@
 namespace abut {
 namespace detail {
 
-/// The same as `sort_unique` by a mark for each number from `least` on, in time that is linear in `range` and the values: a bit
+/// Like `sort_unique`, by a mark for each number from `least` on, in time that is linear in `range` and the values: one bit
 /// each beside the result.
 template <std::integral T>
 std::vector<T> marked(const std::vector<T>& values, T least, std::size_t range) {

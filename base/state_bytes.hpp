@@ -69,7 +69,7 @@ public:
         take(std::as_writable_bytes(std::span(values)));
         return values;
     }
-    /// What is left [bytes].
+    /// Number of bytes not yet read [bytes].
     [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
     /// Throws BadInput if something is left.
     void finish() const;

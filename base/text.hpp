@@ -12,7 +12,7 @@ namespace abut {
 /// The text with a space in place of each control character, line ends and tabs among them.
 [[nodiscard]] std::string in_one_line(std::string text);
 
-/// Whether a text has a control character.
+/// True if a text has a control character.
 [[nodiscard]] bool has_control_character(std::string_view text);
 
 /// A text as spreadsheets take it for one: those that begin with = + - @ and are no numbers, which they would take for a
