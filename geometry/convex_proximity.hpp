@@ -5,7 +5,7 @@
 
 namespace abut::geometry {
 
-/// How two convex bodies lie to each other. Law: moving body 2 by `depth` along `direction` parts them, and no point of 1 is
+/// Relative position of two convex bodies. Law: moving body 2 by `depth` along `direction` parts them, and no point of 1 is
 /// nearer than `distance` to a point of 2. At most one of the two is positive; both are 0 when the bodies touch.
 template <int Dim>
 struct ConvexProximity {

@@ -32,7 +32,7 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] double planarity_deviation(FaceVertices<Dim> face);
 
-/// Whether no vertex of the polygon lies more than `tolerance` [m] on the outer side of the line of any edge. Straight
+/// True if no vertex of the polygon lies more than `tolerance` [m] on the outer side of the line of any edge. Straight
 /// corners and repeated vertices are convex. Segments and degenerate faces are, and a polygon that runs around twice.
 template <int Dim>
 [[nodiscard]] bool is_convex(FaceVertices<Dim> face, double tolerance);

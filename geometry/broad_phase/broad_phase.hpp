@@ -15,7 +15,7 @@
 
 namespace abut::geometry {
 
-/// What finds the pairs of boxes that overlap. The answers are identical; the cost differs (docs/detection.md).
+/// Methods that find the pairs of boxes that overlap. The answers are identical; the cost differs (docs/detection.md).
 enum class BroadPhase {
     automatic,    ///< brute force for a handful of boxes, else the packed tree
     packed_tree,  ///< boxes in the order of a curve through space, packed eight to a block, in double precision
@@ -24,7 +24,7 @@ enum class BroadPhase {
     brute_force,  ///< every box against every box: the oracle
 };
 
-/// Those that this build has: Embree and FCL may be left out where `geometry` is built without `mesh`. A search by another one
+/// Methods that this build has: Embree and FCL may be left out where `geometry` is built without `mesh`. A search by another
 /// throws BadInput.
 [[nodiscard]] std::span<const BroadPhase> broad_phases();
 
@@ -34,7 +34,7 @@ struct IndexPair {
     friend auto operator<=>(const IndexPair&, const IndexPair&) = default;
 };
 
-/// What a search may take before it gives up with a SearchLimitError.
+/// Limits at which a search gives up with a SearchLimitError.
 struct SearchLimits {
     std::int64_t pairs = 250'000'000;  ///< that overlap and are wanted; at most 2^32 - 1
     /// Memory for trees and pairs [bytes], beside the boxes of the caller. That of the trees is estimated before anything is
@@ -57,7 +57,7 @@ struct SearchOptions {
     bool in_spatial_order = false;
 };
 
-/// Whether a pair of boxes that overlap is wanted. Called from several threads at once; an empty function wants all.
+/// Decides whether a pair of boxes that overlap is wanted. Called from several threads at once; an empty function wants all.
 using PairFilter = std::function<bool(std::int32_t, std::int32_t)>;
 
 /// All (i, j) for which boxes_1[i] and boxes_2[j] overlap (closed test, in double), sorted, each once. Empty boxes overlap

@@ -42,7 +42,7 @@ void check_device() {
         throw BadInput("Embree failed with error " + std::to_string(error) + "; use another BroadPhase");
 }
 
-// Embree's tree is in single precision. Every bound goes through one function a coordinate that never decreases, and
+// Embree's tree is in single precision. Every bound goes through one function per coordinate that never decreases, and
 // the test of its tree is closed: whatever touches in double still touches in float, no pair is lost.
 struct FloatBox {
     std::array<float, 3> lower, upper;
@@ -111,7 +111,7 @@ std::vector<FloatBoxes> float_boxes(std::span<const Boxes> sets) {
     return result;
 }
 
-/// What Embree's threads read while it builds a tree.
+/// Data that Embree's threads read while it builds a tree.
 struct Source {
     const FloatBoxes& boxes;
     ForkJoin loop{};

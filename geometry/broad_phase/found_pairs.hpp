@@ -16,7 +16,7 @@ class FoundPairs {
 public:
     FoundPairs(std::int64_t most, PairFilter wanted) : most_(most), wanted_(std::move(wanted)) {}
 
-    /// What one thread finds.
+    /// Pairs that one thread finds.
     class Local {
     public:
         void add(std::int32_t first, std::int32_t second) {
@@ -37,7 +37,7 @@ public:
         std::vector<std::vector<IndexPair>> chunks_;
     };
 
-    /// That of the calling thread.
+    /// Pairs of the calling thread.
     [[nodiscard]] Local& local();
     [[nodiscard]] bool too_many() const { return in_full_chunks_.load(std::memory_order_relaxed) > most_; }
     /// All that were added, duplicates included; at least that many if there are too many.

@@ -7,7 +7,7 @@
 namespace abut::geometry {
 namespace {
 
-/// Where a part of n things begins; the end of the last part is n.
+/// Index at which a part of n things begins; the end of the last part is n.
 std::size_t begin_of(std::size_t n, int part, int n_parts) {
     return n * static_cast<std::size_t>(part) / static_cast<std::size_t>(n_parts);
 }

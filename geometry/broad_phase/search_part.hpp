@@ -24,8 +24,8 @@ template <int Dim>
                                                                std::span<const Box<Dim>> boxes_1,
                                                                std::span<const Box<Dim>> boxes_2, const PairFilter& wanted);
 
-/// The same within one set, in any order: pairs within a contiguous range of it, and every other one of the pairs that this
-/// range has with boxes outside.
+/// Same search within one set, in any order: pairs within a contiguous range of it, and every other one of the pairs that
+/// this range has with boxes outside.
 template <int Dim>
 [[nodiscard]] std::vector<IndexPair> overlapping_pairs_of_part(const SearchPart& part, const SearchOptions& options,
                                                                std::span<const Box<Dim>> boxes, const PairFilter& wanted);

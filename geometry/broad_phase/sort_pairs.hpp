@@ -12,7 +12,7 @@
 namespace abut::geometry {
 
 /// The n pairs that `for_each(use)` hands to `use`, the same each time it is called: sorted, each once. Their `first` lies
-/// in [0, n_first). Rows are counted, then each is sorted: n_first + n log (pairs a row).
+/// in [0, n_first). Rows are counted, then each is sorted: n_first + n log (pairs per row).
 template <class ForEach>
 [[nodiscard]] std::vector<IndexPair> sorted_pairs(std::size_t n, std::size_t n_first, const ForEach& for_each) {
     std::vector<IndexPair> pairs(n);

@@ -65,7 +65,7 @@ int viewing_axis(const Corners& corners) {
     return axis;
 }
 
-/// Whether two edges that are no neighbours have a point in common, seen along a coordinate axis. Exact, and for a flat
+/// True if two edges that are no neighbours have a point in common, seen along a coordinate axis. Exact, and for a flat
 /// polygon the same as in its plane.
 bool touches_itself(const Corners& corners) {
     const int axis = viewing_axis(corners), u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -94,7 +94,7 @@ FaceFault fault_of_vertices(const FaceSoup& soup, std::span<const std::int32_t> 
     return largest > max_coordinate ? FaceFault::too_large : FaceFault::none;
 }
 
-/// Whether the polygon is convex within what contact allows; only where its area is one to speak of.
+/// True if the polygon is convex within what contact allows; only where its area is one to speak of.
 bool has_convex_shape(const Corners& corners, double area) {
     return corners.size() == 3 || is_convex<3>(corners, shape_tolerance(corners) * std::sqrt(area));
 }
@@ -153,7 +153,7 @@ std::string describe_index(const FaceSoup& soup, std::span<const std::int32_t> v
            std::to_string(soup.vertices.size());
 }
 
-/// Of the first vertex that `is_bad`, its coordinates.
+/// Coordinates of the first vertex that `is_bad`.
 template <class Predicate>
 std::string position_of_bad(const FaceSoup& soup, std::span<const std::int32_t> vertices, Predicate is_bad) {
     for (const std::int32_t v : vertices) {

@@ -34,7 +34,7 @@ inline constexpr double min_length = 1e-75;
 /// not exactly collinear is usable, and so is a polygon that is not flat (to be cut into triangles) or a face that repeats
 /// an earlier one the other way round. Never throws for bad faces; BadInput for bad offsets. n log n.
 [[nodiscard]] std::vector<FaceFault> face_faults(const FaceSoup& soup);
-/// The same for a caller that has the result of merged_vertices(soup.vertices) already.
+/// Overload for a caller that has the result of merged_vertices(soup.vertices) already.
 [[nodiscard]] std::vector<FaceFault> face_faults(const FaceSoup& soup, std::span<const std::int32_t> merged_vertices);
 
 /// The corners of a face as merged vertices, without those that repeat their predecessor. The face must name no vertex out

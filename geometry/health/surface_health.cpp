@@ -212,7 +212,7 @@ private:
         for (SurfaceComponent& component : report_.components) component.inside_out = component.volume < 0.0;
     }
 
-    /// Of each set of corners the first face, whichever way it runs: at most one other is not a duplicate of it.
+    /// Compares with the first face of each set of corners, whichever way it runs: at most one other is no duplicate of it.
     void find_flipped_duplicates() {
         struct Key {
             std::array<std::int32_t, max_polygon_vertices> corners{};

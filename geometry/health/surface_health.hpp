@@ -43,7 +43,7 @@ struct SurfaceComponent {
     bool inside_out = false;  ///< volume < 0: turned round, or the wall of a cavity
 };
 
-/// What there is to know of a surface before it is used. Vectors list faults, counts are complete. "Usable" faces are those
+/// Report on a surface before it is used. Vectors list faults, counts are complete. "Usable" faces are those
 /// without a fault; except for the first block, all figures are theirs. Vertices at exactly one position are one, except for
 /// `n_unwelded_vertices`.
 struct SurfaceReport {
@@ -87,9 +87,9 @@ struct SurfaceReport {
     std::vector<IndexPair> self_intersections;  ///< the first of them, sorted (geometry/health/self_intersections.hpp)
 
     [[nodiscard]] std::int32_t n_usable() const { return n_faults[static_cast<std::size_t>(FaceFault::none)]; }
-    /// Whether every component is closed, and there is one.
+    /// True if every component is closed, and there is one.
     [[nodiscard]] bool closed() const;
-    /// Whether nothing at all is wrong: every face usable and flat, every component closed, oriented and not inside out, no
+    /// True if nothing at all is wrong: every face usable and flat, every component closed, oriented and not inside out, no
     /// flipped duplicate, no edge of more than two faces, no known self-intersection. Slivers and vertices that are not
     /// referenced or not welded do no harm.
     [[nodiscard]] bool sound() const;

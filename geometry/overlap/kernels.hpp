@@ -13,7 +13,7 @@ inline constexpr double thin_face = 1e-9;
 /// z component of a x b [m^2].
 inline double cross(const PlaneVector<3>& a, const PlaneVector<3>& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// What it took to decide on a pair.
+/// Arithmetic that decided on a pair.
 enum class Arithmetic { doubles, exact };
 
 /// The reference: exact constructions, each result rounded once.

@@ -47,7 +47,7 @@ struct EdgeAndPoint {
     PlaneLanes edge, arm;  ///< end - start, point - nearer: rounded
 };
 
-/// How far apart the ends of an arm are, in the sum of components.
+/// Distance between the ends of an arm, in the sum of components.
 inline Lanes length_of(PlaneLanes arm) { return absolute(arm.x) + absolute(arm.y); }
 
 inline EdgeAndPoint seen_from_nearer_end(PlaneLanes start, PlaneLanes end, PlaneLanes edge, PlaneLanes point) {
@@ -56,7 +56,7 @@ inline EdgeAndPoint seen_from_nearer_end(PlaneLanes start, PlaneLanes end, Plane
     return {start, end, choose(at_end, end, start), point, edge, choose(at_end, from_end, from_start)};
 }
 
-/// Where the point lies on the line of an edge as sure as the coordinates are what they are.
+/// Lanes in which the point lies on the line of an edge exactly, for coordinates as given.
 inline LaneMask is_on_line(PlaneLanes edge, PlaneLanes arm) {
     const LaneMask at_x = arm.x == 0.0, at_y = arm.y == 0.0;
     return (at_x & (at_y | (edge.x == 0.0))) | (at_y & (edge.y == 0.0));
@@ -73,7 +73,7 @@ struct HeightInDoubles {
     }
 };
 
-/// The same with twice the digits where doubles are not sure: left and right are then equal except for the last digits, and
+/// Height with twice the digits where doubles are not sure: left and right are then equal except for the last digits, and
 /// their difference is exact. What rounding took off the products and off the differences of the coordinates is added. Of
 /// six terms of 2^-53 of the products at most each is rounded a few times: together by less than 2^-102 of them, and half of
 /// what is allowed here.
@@ -114,7 +114,7 @@ struct CornerArms {
     }
 };
 
-/// Of every corner of one triangle over the lines of the edges of the other, times the length of the edge; > 0 inside.
+/// Heights of the corners of one triangle over the lines of the other's edges, times the length of the edge; > 0 inside.
 struct Heights {
     Lanes of[3][3];  // [edge][corner]
 
@@ -135,7 +135,7 @@ struct Heights {
     }
 };
 
-/// What heights tell of two triangles.
+/// Conclusions from the heights of two triangles.
 struct Certainty {
     LaneMask is_separated;  ///< a line has all of the other triangle on it or beyond
     LaneMask is_known;      ///< all signs are those of the given coordinates
@@ -150,7 +150,7 @@ SignedHeight sharpened(Lanes height, const EdgeAndPoint& at, Lanes limit, LaneMa
     return {is_clear ? height : (is_zero ? Lanes{} : sharp.value), is_clear | (is_given & (is_zero | sharp.is_sure))};
 }
 
-/// The same for all heights of one triangle over the lines of another.
+/// Sharpened heights of one triangle over all lines of another.
 template <class HeightOf>
 Certainty sharpen(const TriangleLanes& line, const TriangleLanes& point, Lanes limit, LaneMask is_given, HeightOf height_of,
                   Heights& heights) {
@@ -169,7 +169,7 @@ Certainty sharpen(const TriangleLanes& line, const TriangleLanes& point, Lanes l
     return result;
 }
 
-/// Of the lines of the edges of two triangles the one that the other triangle is above the least: where one of them
+/// Among the lines of the edges of two triangles, the one that the other triangle is above the least: where one of them
 /// separates the two, most often this one does.
 class LowestLine {
 public:

@@ -8,7 +8,7 @@
 
 namespace abut::geometry {
 
-/// How the area that two faces share is computed.
+/// Methods to compute the area that two faces share.
 enum class AreaMethod {
     fast,   ///< double arithmetic; whether the faces overlap at all is decided exactly
     exact,  ///< CGAL exact constructions, rounded to double at the end: the reference
@@ -53,7 +53,7 @@ struct TrianglePair {
     PlaneVector<3> shift;  ///< of face 2
 };
 
-/// What it took to decide on pairs; the three add up to their number.
+/// Number of pairs by the arithmetic that decided on them; the three add up to all pairs.
 struct DecisionCounts {
     std::int64_t by_doubles = 0;           ///< many at once: signs are sure with doubles, or with twice their digits
     std::int64_t by_scalar_path = 0;       ///< one by one, doubles still enough

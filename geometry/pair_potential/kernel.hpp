@@ -64,7 +64,7 @@ struct PairNormals<3> {
     std::array<Vector<2>, 2> slope;    ///< of the height along n over the plane, gamma
 };
 
-/// What two faces look like along n, whatever k: for states, not for forces.
+/// Overlap and gap of two faces along n, whatever k: for states, not for forces.
 struct PairView {
     double overlap = 0.0;  ///< |P|
     double gap = std::numeric_limits<double>::infinity();

@@ -50,7 +50,7 @@ private:
     const PairCorners<2>& z_;
 };
 
-/// Of face `face` at unit length each: d(n_1 . n_2)/d(second corner less first).
+/// Derivative for face `face` with unit lengths: d(n_1 . n_2)/d(second corner less first).
 Vector<2> facing_gradient(const PairNormals<2>& normals, int face) {
     const double own = normals.length[face], other = normals.length[1 - face];
     return normals.edge[1 - face] / (own * other) - normals.facing / (own * own) * normals.edge[face];

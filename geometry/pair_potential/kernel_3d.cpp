@@ -63,7 +63,7 @@ struct PlaneGradient {
     std::array<Vector<2>, 6> plane;
 };
 
-/// What g over the inside does: I_v = k int g N_v.
+/// Adds the gradient of g over the inside: I_v = k int g N_v.
 void add_inside(const PairNormals<3>& normals, const Seen& seen, const Moments& moments, double stiffness,
                 PlaneGradient& gradient) {
     for (int face = 0; face < 2; ++face) {
@@ -83,7 +83,7 @@ void add_inside(const PairNormals<3>& normals, const Seen& seen, const Moments& 
     }
 }
 
-/// What the motion of an edge of the overlap does: it is that of the edge of a face, from corner `start` to `end`.
+/// Adds the gradient of the motion of an edge of the overlap, that of the edge of a face from corner `start` to `end`.
 void add_edge(const PlaneCorner& from, const PlaneCorner& to, int start, int end, double factor, const Seen& seen,
               PlaneGradient& gradient) {
     constexpr double gauss = 0.21132486540518711775;  // (1 - 1/sqrt(3))/2

@@ -40,7 +40,7 @@ struct PairPath {
         for (std::size_t v = 0; v < z.size(); ++v) z[v] = z_0[v] + s * motion[v];
         return z;
     }
-    /// Whether no face turns or changes its shape, beyond what rounding does to corners.
+    /// True if no face turns or changes its shape, beyond what rounding does to corners.
     [[nodiscard]] bool only_translates() const {
         double change = 0.0;
         for (const int first : {0, Dim})

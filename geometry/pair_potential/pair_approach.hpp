@@ -16,8 +16,8 @@ struct OutlinePart {
     double past_previous = 0.0;
 };
 
-/// Where the overlap of a pair that shares nothing would begin: on face 1 and on face 2. n_1 . n_2 must be at most 0.3. Where
-/// faces touch the direction is that to the middle of the other face.
+/// Points where the overlap of a pair that shares nothing would begin: on face 1 and on face 2. n_1 . n_2 must be at most
+/// 0.3. Where faces touch the direction is that to the middle of the other face.
 template <int Dim>
 [[nodiscard]] std::array<OutlinePart, 2> pair_approach(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
 

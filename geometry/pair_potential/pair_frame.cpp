@@ -24,7 +24,7 @@ Vector<Dim> mean_of(const Vector<Dim>& a, const Vector<Dim>& b) {
     return 0.5 * (a + b);
 }
 
-/// Of the squared length of a mean of two unit vectors: rounding errors of momenta are divided by it.
+/// Least squared length of a mean of two unit vectors: rounding errors of momenta are divided by it.
 constexpr double turned_over = 1e-8;
 
 }  // namespace

@@ -33,7 +33,7 @@ struct PairFrame<3> {
     PairCorners<3> z;            ///< (e_1 . y, e_2 . y, e_3 . y)
 };
 
-/// Whether the pair turns by half a turn along a step, or next to it: there is no way back then that keeps the momenta.
+/// True if the pair turns by half a turn along a step, or next to it: there is no way back then that keeps the momenta.
 template <int Dim>
 [[nodiscard]] bool turns_over(const PairFrame<Dim>& start, const PairFrame<Dim>& end);
 

@@ -46,7 +46,7 @@ Vector<Dim> between_middles(const PairCorners<Dim>& x) {
     return between;
 }
 
-/// How far the normal of a face can turn while no corner moves by more than `reach` [rad]; pi / 2 where nothing can be said.
+/// Largest turn of the normal of a face while no corner moves by more than `reach` [rad]; pi / 2 where no bound is known.
 double largest_turn(const Vector<2>& edge, double reach) {
     const double ratio = 2.0 * reach / edge.norm();
     return ratio < 1.0 ? std::asin(ratio) : 0.5 * std::numbers::pi;
@@ -65,7 +65,7 @@ double largest_turn(const PairCorners<3>& x, double reach) {
     return std::max(largest_turn(x[1] - x[0], x[2] - x[0], reach), largest_turn(x[4] - x[3], x[5] - x[3], reach));
 }
 
-/// Of the difference of both normals in n.
+/// Largest change of the difference of both normals in n.
 double largest_change(const PairCorners<2>&, const PairLaw<2>& law, double, double reach) {
     return 2.0 * reach * (1.0 / law.length[0] + 1.0 / law.length[1]);
 }

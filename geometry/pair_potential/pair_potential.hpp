@@ -31,7 +31,7 @@ struct PairLaw {
     FacingFade facing{};
 };
 
-/// What a pair is like in one place.
+/// State of a pair in one position.
 template <int Dim>
 struct PairState {
     double energy = 0.0;                       ///< W [J]
@@ -47,7 +47,7 @@ struct PairState {
 template <int Dim>
 [[nodiscard]] PairState<Dim> pair_state(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
 
-/// What can be told of a pair at little cost.
+/// Classes of pairs that can be told apart at little cost.
 enum class PairPlace {
     apart,        ///< g >= 0 all over: W = 0
     beside,       ///< no overlap: W = 0
@@ -66,12 +66,12 @@ struct PairPlacement {
 };
 template <int Dim>
 [[nodiscard]] PairPlacement<Dim> pair_placement(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
-/// Whether two placements tell that W = 0 all along the straight paths of the corners between them, which end at `end`.
+/// True if two placements tell that W = 0 all along the straight paths of the corners between them, which end at `end`.
 template <int Dim>
 [[nodiscard]] bool stays_inactive(const PairPlacement<Dim>& at_start, const PairPlacement<Dim>& at_end,
                                   const PairCorners<Dim>& end);
 
-/// What a pair can do in all positions in which no corner is farther than a reach from where it is now.
+/// Possible states of a pair in all positions in which no corner is farther than a reach from where it is now.
 template <int Dim>
 struct PairOutlook {
     /// False only if W = 0 in all of them, where |g| is not larger than a given depth: the faces stay apart, above or beside
@@ -91,7 +91,7 @@ enum class PairRest {
     apart,   ///< g >= 0 all over: W = 0
     beside,  ///< no overlap, where |g| <= depth: W = 0
 };
-/// What an outlook tells at once of one of these positions; the cheapest of all tests.
+/// Conclusion from an outlook for one of these positions; the cheapest of all tests.
 template <int Dim>
 [[nodiscard]] PairRest rests(const PairOutlook<Dim>& outlook, const PairCorners<Dim>& corners);
 
@@ -107,7 +107,7 @@ struct PairGradient {
 template <int Dim>
 [[nodiscard]] PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<Dim>& law);
 
-/// How the mean along a step is taken.
+/// Options of the mean along a step.
 struct PairPathOptions {
     /// Cut the step where faces begin or end to overlap and corners pass through the other face (2D), or where the contact
     /// begins or ends and in the middle of large steps (3D). Without, the correction takes up more, and the force is less

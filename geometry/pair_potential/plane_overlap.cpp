@@ -15,7 +15,7 @@ double cross(const Vector<2>& a, const Vector<2>& b) { return a[0] * b[1] - a[1]
 
 using CornerValues = std::array<double, PlanePolygon::capacity>;
 
-/// How often the sign changes around the polygon.
+/// Number of changes of sign around the polygon.
 int sign_changes(const CornerValues& value, int size) {
     unsigned negative = 0;
     for (int i = 0; i < size; ++i) negative |= static_cast<unsigned>(value[i] < 0.0) << i;

@@ -40,17 +40,17 @@ struct PlanePolygon {
     }
 };
 
-/// What two triangles share: corners 0 to 2 counter-clockwise, 3 to 5 clockwise. Gaps are not set. An edge of the overlap
+/// Overlap of two triangles: corners 0 to 2 counter-clockwise, 3 to 5 clockwise. Gaps are not set. An edge of the overlap
 /// that lies on an edge of both, within 1e-12 of its length, has the lines of both.
 [[nodiscard]] PlanePolygon overlap_in_plane(const std::array<Vector<2>, 6>& corners);
 
 /// Cuts away what has g >= 0; g is linear over the polygon.
 void keep_negative_gap(PlanePolygon& polygon);
 
-/// Whether there is more to it than an edge or a point, up to rounding.
+/// True if there is more to it than an edge or a point, up to rounding.
 [[nodiscard]] bool has_area(const PlanePolygon& polygon, const std::array<Vector<2>, 6>& corners);
 
-/// Of triangles that share nothing: the point halfway between their nearest points.
+/// Point halfway between the nearest points of triangles that share nothing.
 [[nodiscard]] Vector<2> halfway_between(const std::array<Vector<2>, 6>& corners);
 
 }  // namespace abut::geometry
