@@ -40,7 +40,7 @@ template <class Value>
     return number;
 }
 
-/// Of some cells, increasing.
+/// Vertices of some cells, increasing.
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> vertices_of(const Mesh<Dim>& mesh, const std::vector<std::int32_t>& cells) {
     std::vector<bool> used(mesh.vertices.size(), false);

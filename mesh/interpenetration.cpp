@@ -49,7 +49,7 @@ std::vector<Vector<Dim>> corners(const Mesh<Dim>& mesh, std::int32_t cell) {
     return points;
 }
 
-/// Whether all points lie on the outer side of a face of the cell, up to `tolerance` [m]: quick, and exact for cells that
+/// True if all points lie on the outer side of a face of the cell, up to `tolerance` [m]: quick, and exact for cells that
 /// touch.
 template <int Dim>
 bool outside_of_a_face(const Mesh<Dim>& mesh, std::int32_t cell, const std::vector<Vector<Dim>>& points, double tolerance) {

@@ -36,7 +36,7 @@ struct CellMeasures {
 };
 template <int Dim>
 [[nodiscard]] CellMeasures<Dim> measure_cells(const CellSoup<Dim>& soup);
-/// The same of one cell.
+/// Measure and centroid of one cell.
 template <int Dim>
 void measure_cell(const CellSoup<Dim>& soup, std::int32_t cell, double& measure, Vector<Dim>& centroid);
 

@@ -42,7 +42,7 @@ struct BoundaryGroup {
     std::vector<std::int32_t> faces;  ///< face indices, increasing
 };
 
-/// What `build_mesh` did to its input besides numbering it. Nothing happens to a mesh that is not counted here.
+/// Changes that `build_mesh` made to its input besides numbering it. Nothing happens to a mesh that is not counted here.
 struct BuildReport {
     std::int32_t n_unused_vertices = 0;   ///< vertices of the input that no cell uses, dropped
     std::int32_t n_ignored_elements = 0;  ///< elements of a file that are neither cells nor named boundary faces
@@ -98,7 +98,7 @@ struct Mesh {
     [[nodiscard]] const BoundaryGroup& group(const std::string& group_name) const;
 };
 
-/// What `build_mesh` starts from: what every mesh file holds.
+/// Input of `build_mesh`: the data that every mesh file holds.
 template <int Dim>
 struct CellSoup {
     std::string name;
@@ -120,7 +120,7 @@ struct CellSoup {
     std::vector<std::string> warnings;       ///< goes into the report
 };
 
-/// What to do with a face of four vertices that do not lie in a plane (hexahedra, prisms, pyramids).
+/// Treatment of a face of four vertices that do not lie in a plane (hexahedra, prisms, pyramids).
 enum class NonPlanarFaces : std::uint8_t {
     fail,   ///< throw MeshError
     split,  ///< cut its cells, and every cell they share a quadrangle with, into tetrahedra (see mesh/split.hpp)

@@ -7,7 +7,7 @@
 
 namespace abut::mesh {
 
-/// What one of several ranks has of a mesh: its own cells, and copies of others, which other ranks own. Cells and
+/// Part of a mesh that one of several ranks has: its own cells, and copies of others, which other ranks own. Cells and
 /// faces come in the order that they have in the whole mesh, bodies and groups are all there. Where the part ends inside a
 /// body, its outermost copies have boundary faces that the whole mesh does not have.
 template <int Dim>
@@ -18,7 +18,7 @@ struct MeshPart {
     std::int32_t n_cells = 0;               ///< of the whole mesh
 };
 
-/// How many cells deep copies are: what a force on a cell of a linear body depends on, with the operators of solid
+/// Depth of the copies in cells: all that a force on a cell of a linear body depends on, with the operators of solid
 /// (solid::copy_layers, docs/ranks.md).
 inline constexpr int default_layers = 8;
 

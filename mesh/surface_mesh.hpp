@@ -24,7 +24,7 @@ struct SurfaceMesh {
     std::vector<std::string> warnings;    ///< what the reader of the file warned of
 
     [[nodiscard]] geometry::FaceSoup soup() const { return {vertices, faces.offsets, faces.values}; }
-    /// What messages call a face.
+    /// Label of a face in messages.
     [[nodiscard]] std::int64_t label(std::int32_t face) const {
         return face_label.empty() ? face : face_label[static_cast<std::size_t>(face)];
     }
@@ -47,7 +47,7 @@ void name_connected_bodies(SurfaceMesh& mesh);
 /// vertices of the mesh (n_vertices), or empty.
 [[nodiscard]] SurfaceMesh boundary_of(const Mesh<3>& mesh, std::span<const Vector<3>> displacement = {});
 
-/// What to do with faces that cannot be used (geometry::FaceFault).
+/// Treatment of faces that cannot be used (geometry::FaceFault).
 enum class UnusableFaces : std::uint8_t {
     fail,  ///< throw MeshError
     skip,  ///< leave them out

@@ -98,7 +98,7 @@ std::vector<std::int32_t> find_twins(const CellSoup<Dim>& soup, const std::vecto
     return twin;
 }
 
-/// Whether `second` runs through the vertices of `first` one after the other, forwards (+1) or backwards (-1), from
+/// True if `second` runs through the vertices of `first` one after the other, forwards (+1) or backwards (-1), from
 /// wherever.
 bool runs_through(std::span<const std::int32_t> first, std::span<const std::int32_t> second, std::ptrdiff_t sense) {
     const auto n = static_cast<std::ptrdiff_t>(second.size());

@@ -203,7 +203,7 @@ Matrix<3> turn_about(const Vector<3>& axis, int variant) {
     return Eigen::AngleAxisd(variant * golden_angle, axis.normalized()).toRotationMatrix();
 }
 
-/// Of a box with one corner at the origin.
+/// Name of the side of a box with one corner at the origin.
 template <int Dim>
 std::string side_of_box(const Vector<3>& centre, const Vector<Dim>& sides) {
     static const std::array<std::string, 6> names = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};

@@ -19,8 +19,8 @@ using GridPoint = std::array<int, Dim>;  ///< in half bricks: corners are even, 
 
 using LocalCell = std::vector<std::int32_t>;
 
-/// How a brick is cut: cells by the brick's own vertices, 0 .. 3 or 0 .. 7 in the order of quadrangle and hexahedron; 8
-/// is its centre.
+/// Cells that a brick is cut into, by the brick's own vertices, 0 .. 3 or 0 .. 7 in the order of quadrangle and hexahedron;
+/// 8 is its centre.
 std::vector<LocalCell> pieces_of_brick(CellShape shape) {
     switch (shape) {
         case CellShape::quadrangle:
