@@ -8,7 +8,7 @@
 
 namespace abut::run {
 
-/// What a run had to share out so far, by its records: what its errors are measured with.
+/// Energy and momentum that a run had so far, by its records: scales for its errors.
 template <int Dim>
 struct Accounts {
     /// The largest of the kinetic energy at the start, |work|, H~0 + work, what of that is not in V, as in a fall, and -V [J].

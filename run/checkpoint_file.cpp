@@ -59,7 +59,7 @@ void write_file(const fs::path& path, const std::string& head, std::span<const s
     synchronise(path);
 }
 
-/// What is behind the head.
+/// Reads the bytes behind the head.
 Bytes read_file(const fs::path& path) {
     const auto refuse = [&](const std::string& why) { throw BadInput(fmt::format("{}: {}", path.string(), why)); };
     const std::string all = file_bytes(path);
@@ -140,7 +140,7 @@ Checkpoint read_content(const H5::H5File& file) {
     return checkpoint;
 }
 
-/// Of a file in memory that is no file.
+/// Access properties of a file that exists in memory alone.
 H5::FileAccPropList in_memory() {
     H5::Exception::dontPrint();
     H5::FileAccPropList access;

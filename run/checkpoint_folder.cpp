@@ -21,7 +21,7 @@ constexpr std::size_t kept = 2;
 
 }  // namespace
 
-/// Of the checkpoints, the last step first.
+/// Files of the checkpoints, the last step first.
 std::vector<fs::path> CheckpointFolder::files() const {
     std::vector<fs::path> files;
     std::error_code error;
@@ -46,7 +46,7 @@ void CheckpointFolder::add(const Checkpoint& checkpoint) const {
         if (i < now || i >= now + kept) fs::remove(all[i], error);  // one too many harms nobody
 }
 
-/// What a run has left that was killed while it wrote.
+/// Removes files of a run that was killed while it wrote.
 void CheckpointFolder::remove_unfinished() const {
     std::error_code error;
     std::vector<fs::path> unfinished;

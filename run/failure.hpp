@@ -8,7 +8,7 @@
 
 namespace abut::run {
 
-/// What is known of a run that could not end a step, or that has diverged.
+/// Facts about a run that could not end a step, or that has diverged.
 struct Failure {
     const dynamics::IntegratorState& sound;  ///< of the last record at which H - H~ was at most half the energy in play
     const dynamics::IntegratorState* lost = nullptr;  ///< in which the run was given up; none where a step has no end

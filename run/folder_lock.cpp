@@ -85,7 +85,7 @@ void take(int file, const fs::path& directory) {
     if (!no_locks) refuse_directory(directory, reason_of(errno));
 }
 
-/// Whether the open file still is what its name leads to.
+/// True if the open file still is what its name leads to.
 bool is_in_place(int file, const fs::path& path) {
     struct stat opened {};
     struct stat named {};

@@ -16,7 +16,7 @@ namespace abut::run {
     return gap <= 0.0 ? gap : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// What one rank has of a frame: its own cells, in their order in the scene.
+/// Part of a frame that one rank has: its own cells, in their order in the scene.
 template <int Dim>
 struct FramePiece {
     std::int64_t frame = 0;                 ///< number of the frame

@@ -29,7 +29,7 @@ std::vector<double> in_contact(std::vector<double> gaps) {
 /// Stresses of some cells, and what follows from them.
 template <int Dim>
 struct Stresses {
-    /// Of all cells, as the last evaluation of the solid left them.
+    /// Stresses of all cells, as the last evaluation of the solid left them.
     explicit Stresses(solid::Solid<Dim>& solid) {
         for (std::int32_t c = 0; c < solid.mesh().n_cells(); ++c)
             add(solid.stress(c),
@@ -73,7 +73,7 @@ std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::sp
     return chosen;
 }
 
-/// What files show of a piece; both arguments must outlive it.
+/// Fields that files show of a piece; both arguments must outlive it.
 template <int Dim>
 mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& piece, const Stresses<Dim>& stresses) {
     return {.cells = piece.cells,
@@ -93,7 +93,7 @@ void write_piece(const std::filesystem::path& directory, const std::string& seri
                       shown<Dim>(fields, piece, stresses));
 }
 
-/// Where a face is, of bodies whose vertices are known or whose cells are displaced as a whole.
+/// Position of a face of bodies whose vertices are known or whose cells are displaced as a whole.
 template <int Dim>
 Vector<Dim> middle_of(solid::BoundaryFace boundary, const mesh::Mesh<Dim>& mesh, std::span<const Vector<Dim>> of_cells,
                       std::span<const Vector<Dim>> of_vertices) {

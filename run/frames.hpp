@@ -59,7 +59,7 @@ private:
     std::optional<mesh::PointSeries<Dim>> pairs_;
 };
 
-/// What a rank other than 0 leaves of frames in pieces: its own files of them.
+/// Files of frames in pieces that a rank other than 0 writes.
 template <int Dim>
 class PieceFiles : public Observer<Dim> {
 public:

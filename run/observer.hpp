@@ -23,8 +23,8 @@ public:
     /// An entry of the ledger: at the start, every `interval` steps and at the end. It is in `result.ledger` already.
     virtual void record(const dynamics::LedgerEntry<Dim>&, const RunResult<Dim>&) {}
     virtual void look(const dynamics::RunView<Dim>&, solid::Solid<Dim>&) {}  ///< at the start and after each step
-    /// Whether `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the whole
-    /// of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
+    /// True if `look` has something to do at the start (0) or after this step: else it is not called. On several ranks the
+    /// whole of the run is brought together for it; it knows no forces on obstacles then, and its contact lists are new.
     [[nodiscard]] virtual bool wants_look(std::int64_t /*step*/) const { return true; }
     virtual void progress(std::int64_t /*step*/, double /*time*/) {}  ///< at the start and after each step, before `look`
     /// Asked at the start and after each step but the last: true makes it the last one, which is recorded in any case.
@@ -45,7 +45,7 @@ public:
     /// Asked after each step, before `look`: whether somebody keeps a checkpoint of it; `stops`: it is the last one for now.
     [[nodiscard]] virtual bool wants_checkpoint(std::int64_t /*step*/, bool /*stops*/) const { return false; }
     virtual void keep(const Checkpoint&) {}  ///< a checkpoint, wherever one is wanted
-    /// What `resume` needs, for a checkpoint.
+    /// Writes all that `resume` needs, for a checkpoint.
     virtual void save(StateWriter&) {}
     /// In place of `begin`, where a run goes on after a checkpoint: `result` has the entries of the ledger until then, `state`
     /// holds what `save` has put there.

@@ -8,7 +8,7 @@
 
 namespace abut::run {
 
-/// Where a run is watched: in the cell that holds a place, or on the mean over a whole body.
+/// Position at which a run is watched: the cell that holds a point, or the mean over a whole body.
 template <int Dim>
 struct Probe {
     std::string name;
@@ -16,7 +16,7 @@ struct Probe {
     std::optional<Vector<Dim>> position{};  ///< at rest [m]; none: the body as a whole
 };
 
-/// What frames for ParaView hold beside the displacement.
+/// Fields of frames for ParaView beside the displacement.
 struct FrameFields {
     bool velocity = true;
     bool stress = true;  ///< in 2D with that out of the plane
@@ -26,7 +26,7 @@ struct FrameFields {
     bool pairs = true;     ///< of faces that push each other, as a series of points
 };
 
-/// What ResultFiles leaves of a scene beside its energies.
+/// Files that ResultFiles writes of a scene beside its energies.
 template <int Dim>
 struct Outputs {
     std::vector<Probe<Dim>> probes{};  ///< probes.csv; none: no file

@@ -9,7 +9,7 @@ namespace abut::run {
 ///     paraview --script=out/mine/view_in_paraview.py
 [[nodiscard]] std::string paraview_script(const std::string& series);
 
-/// What it is called beside the series.
+/// File name of the script, which lies beside the series.
 inline constexpr const char* paraview_script_name = "view_in_paraview.py";
 
 }  // namespace abut::run

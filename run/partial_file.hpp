@@ -20,7 +20,7 @@ public:
     void flush();  ///< what is written by now outlives the process
     void finish();
 
-    /// Of what is written by now [bytes]; it outlives the process.
+    /// Size of what is written by now [bytes]; it outlives the process.
     [[nodiscard]] std::uintmax_t size();
     [[nodiscard]] bool is_open() const { return file_.is_open(); }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }

@@ -19,14 +19,14 @@ namespace {
 
 using solid::Kinematics;
 
-/// Of the largest kinetic energy of the scene, what a body may take as elastic energy and pass for a rigid one.
+/// Share of the largest kinetic energy of the scene that a rigid body may take as elastic energy at most.
 constexpr double rigid_strain_share = 0.01;
 /// The pilot run sees in steps of so much of the time at least how far bodies turn.
 constexpr double least_pilot_steps = 200.0;
 /// From which the time of a whole run is told.
 constexpr int timed_steps = 8;
 
-/// What is known of a body at rest.
+/// Facts about a body at rest.
 template <int Dim>
 struct RestBody {
     double size = 0.0;        // edge of a cube or square as large [m]
@@ -195,7 +195,7 @@ RunResult<Dim> run_rigid(const Scene<Dim>& scene, const RunOptions& given, doubl
     }
 }
 
-/// Of the elastic energy that each body takes at most, over the largest kinetic energy of all.
+/// Largest elastic energy of each body over the largest kinetic energy of all.
 template <int Dim>
 std::vector<double> strain_shares(const StartEnergies<Dim>& elastic_start, const Lookout<Dim>& lookout) {
     std::vector<double> share(lookout.strain.size(), 0.0);

@@ -7,7 +7,7 @@
 
 namespace abut::run {
 
-/// What the pilot run showed of a body, and what was picked for it.
+/// Findings of the pilot run about a body, and the kinematics chosen for it.
 struct PilotBody {
     solid::Kinematics picked;
     double rotation;  ///< at most, from its position at rest [rad]
@@ -15,12 +15,12 @@ struct PilotBody {
     double strain_share;
 };
 
-/// What BodyKinematics::automatic rests on.
+/// Findings that BodyKinematics::automatic rests on.
 struct PilotReport {
     std::vector<PilotBody> bodies;  ///< in the order of the mesh
     std::int64_t steps = 0;         ///< of the pilot run
     double seconds = 0.0;           ///< that it took, with the steps timed for the estimates
-    /// What the steps of the whole run take where all bodies are of one kind, from a few of them [s]; `rigid`: as the pilot run
+    /// Time of all steps of the run where all bodies are of one kind, from a few of them [s]; `rigid`: as the pilot run
     /// took; NaN: the scene cannot be run so.
     double small = 0.0;
     double floating = 0.0;

@@ -41,7 +41,7 @@ std::vector<double> components(const Matrix<Dim>& stress, double poisson) {
         return {stress(0, 0), stress(1, 1), stress(2, 2), stress(1, 2), stress(0, 2), stress(0, 1)};
 }
 
-/// How far a place is beyond the face of a convex cell that it is farthest from, < 0 inside [m].
+/// Distance of a point beyond the face of a convex cell that it is farthest from, < 0 inside [m].
 template <int Dim>
 double distance_beside(const mesh::Mesh<Dim>& mesh, std::int32_t cell, const Vector<Dim>& position) {
     double farthest = -std::numeric_limits<double>::infinity();

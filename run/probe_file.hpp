@@ -8,7 +8,7 @@
 
 namespace abut::run {
 
-/// What the probes of a scene see, as CSV: a row at the start, every `Outputs::interval` steps, and at the end. Columns are
+/// Values at the probes of a scene, as CSV: a row at the start, every `Outputs::interval` steps, and at the end. Columns are
 /// step, time and, for each probe, "<name>.displacement_x" [m], "<name>.velocity_x" [m/s], "<name>.stress_xx" [Pa] and so
 /// on, "<name>.von_mises" [Pa]; in 2D stress_zz is that of plane strain.
 ///

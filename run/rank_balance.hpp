@@ -9,7 +9,7 @@
 
 namespace abut::run {
 
-/// What the own cells of each rank cost, and whether that is worth sharing them out again. Costs differ from run to run: rank 0
+/// Cost of the own cells of each rank, and whether it is worth distributing them again. Costs differ from run to run: rank 0
 /// decides, and all know what it has decided on. No bit of a run depends on that.
 class RankBalance {
 public:

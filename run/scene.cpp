@@ -34,7 +34,7 @@ std::vector<Vector<Dim>> centroids(const mesh::Mesh<Dim>& mesh) {
     return sums;
 }
 
-/// Of the cells of `mesh`, the scene's or a part of it, beside the velocity of their body [m/s].
+/// Velocities of the cells of `mesh`, the scene's or a part of it, beside that of their body [m/s].
 template <int Dim>
 std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::Mesh<Dim>& mesh) {
     std::vector<Vector<Dim>> added(mesh.cell_centroid.size(), Vector<Dim>::Zero());
@@ -51,7 +51,7 @@ std::vector<Vector<Dim>> added_velocities(const Scene<Dim>& scene, const mesh::M
 /// Such a scheme knows the modified reconstruction alone.
 bool takes_local_steps(SolidIntegrator integrator) { return integrator == SolidIntegrator::memm_async; }
 
-/// Whether a body or an obstacle may.
+/// True if a body or an obstacle may.
 template <int Dim>
 bool turns(const solid::SolidOptions<Dim>& solid) {
     return std::ranges::any_of(solid.kinematics, [](auto kinematics) { return kinematics != solid::Kinematics::small; }) ||

@@ -22,7 +22,7 @@
 
 namespace abut::run {
 
-/// What the energies of a run are measured with.
+/// Scale of the energies of a run.
 struct EnergyScale {
     std::string name = "K0";  ///< a letter and its index
     /// [J]; 0: the largest of kinetic energy, V and work from outside so far (Accounts::energy_in_play), which is K0 as long as
@@ -36,7 +36,7 @@ struct EnergyScale {
 template <int Dim>
 struct RunResult;
 
-/// What is run: bodies, what they are made of, what acts on them, and how they move at the start.
+/// A scene to run: bodies, their materials, loads and obstacles, and their motion at the start.
 template <int Dim>
 struct Scene {
     mesh::Mesh<Dim> mesh{};
@@ -56,7 +56,7 @@ struct Scene {
     std::function<std::vector<Finding>(const RunResult<Dim>&)> findings{};  ///< at the end; may be empty
 };
 
-/// Where the time of a run went [s].
+/// Time that the parts of a run took [s].
 struct RunSeconds {
     double total = 0.0;
     double mesh = 0.0;   ///< making or reading it; known only to whoever did
@@ -93,7 +93,7 @@ struct RunResult {
         forces_from_outside;  ///< "supports", "gravity" and so on: what changes momentum; empty: nothing
     std::vector<std::string> moments_from_outside;  ///< what changes angular momentum
     bool accounts_for_outside = false;              ///< Accounts::momentum_drift leaves out all that they have given
-    /// Where J~ is conserved: times the square root of an energy it is a bound of the angular momentum [kg^(1/2) m]; else 0
+    /// Scale where J~ is conserved: times the root of an energy it is a bound of the angular momentum [kg^(1/2) m]; else 0
     double moment_scale = 0.0;
     std::optional<PilotReport> pilot;              ///< under BodyKinematics::automatic
     bool all_may_turn = false;                     ///< no body is of Kinematics::small
@@ -111,19 +111,19 @@ struct RunResult {
     std::vector<Finding> findings;  ///< of the scene
 };
 
-/// What the solid of a scene is made with. Throws BadInput for BodyKinematics::automatic, which choose_kinematics resolves.
+/// Options of the solid of a scene. Throws BadInput for BodyKinematics::automatic, which choose_kinematics resolves.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
 /// With `restart` filled in, by the kinematics that the bodies are run with.
 template <int Dim>
 [[nodiscard]] RunOptions with_restart(RunOptions options, const Scene<Dim>& scene);
-/// Of the points of the scene's solid, on several ranks of those of this one, (n_points, Dim) [m].
+/// Displacements of the points of the scene's solid, on several ranks of those of this one, (n_points, Dim) [m].
 template <int Dim>
 [[nodiscard]] std::vector<double> displacement_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);
-/// What a body of a run is.
+/// Kinematics of a body of a run.
 template <int Dim>
 [[nodiscard]] solid::Kinematics kinematics_of(const Scene<Dim>& scene, const RunResult<Dim>& result, std::size_t body);
-/// Of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities or
+/// Momenta of the points of the scene's solid, (n_points, Dim) [kg m/s]. Throws BadInput for another number of velocities or
 /// spins than bodies.
 template <int Dim>
 [[nodiscard]] std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Solid<Dim>& solid);

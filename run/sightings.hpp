@@ -30,7 +30,7 @@ struct LookEnded {
     std::string reason;  ///< the message of the error
 };
 
-/// What was seen of bodies at the records of a run, each body once.
+/// Sightings of bodies at the records of a run, each body once.
 template <int Dim>
 struct Sightings {
     std::vector<PastRim> past_rims;

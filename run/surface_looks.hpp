@@ -13,7 +13,7 @@ struct Encounter {
     double time = 0.0;      ///< when that was [s]
 };
 
-/// What was seen of the surfaces of the bodies where they are, whatever contact knows of them: at the end, and before that at
+/// Findings about the surfaces of the bodies where they are, whatever contact knows of them: at the end, and before that at
 /// records, as often as costs about a hundredth of the run.
 struct SurfaceLooks {
     std::int64_t looks = 0;
@@ -24,7 +24,7 @@ struct SurfaceLooks {
     Encounter remote{};
     /// Two bodies that slid along each other under the highest mean pressure: that over E of the softer one is `ratio`.
     Encounter pressed{};
-    /// Where nothing has touched: those that were nearest to each other at the end. Without names: nothing could touch.
+    /// Surfaces nearest to each other at the end, where nothing has touched. Without names: nothing could touch.
     Encounter nearest{};
 };
 

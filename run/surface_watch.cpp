@@ -56,7 +56,7 @@ Vector<Dim> perpendicular(std::span<const Vector<Dim>> face) {
     }
 }
 
-/// How far all of 2 is from all of 1 along an axis of unit length [m], < 0 where they overlap: their distance is no less.
+/// Distance of all of 2 from all of 1 along an axis of unit length [m], < 0 where they overlap: their distance is no less.
 template <int Dim>
 double separation(std::span<const Vector<Dim>> of_1, std::span<const Vector<Dim>> of_2, const Vector<Dim>& axis) {
     const auto range = [&](std::span<const Vector<Dim>> points) {
@@ -222,7 +222,7 @@ double SurfaceWatch<Dim>::size(const Part& part) const {
     return std::numeric_limits<double>::infinity();
 }
 
-/// How far two parts are inside each other [m]; 0: they are not. Bodies with flat sides that are apart can be parted along a
+/// Depth of two parts inside each other [m]; 0: they are not. Bodies with flat sides that are apart can be parted along a
 /// normal of a side, in 3D along one of two edges as well.
 template <int Dim>
 double SurfaceWatch<Dim>::depth(const Part& part_1, const Part& part_2, double at_least) const {
@@ -242,7 +242,7 @@ double SurfaceWatch<Dim>::depth(const Part& part_1, const Part& part_2, double a
     return depth > tolerance ? depth : 0.0;
 }
 
-/// How deep cells are inside each other. Returns what it has cost.
+/// Measures how deep cells are inside each other. Returns what it has cost.
 template <int Dim>
 std::int64_t SurfaceWatch<Dim>::look_at_depths(double time) {
     std::int64_t cost = 0;

@@ -6,8 +6,8 @@
 
 namespace abut::run {
 
-/// What a summary may hold under a name; std::monostate is "not known" (null in summary.json, as is a number that is not
-/// finite).
+/// Value that a summary may hold under a name; std::monostate is "not known" (null in summary.json, as is a number that is
+/// not finite).
 using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::int64_t>,
                            std::vector<double>, std::vector<std::string>>;
 

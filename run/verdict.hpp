@@ -6,7 +6,7 @@
 
 namespace abut::run {
 
-/// What a finished run is worth, in a few sentences: the same wherever it is said.
+/// Verdict on a finished run, in a few sentences that are the same everywhere.
 struct Verdict {
     bool good;  ///< it came to its end, H~ is kept to round-off, nothing warns, and bodies that could touch have
     std::string text;
@@ -15,14 +15,14 @@ struct Verdict {
 template <int Dim>
 [[nodiscard]] Verdict verdict(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
-/// Those of warnings_before and of warnings_after.
+/// Warnings of warnings_before and of warnings_after.
 template <int Dim>
 [[nodiscard]] std::vector<Warning> all_warnings(const Scene<Dim>& scene, const RunResult<Dim>& result);
 
-/// What is to be said behind the drift of momentum, or in place of it: ", less what gravity has given", "not conserved: supports".
+/// Words behind the drift of momentum, or in place of it: ", less what gravity has given", "not conserved: supports".
 template <int Dim>
 [[nodiscard]] std::string momentum_note(const RunResult<Dim>& result);
-/// The same of angular momentum.
+/// Words behind the drift of angular momentum.
 template <int Dim>
 [[nodiscard]] std::string moment_note(const RunResult<Dim>& result);
 /// The largest change of momentum that nothing from outside explains [kg m/s]; NaN where what acts is not accounted for.

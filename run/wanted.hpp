@@ -4,7 +4,7 @@
 
 namespace abut::run {
 
-/// What the observer of rank 0 wants after a step, or before the first one, as one number that all ranks are told.
+/// Wishes of the observer of rank 0 after a step, or before the first one, as one number that all ranks are told.
 struct Wanted {
     bool stop = false;
     bool look = false;

@@ -53,7 +53,7 @@ void add_mesh(Counts& counts, const mesh::BuildReport& report) {
                            report.n_coincident_vertices));
 }
 
-/// How a body or an obstacle is called in messages.
+/// Name of a body or an obstacle in messages.
 template <int Dim>
 std::string name_in(const Scene<Dim>& scene, std::int32_t body) {
     return (body < scene.mesh.n_bodies() ? "body " : "") + quoted_name(scene, body);
@@ -105,7 +105,7 @@ void add_edges(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& re
          edges->facing(), seen.cosine});
 }
 
-/// That a body, or all of them, lie where an obstacle does nothing for them.
+/// Warns that a body, or all of them, lie where an obstacle does nothing for them.
 template <int Dim>
 void add_behind(Counts& counts, const Scene<Dim>& scene) {
     for (const Behind& behind : behind_at_start(scene))
@@ -120,7 +120,7 @@ void add_behind(Counts& counts, const Scene<Dim>& scene) {
              std::numeric_limits<double>::quiet_NaN(), 0.0});
 }
 
-/// What was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
+/// Warns of what was seen at records: bodies past the rim of their floor, and bodies that came near themselves.
 template <int Dim>
 void add_sightings(Counts& counts, const RunResult<Dim>& result) {
     for (const PastRim& past : result.sightings.past_rims)
@@ -146,7 +146,7 @@ void add_sightings(Counts& counts, const RunResult<Dim>& result) {
              ended.time, 0.0});
 }
 
-/// That the mass of cells at their centroids leaves out a part of the inertia of a body that turns.
+/// Warns that the mass of cells at their centroids leaves out a part of the inertia of a body that turns.
 template <int Dim>
 void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& result) {
     for (std::size_t body = 0; body < result.inertia.size(); ++body) {
@@ -165,7 +165,7 @@ void add_inertia(Counts& counts, const Scene<Dim>& scene, const RunResult<Dim>& 
     }
 }
 
-/// What H~ does not see.
+/// Warns of what H~ does not see.
 template <int Dim>
 void add_motion(Counts& counts, const RunResult<Dim>& result) {
     const dynamics::Ledger<Dim>& ledger = result.ledger;
@@ -204,7 +204,7 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
     }
 }
 
-/// What is seen of the surfaces, whatever contact knows.
+/// Warns of what is seen of the surfaces, whatever contact knows.
 template <int Dim>
 void add_looks(Counts& counts, const RunResult<Dim>& result) {
     const SurfaceLooks& looks = result.looks;

@@ -13,7 +13,7 @@ inline constexpr double stiff_sliding_ratio = 1.0;
 /// docs/limits.md.
 inline constexpr double deep_slip_compression = 0.3;
 
-/// How far a body may turn before it is worth a word [rad]: it has grown by 0.5 % then. docs/limits.md.
+/// Angle by which a body may turn without a warning [rad]: it has grown by 0.5 % then. docs/limits.md.
 inline constexpr double far_rotation = 0.1;
 
 /// I / I_exact below which a body that may turn is worth a word [-]: it turns and precesses faster by as much. docs/limits.md.
@@ -24,15 +24,15 @@ inline constexpr double large_strain = 0.2;
 
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
 inline constexpr double large_energy_excess = 0.02;
-/// The same of |e|/m over the largest speed [-]: a note from the first, and a warning from the second: good impacts have 0.2 to
+/// Limits of |e|/m over the largest speed [-]: a note from the first, a warning from the second. Good impacts have 0.2 to
 /// 0.4 in single cells, with H - H~ below 0.1 %.
 inline constexpr double large_parasitic_share = 0.1, spoiling_parasitic_share = 0.5;
 /// The change of J~, where it is conserved, over what it may be with that energy, above which it is no round-off [-].
 inline constexpr double large_moment_drift = 1e-6;
-/// How deep cells of different bodies are inside each other, over the size of the smaller one, where contact has not prevented
+/// Depth of cells of different bodies inside each other, over the size of the smaller one, where contact has not prevented
 /// it [-].
 inline constexpr double deep_interpenetration = 0.5;
-/// How far apart faces are that push each other, over the size of the smaller one, where they cannot touch [-].
+/// Distance of faces that push each other, over the size of the smaller one, where they cannot touch [-].
 inline constexpr double contact_from_afar = 0.25;
 /// Contact pressure over E above which sliding over faces that do not lie in a plane may cost more than 1 % of the speed [-]: a
 /// note, since good impacts have 0.1.
@@ -43,7 +43,7 @@ enum class Severity {
     warning,  ///< may spoil the result
 };
 
-/// What a warning is about, with what its `value` counts; what is counted has the threshold 0.
+/// Subject of a warning, with what its `value` counts; what is counted has the threshold 0.
 enum class WarningKind {
     mesh_file,            ///< the reader of a file warned; no value
     unused_vertices,      ///< note: vertices that belong to no cell
@@ -95,11 +95,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<Warning> warnings_during(std::int64_t step, const RunResult<Dim>& result);
 
-/// What happened in contact, and mostly does not show in H~: of a finished run.
+/// Warnings of what happened in contact of a finished run and mostly does not show in H~.
 template <int Dim>
 [[nodiscard]] std::vector<Warning> warnings_after(const RunResult<Dim>& result);
 
-/// Those that may spoil the result.
+/// Warnings that may spoil the result.
 [[nodiscard]] std::vector<Warning> without_notes(std::vector<Warning> warnings);
 
 }  // namespace abut::run
