@@ -141,7 +141,7 @@ void read(Parts& parts, const mesh::Mesh<3>& both) {
     const auto file = std::filesystem::temp_directory_path() / fmt::format("abut_start_up_{}.vtu", getpid());
     mesh::write_vtu(both, file);
     std::optional<mesh::Mesh<3>> again;
-    parts.run("the same from a .vtu file, VTK included", [&] { again = mesh::read_mesh<3>(file); });
+    parts.run("the same from a .vtu file", [&] { again = mesh::read_mesh<3>(file); });
     std::filesystem::remove(file);
     if (again->n_cells() != both.n_cells()) throw std::runtime_error("the file has other cells than were written.");
 }

@@ -18,7 +18,7 @@ function(abut_build_info file)
   endif()
 
   set(abut_library_versions "")
-  foreach(library IN ITEMS Eigen3=Eigen TBB=TBB CGAL=CGAL embree=Embree fcl=FCL Gmsh=Gmsh VTK=VTK nanoflann=nanoflann fmt=fmt
+  foreach(library IN ITEMS Eigen3=Eigen TBB=TBB CGAL=CGAL embree=Embree fcl=FCL Gmsh=Gmsh pugixml=pugixml nanoflann=nanoflann fmt=fmt
                            nlohmann_json=nlohmann-json tomlplusplus=toml++ muparser=muParser CLI11=CLI11 spdlog=spdlog
                            MPI_C=MPI Zoltan=Zoltan Kokkos=Kokkos)
     string(REGEX MATCH "^(.*)=(.*)$" matched ${library})

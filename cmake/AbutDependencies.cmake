@@ -39,8 +39,8 @@ endif()
 
 if(mesh IN_LIST abut_wanted_layers)
   abut_find(Gmsh 4.8 ARGS MODULE TARGETS Gmsh::Gmsh)
-  abut_find(VTK 9.1 ARGS CONFIG COMPONENTS CommonCore CommonDataModel IOXML
-    TARGETS VTK::CommonCore VTK::CommonDataModel VTK::IOXML)
+  abut_find(pugixml 1.12 ARGS CONFIG TARGETS pugixml::pugixml)
+  abut_find(ZLIB 1.2 ARGS MODULE TARGETS ZLIB::ZLIB)
 endif()
 
 if(solid IN_LIST abut_wanted_layers)
@@ -106,4 +106,7 @@ endif()
 # tests
 if(ABUT_TESTS)
   abut_find(Catch2 2.13 ARGS CONFIG TARGETS Catch2::Catch2)
+  if(run IN_LIST abut_wanted_layers)
+    abut_find(EXPAT 2.5 ARGS MODULE TARGETS EXPAT::EXPAT)
+  endif()
 endif()

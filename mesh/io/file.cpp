@@ -49,11 +49,11 @@ void PreparedFile::move_into_place() {
     temporary_.clear();
 }
 
-PreparedFile prepared_text(const std::filesystem::path& path, const std::string& text) {
+PreparedFile prepared_file(const std::filesystem::path& path, std::span<const std::string_view> parts) {
     PreparedFile prepared(path);
     errno = 0;
     std::ofstream file(prepared.temporary(), std::ios::binary);
-    file << text;
+    for (const std::string_view part : parts) file.write(part.data(), static_cast<std::streamsize>(part.size()));
     file.close();
     if (!file) {
         const std::string reason = errno != 0 ? std::generic_category().message(errno) : "the folder takes no more";
@@ -61,6 +61,10 @@ PreparedFile prepared_text(const std::filesystem::path& path, const std::string&
                         ". Check permissions and free space of its folder.");
     }
     return prepared;
+}
+
+PreparedFile prepared_text(const std::filesystem::path& path, std::string_view text) {
+    return prepared_file(path, {&text, 1});
 }
 
 }  // namespace abut::mesh

@@ -1,7 +1,9 @@
 #pragma once
 // Private to the layer; not installed.
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace abut::mesh {
@@ -32,7 +34,8 @@ private:
     std::filesystem::path path_, temporary_;
 };
 
-/// Throws MeshError naming the path and the reason if the text cannot be written.
-[[nodiscard]] PreparedFile prepared_text(const std::filesystem::path& path, const std::string& text);
+/// A file of these bytes, one part behind the other. Throws MeshError naming the path and the reason if they cannot be written.
+[[nodiscard]] PreparedFile prepared_file(const std::filesystem::path& path, std::span<const std::string_view> parts);
+[[nodiscard]] PreparedFile prepared_text(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace abut::mesh

@@ -1,13 +1,7 @@
 #include "abut/mesh/io/point_series.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkXMLPolyDataWriter.h>
-
-#include <array>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "abut/mesh/io/series_files.hpp"
@@ -17,23 +11,6 @@ namespace abut::mesh {
 namespace {
 
 constexpr const char* extension = ".vtp";
-
-template <int Dim>
-vtkSmartPointer<vtkPolyData> grid_of_points(std::span<const Vector<Dim>> position) {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    vtkNew<vtkCellArray> vertices;
-    for (const Vector<Dim>& x : position) {
-        std::array<double, 3> tuple{};
-        fill(tuple.data(), x);
-        const vtkIdType point = points->InsertNextPoint(tuple.data());
-        vertices->InsertNextCell(1, &point);
-    }
-    auto grid = vtkSmartPointer<vtkPolyData>::New();
-    grid->SetPoints(points);
-    grid->SetVerts(vertices);
-    return grid;
-}
 
 }  // namespace
 
@@ -45,11 +22,14 @@ PointSeries<Dim>::PointSeries(std::filesystem::path directory, std::string basen
 
 template <int Dim>
 void PointSeries<Dim>::write(const PointFrame<Dim>& frame) {
-    const auto grid = grid_of_points(frame.position);
-    add_fields<Dim>(*grid->GetPointData(), frame.fields, frame.position.size(), "points", "PointSeries");
+    std::vector<std::int64_t> points(frame.position.size()), ends(frame.position.size());
+    std::iota(points.begin(), points.end(), 0);
+    std::iota(ends.begin(), ends.end(), 1);
+    auto grid = output_grid("PolyData", "Verts", frame.position, points, ends);
+    add_fields<Dim>(grid.point_data, frame.fields, frame.position.size(), "points", "PointSeries");
     auto times = times_;
     times.push_back(frame.time);
-    auto file = prepared_grid<vtkXMLPolyDataWriter>(*grid, directory_ / frame_name(basename_, times_.size(), extension));
+    auto file = prepared_grid(grid, directory_ / frame_name(basename_, times_.size(), extension));
     auto list = prepared_list(directory_, basename_, extension, times);
     file.move_into_place();
     list.move_into_place();

@@ -1,15 +1,10 @@
 #include "abut/mesh/io/read_vtu.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkCellType.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkUnstructuredGrid.h>
-
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,65 +26,62 @@ struct VtkShape {
     bool is_curved = false;                    ///< of order 2: more points behind its corners
 };
 
-std::optional<VtkShape> shape_of_vtk(int type) {
+std::optional<VtkShape> shape_of_vtk(std::int64_t type) {
     constexpr std::array<int, max_cell_vertices> same = {0, 1, 2, 3, 4, 5, 6, 7};
     constexpr std::array<int, max_cell_vertices> lattice = {0, 1, 3, 2, 4, 5, 7, 6};
     switch (type) {
-        case VTK_TRIANGLE:
+        case vtk_triangle:
             return VtkShape{CellShape::triangle, same};
-        case VTK_QUAD:
+        case vtk_quad:
             return VtkShape{CellShape::quadrangle, same};
-        case VTK_PIXEL:
+        case vtk_pixel:
             return VtkShape{CellShape::quadrangle, lattice};
-        case VTK_TETRA:
+        case vtk_tetra:
             return VtkShape{CellShape::tetrahedron, same};
-        case VTK_HEXAHEDRON:
+        case vtk_hexahedron:
             return VtkShape{CellShape::hexahedron, same};
-        case VTK_VOXEL:
+        case vtk_voxel:
             return VtkShape{CellShape::hexahedron, lattice};
-        case VTK_WEDGE:
+        case vtk_wedge:
             return VtkShape{CellShape::prism, same};
-        case VTK_PYRAMID:
+        case vtk_pyramid:
             return VtkShape{CellShape::pyramid, same};
-        case VTK_QUADRATIC_TRIANGLE:
-        case VTK_BIQUADRATIC_TRIANGLE:
+        case vtk_quadratic_triangle:
+        case vtk_biquadratic_triangle:
             return VtkShape{CellShape::triangle, same, true};
-        case VTK_QUADRATIC_QUAD:
-        case VTK_BIQUADRATIC_QUAD:
+        case vtk_quadratic_quad:
+        case vtk_biquadratic_quad:
             return VtkShape{CellShape::quadrangle, same, true};
-        case VTK_QUADRATIC_TETRA:
+        case vtk_quadratic_tetra:
             return VtkShape{CellShape::tetrahedron, same, true};
-        case VTK_QUADRATIC_HEXAHEDRON:
-        case VTK_TRIQUADRATIC_HEXAHEDRON:
+        case vtk_quadratic_hexahedron:
+        case vtk_triquadratic_hexahedron:
             return VtkShape{CellShape::hexahedron, same, true};
-        case VTK_QUADRATIC_WEDGE:
-        case VTK_BIQUADRATIC_QUADRATIC_WEDGE:
+        case vtk_quadratic_wedge:
+        case vtk_biquadratic_quadratic_wedge:
             return VtkShape{CellShape::prism, same, true};
-        case VTK_QUADRATIC_PYRAMID:
+        case vtk_quadratic_pyramid:
             return VtkShape{CellShape::pyramid, same, true};
         default:
             return std::nullopt;
     }
 }
 
-bool has_lower_dimension(int type, int dimension) {
-    const bool point = type == VTK_EMPTY_CELL || type == VTK_VERTEX || type == VTK_POLY_VERTEX;
-    const bool line = type == VTK_LINE || type == VTK_POLY_LINE || type == VTK_QUADRATIC_EDGE;
-    const bool surface = type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_PIXEL || type == VTK_POLYGON ||
-                         type == VTK_TRIANGLE_STRIP || type == VTK_QUADRATIC_TRIANGLE || type == VTK_BIQUADRATIC_TRIANGLE ||
-                         type == VTK_QUADRATIC_QUAD || type == VTK_BIQUADRATIC_QUAD;
+bool has_lower_dimension(std::int64_t type, int dimension) {
+    const bool point = type == vtk_empty_cell || type == vtk_vertex || type == vtk_poly_vertex;
+    const bool line = type == vtk_line || type == vtk_poly_line || type == vtk_quadratic_edge;
+    const bool surface = type == vtk_triangle || type == vtk_quad || type == vtk_pixel || type == vtk_polygon ||
+                         type == vtk_triangle_strip || type == vtk_quadratic_triangle || type == vtk_biquadratic_triangle ||
+                         type == vtk_quadratic_quad || type == vtk_biquadratic_quad;
     return point || line || (dimension == 3 && surface);
 }
 
 template <int Dim>
-void read_points(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid, double planarity_tolerance) {
+void read_points(CellSoup<Dim>& soup, const VtkGrid& grid, double planarity_tolerance) {
     geometry::Box<3> box;
-    soup.vertices.resize(static_cast<std::size_t>(grid.GetNumberOfPoints()));
-    for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
-        Vector<3> point;
-        grid.GetPoint(static_cast<vtkIdType>(i), point.data());
+    for (const Vector<3>& point : grid.points) {
         box.extend(point);
-        soup.vertices[i] = point.head<Dim>();
+        soup.vertices.push_back(point.head<Dim>());
     }
     if (Dim == 2) check_lies_in_plane(soup.name, box, planarity_tolerance);
 }
@@ -106,25 +98,25 @@ void turn_wedge(const CellSoup<Dim>& soup, std::array<std::int32_t, max_cell_ver
 }
 
 template <int Dim>
-void append_cell(CellSoup<Dim>& soup, const VtkShape& shape, vtkIdList& ids, vtkIdType cell, std::int32_t body) {
+void append_cell(CellSoup<Dim>& soup, const VtkShape& shape, std::span<const std::int64_t> ids, std::size_t cell) {
     std::array<std::int32_t, max_cell_vertices> vertices{};
     const auto n = static_cast<std::size_t>(n_vertices(shape.shape));
-    for (std::size_t i = 0; i < n; ++i) vertices[i] = static_cast<std::int32_t>(ids.GetId(shape.order[i]));
+    for (std::size_t i = 0; i < n; ++i)
+        vertices[i] = static_cast<std::int32_t>(ids[static_cast<std::size_t>(shape.order[i])]);
     if (shape.shape == CellShape::prism) turn_wedge(soup, vertices);
     soup.cell_vertices.append({vertices.data(), n});
     soup.cell_shape.push_back(shape.shape);
-    soup.cell_body.push_back(body);
-    soup.cell_label.push_back(cell);
+    soup.cell_body.push_back(-1);
+    soup.cell_label.push_back(static_cast<std::int64_t>(cell));
 }
 
 template <int Dim>
-void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
+void read_cells(CellSoup<Dim>& soup, const VtkGrid& grid) {
     const auto values = body_values(soup.name, grid);
     std::vector<std::int64_t> bodies;
     std::size_t n_curved = 0;
-    vtkNew<vtkIdList> ids;
-    for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
-        const int type = grid.GetCellType(cell);
+    for (std::size_t cell = 0; cell < grid.n_cells(); ++cell) {
+        const std::int64_t type = grid.cell_types[cell];
         const auto shape = shape_of_vtk(type);
         if (has_lower_dimension(type, Dim)) {
             ++soup.n_ignored_elements;
@@ -135,20 +127,19 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
                 soup.name + ": cell " + std::to_string(cell) + " has the VTK cell type " + std::to_string(type) +
                 ", which is no cell of a mesh of dimension " + std::to_string(Dim) +
                 " here. Convert it to straight-sided triangles, quadrangles, tetrahedra, hexahedra, wedges or pyramids.");
-        grid.GetCellPoints(cell, ids);
-        const auto n_ids = ids->GetNumberOfIds();
+        const auto ids = grid.corners_of(cell);
+        const auto n_ids = std::ssize(ids);
         if (shape->is_curved ? n_ids < n_vertices(shape->shape) : n_ids != n_vertices(shape->shape))
             throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has " + std::to_string(n_ids) + " points, a " +
                             std::string(name(shape->shape)) + " has " + std::to_string(n_vertices(shape->shape)) +
                             ". Write the mesh again.");
-        for (vtkIdType i = 0; i < n_ids; ++i)
-            if (ids->GetId(i) < 0 || ids->GetId(i) >= grid.GetNumberOfPoints())
-                throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has the point " +
-                                std::to_string(ids->GetId(i)) + ", the file has " +
-                                std::to_string(grid.GetNumberOfPoints()) + ". Write the mesh again.");
-        append_cell(soup, *shape, *ids, cell, -1);
+        for (const std::int64_t id : ids)
+            if (id < 0 || id >= std::ssize(grid.points))
+                throw MeshError(soup.name + ": cell " + std::to_string(cell) + " has the point " + std::to_string(id) +
+                                ", the file has " + std::to_string(grid.points.size()) + ". Write the mesh again.");
+        append_cell(soup, *shape, ids, cell);
         n_curved += shape->is_curved;
-        if (!values.empty()) bodies.push_back(values[static_cast<std::size_t>(cell)]);
+        if (!values.empty()) bodies.push_back(values[cell]);
     }
     if (n_curved > 0) soup.warnings.push_back(about_order_2(n_curved));
     soup.body_names = names_of_bodies(bodies);
@@ -159,15 +150,20 @@ void read_cells(CellSoup<Dim>& soup, vtkUnstructuredGrid& grid) {
 }  // namespace
 
 template <int Dim>
-Mesh<Dim> read_vtu(const std::filesystem::path& path, const MeshOptions& options) {
+Mesh<Dim> mesh_of(const VtkGrid& grid, const std::string& name, const MeshOptions& options) {
     CellSoup<Dim> soup;
-    soup.name = path.string();
-    const auto grid = read_unstructured_grid(path);
-    read_points(soup, *grid, options.planarity_tolerance);
-    read_cells(soup, *grid);
+    soup.name = name;
+    read_points(soup, grid, options.planarity_tolerance);
+    read_cells(soup, grid);
     return build_mesh(std::move(soup), options);
 }
 
+template <int Dim>
+Mesh<Dim> read_vtu(const std::filesystem::path& path, const MeshOptions& options) {
+    return mesh_of<Dim>(read_vtk_grid(path, VtkKind::unstructured_grid), path.string(), options);
+}
+
+template Mesh<3> mesh_of<3>(const VtkGrid&, const std::string&, const MeshOptions&);
 template Mesh<2> read_vtu<2>(const std::filesystem::path&, const MeshOptions&);
 template Mesh<3> read_vtu<3>(const std::filesystem::path&, const MeshOptions&);
 

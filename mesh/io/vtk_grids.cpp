@@ -1,25 +1,18 @@
 #include "abut/mesh/io/vtk_grids.hpp"
 
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkCellType.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-
 #include <array>
 #include <numeric>
 #include <utility>
 
 #include "abut/mesh/cell_shape.hpp"
-#include "abut/mesh/io/vtk_output.hpp"
+#include "abut/mesh/io/vtk_input.hpp"
 
 namespace abut::mesh {
 namespace {
 
-int vtk_type(CellShape shape) {
-    constexpr std::array<int, n_cell_shapes> types = {VTK_TRIANGLE,   VTK_QUAD,  VTK_TETRA,
-                                                      VTK_HEXAHEDRON, VTK_WEDGE, VTK_PYRAMID};
+std::uint8_t vtk_type(CellShape shape) {
+    constexpr std::array<VtkCell, n_cell_shapes> types = {vtk_triangle,   vtk_quad,  vtk_tetra,
+                                                          vtk_hexahedron, vtk_wedge, vtk_pyramid};
     return types[static_cast<std::size_t>(shape)];
 }
 
@@ -27,22 +20,17 @@ int vtk_type(CellShape shape) {
 std::size_t vtk_place(CellShape shape, std::size_t i) { return shape == CellShape::prism ? (i + 3) % 6 : i; }
 
 template <int Dim>
-vtkSmartPointer<vtkPoints> points_of(const Mesh<Dim>& mesh, std::span<const std::int32_t> vertices) {
-    auto points = vtkSmartPointer<vtkPoints>::New();
-    points->SetDataTypeToDouble();
-    for (const std::int32_t vertex : vertices) {
-        std::array<double, 3> x{};
-        fill(x.data(), mesh.vertices[static_cast<std::size_t>(vertex)]);
-        points->InsertNextPoint(x.data());
-    }
+std::vector<Vector<Dim>> points_of(const Mesh<Dim>& mesh, std::span<const std::int32_t> vertices) {
+    std::vector<Vector<Dim>> points;
+    for (const std::int32_t vertex : vertices) points.push_back(mesh.vertices[static_cast<std::size_t>(vertex)]);
     return points;
 }
 
 /// The number of each vertex of a mesh among these.
-std::vector<vtkIdType> numbers_among(std::size_t n, std::span<const std::int32_t> vertices) {
-    std::vector<vtkIdType> numbers(n, -1);
+std::vector<std::int64_t> numbers_among(std::size_t n, std::span<const std::int32_t> vertices) {
+    std::vector<std::int64_t> numbers(n, -1);
     for (std::size_t i = 0; i < vertices.size(); ++i)
-        numbers[static_cast<std::size_t>(vertices[i])] = static_cast<vtkIdType>(i);
+        numbers[static_cast<std::size_t>(vertices[i])] = static_cast<std::int64_t>(i);
     return numbers;
 }
 
@@ -55,17 +43,6 @@ std::vector<std::int32_t> all_of(std::size_t n) {
 }
 
 template <int Dim>
-std::vector<std::int32_t> vertices_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells) {
-    std::vector<char> used(mesh.vertices.size(), 0);
-    for (const std::int32_t cell : cells)
-        for (const std::int32_t vertex : mesh.cell_vertices[cell]) used[static_cast<std::size_t>(vertex)] = 1;
-    std::vector<std::int32_t> vertices;
-    for (std::size_t vertex = 0; vertex < used.size(); ++vertex)
-        if (used[vertex] != 0) vertices.push_back(static_cast<std::int32_t>(vertex));
-    return vertices;
-}
-
-template <int Dim>
 std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary) {
     std::vector<char> seen(mesh.vertices.size(), 0);
     std::vector<std::int32_t> vertices;
@@ -75,65 +52,50 @@ std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh, std::span<cons
     return vertices;
 }
 
-void add_numbers(vtkDataSet& grid, const char* name, std::span<const std::int32_t> numbers) {
-    vtkNew<vtkIntArray> array;
-    array->SetName(name);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(numbers.size()));
-    for (std::size_t i = 0; i < numbers.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), numbers[i]);
-    grid.GetCellData()->AddArray(array);
-}
-
 template <int Dim>
-vtkSmartPointer<vtkUnstructuredGrid> grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
-                                                   std::span<const std::int32_t> vertices) {
-    const std::vector<vtkIdType> number = numbers_among(mesh.vertices.size(), vertices);
-    auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    grid->SetPoints(points_of(mesh, vertices));
-    grid->Allocate(static_cast<vtkIdType>(cells.size()));
-    std::array<vtkIdType, max_cell_vertices> ids{};
+OutputGrid grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
+                         std::span<const std::int32_t> vertices) {
+    const std::vector<std::int64_t> number = numbers_among(mesh.vertices.size(), vertices);
+    std::vector<std::int64_t> corners, ends;
+    std::vector<std::uint8_t> types;
     std::vector<std::int32_t> bodies;
     for (const std::int32_t cell : cells) {
         const CellShape shape = mesh.cell_shape[static_cast<std::size_t>(cell)];
-        const auto corners = mesh.cell_vertices[cell];
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            ids[i] = number[static_cast<std::size_t>(corners[vtk_place(shape, i)])];
-        grid->InsertNextCell(vtk_type(shape), static_cast<vtkIdType>(corners.size()), ids.data());
+        const auto of_cell = mesh.cell_vertices[cell];
+        for (std::size_t i = 0; i < of_cell.size(); ++i)
+            corners.push_back(number[static_cast<std::size_t>(of_cell[vtk_place(shape, i)])]);
+        ends.push_back(std::ssize(corners));
+        types.push_back(vtk_type(shape));
         bodies.push_back(mesh.cell_body[static_cast<std::size_t>(cell)]);
     }
-    add_numbers(*grid, "body", bodies);
+    auto grid = output_grid<Dim>("UnstructuredGrid", "Cells", points_of(mesh, vertices), corners, ends);
+    grid.cells.push_back(output_array("types", types));
+    grid.cell_data.push_back(output_array("body", bodies));
     return grid;
 }
 
 template <int Dim>
-vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
-                                             std::span<const std::int32_t> vertices) {
-    const std::vector<vtkIdType> number = numbers_among(mesh.vertices.size(), vertices);
-    vtkNew<vtkCellArray> faces;
+OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
+                           std::span<const std::int32_t> vertices) {
+    const std::vector<std::int64_t> number = numbers_among(mesh.vertices.size(), vertices);
+    std::vector<std::int64_t> corners, ends;
     std::vector<std::int32_t> bodies;
     for (const std::int32_t index : boundary) {
         const std::int32_t face = mesh.boundary_faces[static_cast<std::size_t>(index)];
-        const auto corners = mesh.face_vertices[face];
-        faces->InsertNextCell(static_cast<int>(corners.size()));
-        for (const std::int32_t vertex : corners) faces->InsertCellPoint(number[static_cast<std::size_t>(vertex)]);
+        for (const std::int32_t vertex : mesh.face_vertices[face])
+            corners.push_back(number[static_cast<std::size_t>(vertex)]);
+        ends.push_back(std::ssize(corners));
         bodies.push_back(mesh.cell_body[static_cast<std::size_t>(mesh.face_cells[static_cast<std::size_t>(face)][0])]);
     }
-    auto surface = vtkSmartPointer<vtkPolyData>::New();
-    surface->SetPoints(points_of(mesh, vertices));
-    if (Dim == 2)
-        surface->SetLines(faces);
-    else
-        surface->SetPolys(faces);
-    add_numbers(*surface, "body", bodies);
-    return surface;
+    auto grid = output_grid<Dim>("PolyData", Dim == 2 ? "Lines" : "Polys", points_of(mesh, vertices), corners, ends);
+    grid.cell_data.push_back(output_array("body", bodies));
+    return grid;
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                         \
-    template std::vector<std::int32_t> vertices_of_cells<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>);       \
-    template std::vector<std::int32_t> surface_vertices<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>);        \
-    template vtkSmartPointer<vtkUnstructuredGrid> grid_of_cells<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>, \
-                                                                     std::span<const std::int32_t>);                  \
-    template vtkSmartPointer<vtkPolyData> grid_of_surface<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>,       \
-                                                               std::span<const std::int32_t>);
+#define ABUT_INSTANTIATE(Dim)                                                                                               \
+    template std::vector<std::int32_t> surface_vertices<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>);              \
+    template OutputGrid grid_of_cells<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>, std::span<const std::int32_t>); \
+    template OutputGrid grid_of_surface<Dim>(const Mesh<Dim>&, std::span<const std::int32_t>, std::span<const std::int32_t>);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

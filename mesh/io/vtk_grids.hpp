@@ -1,35 +1,27 @@
 #pragma once
 // Private to the layer; not installed.
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkUnstructuredGrid.h>
-
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "abut/mesh/io/vtk_output.hpp"
 #include "abut/mesh/mesh.hpp"
 
 namespace abut::mesh {
 
 /// 0, 1, ... n-1
 [[nodiscard]] std::vector<std::int32_t> all_of(std::size_t n);
-/// The vertices of these cells, increasing.
-template <int Dim>
-[[nodiscard]] std::vector<std::int32_t> vertices_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells);
 /// The vertices of these boundary faces, given by their index in Mesh::boundary_faces, in the order in which they name them.
 template <int Dim>
 [[nodiscard]] std::vector<std::int32_t> surface_vertices(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary);
 
 /// These cells on these vertices of theirs, with the cell array "body".
 template <int Dim>
-[[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
-                                                                 std::span<const std::int32_t> vertices);
+[[nodiscard]] OutputGrid grid_of_cells(const Mesh<Dim>& mesh, std::span<const std::int32_t> cells,
+                                       std::span<const std::int32_t> vertices);
 /// The same of boundary faces.
 template <int Dim>
-[[nodiscard]] vtkSmartPointer<vtkPolyData> grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
-                                                           std::span<const std::int32_t> vertices);
-/// Adds a cell array of whole numbers.
-void add_numbers(vtkDataSet& grid, const char* name, std::span<const std::int32_t> numbers);
+[[nodiscard]] OutputGrid grid_of_surface(const Mesh<Dim>& mesh, std::span<const std::int32_t> boundary,
+                                         std::span<const std::int32_t> vertices);
 
 }  // namespace abut::mesh

@@ -1,53 +1,116 @@
 #include "abut/mesh/io/vtk_output.hpp"
 
-#include <vtkErrorCode.h>
-
-#include <exception>
+#include <bit>
+#include <string_view>
 
 #include "abut/base/error.hpp"
-#include "abut/mesh/io/vtk_messages.hpp"
-#include "abut/mesh/quality.hpp"
+#include "abut/mesh/io/vtk_data.hpp"
 
 namespace abut::mesh {
+namespace {
 
-void name_components(vtkDataArray& array) {
-    constexpr std::array<const char*, 6> names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-    if (array.GetNumberOfComponents() != 6) return;
-    for (int i = 0; i < 6; ++i) array.SetComponentName(i, names[static_cast<std::size_t>(i)]);
+template <class Value>
+OutputArray array_of(const char* type, const std::string& name, std::span<const Value> values,
+                     std::size_t n_components = 1) {
+    return {array_attributes(type, name, n_components),
+            zlib_blocks({reinterpret_cast<const char*>(values.data()), values.size_bytes()})};
 }
 
-void add_field(vtkDataSetAttributes& data, vtkDataArray* array, std::size_t wanted, const char* of_what,
-               const char* writer) {
-    if (static_cast<std::size_t>(array->GetNumberOfTuples()) != wanted)
-        throw BadInput(std::string(writer) + ": field '" + array->GetName() + "' has " +
-                       std::to_string(array->GetNumberOfTuples()) + " values, one for each of the " +
-                       std::to_string(wanted) + " " + of_what + " is needed.");
-    data.AddArray(array);
-}
-
-PreparedFile prepared_grid(vtkXMLWriter& writer, vtkDataObject& grid, const std::filesystem::path& path) {
-    PreparedFile prepared(path);
-    const VtkMessages messages;
-    writer.SetInputData(&grid);
-    writer.SetFileName(prepared.temporary().c_str());
-    writer.SetDataModeToAppended();
-    writer.EncodeAppendedDataOff();
-    writer.SetCompressorTypeToZLib();
-    bool is_written = false;
-    try {
-        is_written = writer.Write() == 1;
-    } catch (const std::exception& error) {
-        throw MeshError(path.string() + ": cannot be written: VTK ends with " + error.what() +
-                        ". Give the run more memory, or write fewer fields.");
+/// Puts tags one behind the other, and their data.
+class Document {
+public:
+    explicit Document(const OutputGrid& grid) : text_(vtk_head(grid.type)) {
+        text_ += "<Piece NumberOfPoints=\"" + std::to_string(grid.n_points) + "\"";
+        for (const char* section : {"Cells", "Verts", "Lines", "Strips", "Polys"})
+            if ((grid.type == "PolyData") != (section == std::string_view("Cells")))
+                text_ += std::string(" NumberOf") + section + "=\"" +
+                         std::to_string(section == grid.cell_section ? grid.n_cells : 0) + "\"";
+        text_ += ">\n";
     }
-    const auto code = static_cast<int>(writer.GetErrorCode());  // the system's below VTK's own
-    const std::string said = messages.all();
-    if (is_written && code == 0 && said.empty()) return prepared;
-    const std::string reason =
-        code > 0 && code < vtkErrorCode::FirstVTKErrorCode ? std::generic_category().message(code) : said;
-    throw MeshError(path.string() +
-                    ": cannot be written: " + (reason.empty() ? "VTK's error " + std::to_string(code) : reason) +
-                    ". Check permissions and free space of its folder.");
+    void add_section(const std::string& name, std::span<const OutputArray> arrays, std::span<const OutputArray> more = {}) {
+        text_ += "<" + name + ">\n";
+        for (const auto part : {arrays, more})
+            for (const OutputArray& array : part) {
+                text_ +=
+                    "<DataArray " + array.attributes + " format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
+                data_.emplace_back(array.blocks);
+                offset_ += array.blocks.size();
+            }
+        text_ += "</" + name + ">\n";
+    }
+    PreparedFile prepared(const std::filesystem::path& path, const std::string& type) {
+        text_ += "</Piece>\n</" + type + ">\n<AppendedData encoding=\"raw\">\n_";
+        data_.front() = text_;
+        data_.emplace_back("\n</AppendedData>\n</VTKFile>\n");
+        return prepared_file(path, data_);
+    }
+
+private:
+    std::string text_;
+    std::vector<std::string_view> data_{""};
+    std::size_t offset_ = 0;
+};
+
+}  // namespace
+
+std::string in_xml(const std::string& text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '&')
+            safe += "&amp;";
+        else if (c == '<')
+            safe += "&lt;";
+        else if (c == '"')
+            safe += "&quot;";
+        else
+            safe += c;
+    }
+    return safe;
+}
+
+std::string array_attributes(const char* type, const std::string& name, std::size_t n_components) {
+    constexpr std::array<const char*, 6> names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+    std::string line = "type=\"" + std::string(type) + "\" Name=\"" + in_xml(name) + "\" NumberOfComponents=\"" +
+                       std::to_string(n_components) + "\"";
+    for (std::size_t i = 0; n_components == 6 && i < names.size(); ++i)
+        line += " ComponentName" + std::to_string(i) + "=\"" + names[i] + "\"";
+    return line;
+}
+
+std::string vtk_head(const std::string& type) {
+    constexpr bool is_little = std::endian::native == std::endian::little;
+    return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type + "\" version=\"0.1\" byte_order=\"" +
+           (is_little ? "LittleEndian" : "BigEndian") +
+           "\" header_type=\"UInt32\" compressor=\"vtkZLibDataCompressor\">\n<" + type + ">\n";
+}
+
+OutputArray output_array(const std::string& name, std::span<const std::uint8_t> values) {
+    return array_of("UInt8", name, values);
+}
+OutputArray output_array(const std::string& name, std::span<const std::int32_t> values) {
+    return array_of("Int32", name, values);
+}
+OutputArray output_array(const std::string& name, std::span<const std::int64_t> values) {
+    return array_of("Int64", name, values);
+}
+OutputArray output_array(const std::string& name, std::span<const double> values, std::size_t n_components) {
+    return array_of("Float64", name, values, n_components);
+}
+
+void check_size(const std::string& field, std::size_t n, std::size_t wanted, const char* of_what, const char* writer) {
+    if (n != wanted)
+        throw BadInput(std::string(writer) + ": field '" + field + "' has " + std::to_string(n) +
+                       " values, one for each of the " + std::to_string(wanted) + " " + of_what + " is needed.");
+}
+
+PreparedFile prepared_grid(const OutputGrid& grid, const std::filesystem::path& path,
+                           std::span<const OutputArray> more_point_data, std::span<const OutputArray> more_cell_data) {
+    Document document(grid);
+    document.add_section("PointData", grid.point_data, more_point_data);
+    document.add_section("CellData", grid.cell_data, more_cell_data);
+    document.add_section("Points", grid.points);
+    document.add_section(grid.cell_section, grid.cells);
+    return document.prepared(path, grid.type);
 }
 
 }  // namespace abut::mesh

@@ -1,17 +1,13 @@
 #pragma once
 // Private to the layer; not installed.
-#include <vtkDataObject.h>
-#include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-#include <vtkXMLWriter.h>
-
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "abut/base/vector.hpp"
 #include "abut/mesh/io/file.hpp"
@@ -33,48 +29,78 @@ void fill(double* tuple, const Matrix<Dim>& value) {
 }
 
 template <class Value>
-inline constexpr int n_components = 6;
+inline constexpr std::size_t n_components = 6;
 template <>
-inline constexpr int n_components<double> = 1;
+inline constexpr std::size_t n_components<double> = 1;
 template <int Dim>
-inline constexpr int n_components<Vector<Dim>> = 3;
+inline constexpr std::size_t n_components<Vector<Dim>> = 3;
 
-/// "XX", "YY", ... where the array holds tensors.
-void name_components(vtkDataArray& array);
+/// The attributes of an array's tag: its type, name, and number and names of components ("XX", "YY", ... of tensors).
+[[nodiscard]] std::string array_attributes(const char* type, const std::string& name, std::size_t n_components = 1);
+/// Text in an attribute in quotation marks.
+[[nodiscard]] std::string in_xml(const std::string& text);
+/// The lines in front of what a file of this type holds.
+[[nodiscard]] std::string vtk_head(const std::string& type);
+
+/// An array as a file will hold it.
+struct OutputArray {
+    std::string attributes;
+    std::string blocks;  ///< the values, compressed (`zlib_blocks`)
+};
+[[nodiscard]] OutputArray output_array(const std::string& name, std::span<const std::uint8_t> values);
+[[nodiscard]] OutputArray output_array(const std::string& name, std::span<const std::int32_t> values);
+[[nodiscard]] OutputArray output_array(const std::string& name, std::span<const std::int64_t> values);
+/// Values of tuples of so many components.
+[[nodiscard]] OutputArray output_array(const std::string& name, std::span<const double> values, std::size_t n_components);
 
 template <class Value>
-[[nodiscard]] vtkSmartPointer<vtkDataArray> vtk_array(const std::string& name, std::span<const Value> values) {
-    auto array = vtkSmartPointer<vtkDoubleArray>::New();
-    array->SetName(name.c_str());
-    array->SetNumberOfComponents(n_components<Value>);
-    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-    name_components(*array);
-    double* tuple = array->GetPointer(0);
-    for (const Value& value : values) {
-        fill(tuple, value);
-        tuple += n_components<Value>;
-    }
-    return array;
+[[nodiscard]] OutputArray field_array(const std::string& name, std::span<const Value> values) {
+    std::vector<double> tuples(n_components<Value> * values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) fill(tuples.data() + n_components<Value> * i, values[i]);
+    return output_array(name, tuples, n_components<Value>);
+}
+
+/// What is in a .vtu or .vtp file.
+struct OutputGrid {
+    std::string type;          ///< "UnstructuredGrid" or "PolyData"
+    std::string cell_section;  ///< of its cells: "Cells", "Verts", "Lines" or "Polys"
+    std::size_t n_points = 0, n_cells = 0;
+    std::vector<OutputArray> points, cells;  ///< positions; corners, their ends and, of unstructured grids, types
+    std::vector<OutputArray> point_data{}, cell_data{};
+};
+
+template <int Dim>
+[[nodiscard]] OutputGrid output_grid(const std::string& type, const std::string& cell_section,
+                                     std::span<const Vector<Dim>> points, std::span<const std::int64_t> corners,
+                                     std::span<const std::int64_t> ends) {
+    return {type,
+            cell_section,
+            points.size(),
+            ends.size(),
+            {field_array("Points", points)},
+            {output_array("connectivity", corners), output_array("offsets", ends)}};
 }
 
 /// Throws BadInput "<writer>: field '...' has 7 values, one for each of the 8 <of_what> is needed."
-void add_field(vtkDataSetAttributes& data, vtkDataArray* array, std::size_t wanted, const char* of_what, const char* writer);
+void check_size(const std::string& field, std::size_t n, std::size_t wanted, const char* of_what, const char* writer);
 
+/// Adds an array with one value for each point or cell. Throws as `check_size`.
+template <class Value>
+void add_field(std::vector<OutputArray>& data, const std::string& name, std::span<const Value> values, std::size_t wanted,
+               const char* of_what, const char* writer) {
+    check_size(name, values.size(), wanted, of_what, writer);
+    data.push_back(field_array(name, values));
+}
 template <int Dim>
-void add_fields(vtkDataSetAttributes& data, std::span<const Field<Dim>> fields, std::size_t wanted, const char* of_what,
+void add_fields(std::vector<OutputArray>& data, std::span<const Field<Dim>> fields, std::size_t wanted, const char* of_what,
                 const char* writer) {
     for (const Field<Dim>& field : fields)
-        std::visit([&](const auto& values) { add_field(data, vtk_array(field.name, values), wanted, of_what, writer); },
-                   field.values);
+        std::visit([&](const auto& values) { add_field(data, field.name, values, wanted, of_what, writer); }, field.values);
 }
 
-/// Writes through `writer`, binary and compressed. Throws MeshError naming the path and the reason.
-[[nodiscard]] PreparedFile prepared_grid(vtkXMLWriter& writer, vtkDataObject& grid, const std::filesystem::path& path);
-
-template <class Writer>
-[[nodiscard]] PreparedFile prepared_grid(vtkDataObject& grid, const std::filesystem::path& path) {
-    const vtkNew<Writer> writer;
-    return prepared_grid(*writer.Get(), grid, path);
-}
+/// A file of this grid with more arrays behind its own. Throws MeshError naming the path and the reason.
+[[nodiscard]] PreparedFile prepared_grid(const OutputGrid& grid, const std::filesystem::path& path,
+                                         std::span<const OutputArray> more_point_data = {},
+                                         std::span<const OutputArray> more_cell_data = {});
 
 }  // namespace abut::mesh

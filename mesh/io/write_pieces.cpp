@@ -1,13 +1,6 @@
 #include "abut/mesh/io/write_pieces.hpp"
 
-#include <vtkCellData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
 #include <algorithm>
-#include <array>
 #include <type_traits>
 #include <utility>
 
@@ -25,29 +18,9 @@ constexpr const char* surface_extension = ".pvtp";
 std::string surface_name(const std::string& basename) { return basename + "_surface"; }
 std::string piece_extension(int piece, const char* extension) { return "_" + std::to_string(piece) + extension; }
 
-std::string in_xml(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
-
-/// An array as a head of pieces declares it; tensors name their components.
-std::string array_line(const std::string& name, int width, const char* type = "Float64") {
-    std::string line = "<PDataArray type=\"" + std::string(type) + "\" Name=\"" + in_xml(name) + "\" NumberOfComponents=\"" +
-                       std::to_string(width) + "\"";
-    constexpr std::array<const char*, 6> names = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
-    for (std::size_t i = 0; width == 6 && i < names.size(); ++i)
-        line += " ComponentName" + std::to_string(i) + "=\"" + names[i] + "\"";
-    return line + "/>\n";
+/// An array as a head of pieces declares it.
+std::string array_line(const std::string& name, std::size_t width, const char* type = "Float64") {
+    return "<PDataArray " + array_attributes(type, name, width) + "/>\n";
 }
 
 template <int Dim>
@@ -65,13 +38,8 @@ std::string field_lines(const std::vector<Field<Dim>>& fields) {
 
 /// The file that names the pieces of a frame; its cells have these arrays.
 std::string head_of_pieces(const std::string& kind, const std::string& arrays, const std::vector<std::string>& pieces) {
-    std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
-                       "\" version=\"0.1\" byte_order=\"LittleEndian\" header_type=\"UInt32\" "
-                       "compressor=\"vtkZLibDataCompressor\">\n<" +
-                       kind + " GhostLevel=\"0\">\n<PPointData>\n" + array_line("displacement", 3) +
-                       "</PPointData>\n<PCellData>\n" + arrays +
-                       "</PCellData>\n<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
-                       "</PPoints>\n";
+    std::string text = vtk_head(kind) + "<PPointData>\n" + array_line("displacement", 3) + "</PPointData>\n<PCellData>\n" +
+                       arrays + "</PCellData>\n<PPoints>\n" + array_line("Points", 3) + "</PPoints>\n";
     for (const std::string& piece : pieces) text += "<Piece Source=\"" + in_xml(piece) + "\"/>\n";
     return text + "</" + kind + ">\n</VTKFile>\n";
 }
@@ -99,25 +67,24 @@ template <int Dim>
 void write_piece(const std::filesystem::path& directory, const std::string& basename, std::size_t frame_number, int piece,
                  const Mesh<Dim>& mesh, const PieceFrame<Dim>& frame) {
     constexpr const char* writer = "write_piece";
-    const auto cells = grid_of_cells(mesh, frame.cells, frame.vertices);
-    add_numbers(*cells, "cell", frame.cells);
-    add_field(*cells->GetCellData(), vtk_array("displacement", frame.displacement), frame.cells.size(), "cells", writer);
-    add_field(*cells->GetPointData(), vtk_array("displacement", frame.vertex_displacement), frame.vertices.size(),
-              "vertices", writer);
-    add_fields<Dim>(*cells->GetCellData(), frame.cell_fields, frame.cells.size(), "cells", writer);
+    OutputGrid cells = grid_of_cells(mesh, frame.cells, frame.vertices);
+    cells.cell_data.push_back(output_array("cell", frame.cells));
+    add_field(cells.cell_data, "displacement", frame.displacement, cells.n_cells, "cells", writer);
+    add_field(cells.point_data, "displacement", frame.vertex_displacement, cells.n_points, "vertices", writer);
+    add_fields<Dim>(cells.cell_data, frame.cell_fields, cells.n_cells, "cells", writer);
 
     const std::vector<std::int32_t> vertices = surface_vertices(mesh, frame.boundary);
     const std::vector<Vector<Dim>> at_vertices = on_surface(frame, vertices);
-    const auto surface = grid_of_surface(mesh, frame.boundary, vertices);
-    add_numbers(*surface, "face", frame.boundary);
-    surface->GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
-    add_fields<Dim>(*surface->GetCellData(), frame.boundary_fields, frame.boundary.size(), "boundary faces", writer);
+    OutputGrid surface = grid_of_surface(mesh, frame.boundary, vertices);
+    surface.cell_data.push_back(output_array("face", frame.boundary));
+    surface.point_data.push_back(field_array("displacement", std::span<const Vector<Dim>>(at_vertices)));
+    add_fields<Dim>(surface.cell_data, frame.boundary_fields, surface.n_cells, "boundary faces", writer);
 
     const auto path = [&](const std::string& name, const char* extension) {
         return directory / frame_name(name, frame_number, piece_extension(piece, extension).c_str());
     };
-    auto of_cells = prepared_grid<vtkXMLUnstructuredGridWriter>(*cells, path(basename, ".vtu"));
-    auto of_surface = prepared_grid<vtkXMLPolyDataWriter>(*surface, path(surface_name(basename), ".vtp"));
+    auto of_cells = prepared_grid(cells, path(basename, ".vtu"));
+    auto of_surface = prepared_grid(surface, path(surface_name(basename), ".vtp"));
     of_cells.move_into_place();
     of_surface.move_into_place();
 }

@@ -1,11 +1,5 @@
 #include "abut/mesh/io/write_vtu.hpp"
 
-#include <vtkCellData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
-
 #include <utility>
 
 #include "abut/mesh/io/file.hpp"
@@ -20,7 +14,7 @@ namespace {
 using Path = std::filesystem::path;
 
 template <int Dim>
-vtkSmartPointer<vtkUnstructuredGrid> grid_of_all(const Mesh<Dim>& mesh) {
+OutputGrid grid_of_all(const Mesh<Dim>& mesh) {
     return grid_of_cells(mesh, all_of(static_cast<std::size_t>(mesh.n_cells())), all_of(mesh.vertices.size()));
 }
 
@@ -46,18 +40,19 @@ struct VtuSeries<Dim>::Files {
     Path directory;
     std::string basename;
     std::vector<double> times{};
-    vtkSmartPointer<vtkUnstructuredGrid> cells;
+    OutputGrid cells;
     Rows cell_vertices;
     std::vector<std::int32_t> surface_vertices;
-    vtkSmartPointer<vtkPolyData> surface;
+    OutputGrid surface;
 
-    [[nodiscard]] std::size_t n_cells() const { return static_cast<std::size_t>(cells->GetNumberOfCells()); }
-    [[nodiscard]] std::size_t n_vertices() const { return static_cast<std::size_t>(cells->GetNumberOfPoints()); }
-    [[nodiscard]] std::size_t n_boundary_faces() const { return static_cast<std::size_t>(surface->GetNumberOfCells()); }
+    /// Arrays of one frame.
+    struct FrameData {
+        std::vector<OutputArray> of_points, of_cells, of_surface_points, of_faces;
+    };
+
     [[nodiscard]] std::string surface_name() const { return basename + "_surface"; }
-    void add_displacement(const Frame<Dim>& frame, vtkDataSet& of_cells, vtkDataSet& of_surface) const;
-    void add_vertex_displacement(std::span<const Vector<Dim>> at_vertices, vtkDataSet& of_cells,
-                                 vtkDataSet& of_surface) const;
+    void add_displacement(const Frame<Dim>& frame, FrameData& data) const;
+    void add_vertex_displacement(std::span<const Vector<Dim>> at_vertices, FrameData& data) const;
     void publish_lists(const std::vector<double>& new_times);
 };
 
@@ -77,22 +72,21 @@ void VtuSeries<Dim>::Files::publish_lists(const std::vector<double>& new_times) 
 }
 
 template <int Dim>
-void VtuSeries<Dim>::Files::add_displacement(const Frame<Dim>& frame, vtkDataSet& of_cells, vtkDataSet& of_surface) const {
+void VtuSeries<Dim>::Files::add_displacement(const Frame<Dim>& frame, FrameData& data) const {
     if (!frame.displacement.empty())
-        add_field(*of_cells.GetCellData(), vtk_array("displacement", frame.displacement), n_cells(), "cells", "VtuSeries");
+        add_field(data.of_cells, "displacement", frame.displacement, cells.n_cells, "cells", "VtuSeries");
     if (!frame.vertex_displacement.empty())
-        add_vertex_displacement(frame.vertex_displacement, of_cells, of_surface);
+        add_vertex_displacement(frame.vertex_displacement, data);
     else if (!frame.displacement.empty())
-        add_vertex_displacement(vertex_means(frame.displacement, cell_vertices, n_vertices()), of_cells, of_surface);
+        add_vertex_displacement(vertex_means(frame.displacement, cell_vertices, cells.n_points), data);
 }
 
 template <int Dim>
-void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>> at_vertices, vtkDataSet& of_cells,
-                                                    vtkDataSet& of_surface) const {
-    add_field(*of_cells.GetPointData(), vtk_array("displacement", at_vertices), n_vertices(), "vertices", "VtuSeries");
+void VtuSeries<Dim>::Files::add_vertex_displacement(std::span<const Vector<Dim>> at_vertices, FrameData& data) const {
+    add_field(data.of_points, "displacement", at_vertices, cells.n_points, "vertices", "VtuSeries");
     std::vector<Vector<Dim>> on_surface;
     for (const std::int32_t vertex : surface_vertices) on_surface.push_back(at_vertices[static_cast<std::size_t>(vertex)]);
-    of_surface.GetPointData()->AddArray(vtk_array("displacement", std::span<const Vector<Dim>>(on_surface)));
+    data.of_surface_points.push_back(field_array("displacement", std::span<const Vector<Dim>>(on_surface)));
 }
 
 template <int Dim>
@@ -130,20 +124,17 @@ void VtuSeries<Dim>::go_on_after(std::vector<double> times) {
 
 template <int Dim>
 void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
-    vtkNew<vtkUnstructuredGrid> cells;
-    vtkNew<vtkPolyData> surface;
-    cells->ShallowCopy(files_->cells);
-    surface->ShallowCopy(files_->surface);
-    files_->add_displacement(frame, *cells, *surface);
-    add_fields<Dim>(*cells->GetCellData(), frame.cell_fields, files_->n_cells(), "cells", "VtuSeries");
-    add_fields<Dim>(*surface->GetCellData(), frame.boundary_fields, files_->n_boundary_faces(), "boundary faces",
-                    "VtuSeries");
+    typename Files::FrameData data;
+    files_->add_displacement(frame, data);
+    add_fields<Dim>(data.of_cells, frame.cell_fields, files_->cells.n_cells, "cells", "VtuSeries");
+    add_fields<Dim>(data.of_faces, frame.boundary_fields, files_->surface.n_cells, "boundary faces", "VtuSeries");
 
     auto times = files_->times;
-    auto of_cells = prepared_grid<vtkXMLUnstructuredGridWriter>(
-        *cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"));
-    auto of_surface = prepared_grid<vtkXMLPolyDataWriter>(
-        *surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"));
+    auto of_cells = prepared_grid(files_->cells, files_->directory / frame_name(files_->basename, times.size(), ".vtu"),
+                                  data.of_points, data.of_cells);
+    auto of_surface =
+        prepared_grid(files_->surface, files_->directory / frame_name(files_->surface_name(), times.size(), ".vtp"),
+                      data.of_surface_points, data.of_faces);
     of_cells.move_into_place();
     of_surface.move_into_place();
     times.push_back(frame.time);
@@ -152,7 +143,7 @@ void VtuSeries<Dim>::write(const Frame<Dim>& frame) {
 
 template <int Dim>
 void write_vtu(const Mesh<Dim>& mesh, const Path& path) {
-    prepared_grid<vtkXMLUnstructuredGridWriter>(*grid_of_all(mesh), path).move_into_place();
+    prepared_grid(grid_of_all(mesh), path).move_into_place();
 }
 
 template class VtuSeries<2>;

@@ -108,6 +108,28 @@ const char* const text_vtu =
     "2</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 7</DataArray>\n"
     "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 "
     "5</DataArray></Cells>\n</Piece></UnstructuredGrid></VTKFile>\n";
+/// The same, inline in base64, compressed by zlib, with headers of 64 bits.
+const char* const inline_vtu =
+    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64"
+    "\" compressor=\"vtkZLibDataCompressor\">\n"
+    "<UnstructuredGrid>\n"
+    "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">\n"
+    "<CellData><DataArray type=\"Int16\" Name=\"body\" format=\"binary\">\n"
+    "AQAAAAAAAAAAgAAAAAAAAAQAAAAAAAAADAAAAAAAAAA=eF5jZGBiAAAADAAE</DataArray>\n"
+    "</CellData>\n"
+    "<Points><DataArray type=\"Float32\" Name=\"Points\" NumberOfComponents=\"3\" format=\"binary\">\n"
+    "AQAAAAAAAAAAgAAAAAAAADAAAAAAAAAAEQAAAAAAAAA=eF5jYEAGDfYoXCx8ACe9Aj4=</DataArray>\n"
+    "</Points>\n"
+    "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"binary\">\n"
+    "AQAAAAAAAAAAgAAAAAAAABwAAAAAAAAAFgAAAAAAAAA=eF5jYGBgYARiJiBmZoAAGB8AAJwACg==</DataArray>\n"
+    "<DataArray type=\"Int32\" Name=\"offsets\" format=\"binary\">\n"
+    "AQAAAAAAAAAAgAAAAAAAAAgAAAAAAAAADgAAAAAAAAA=eF5jYWBgYAdiAABEAAw=</DataArray>\n"
+    "<DataArray type=\"UInt8\" Name=\"types\" format=\"binary\">\n"
+    "AQAAAAAAAAAAgAAAAAAAAAIAAAAAAAAACgAAAAAAAAA=eF7jYgUAABsAEA==</DataArray>\n"
+    "</Cells>\n"
+    "</Piece>\n"
+    "</UnstructuredGrid>\n"
+    "</VTKFile>\n";
 const char* const text_vtp =
     "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n"
     "<Piece NumberOfPoints=\"4\" NumberOfPolys=\"1\" NumberOfStrips=\"1\">\n<PointData><DataArray type=\"Float64\" "
@@ -119,16 +141,61 @@ const char* const text_vtp =
     "<Strips><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>\n"
     "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4</DataArray></Strips>\n</Piece></PolyData></VTKFile>\n";
 
+/// Two pieces of a line and a quadrangle, appended in base64, not compressed, with the highest byte first.
+const char* const appended_vtp =
+    "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"BigEndian\" header_type=\"UInt32\">\n"
+    "<PolyData>\n"
+    "<Piece NumberOfPoints=\"4\" NumberOfLines=\"1\" NumberOfPolys=\"1\">\n"
+    "<PointData><DataArray type=\"Float32\" Name=\"displacement\" NumberOfComponents=\"3\" format=\"appen"
+    "ded\" offset=\"0\"/>\n"
+    "</PointData>\n"
+    "<CellData><DataArray type=\"UInt8\" Name=\"body\" format=\"appended\" offset=\"72\"/>\n"
+    "</CellData>\n"
+    "<Points><DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" off"
+    "set=\"80\"/>\n"
+    "</Points>\n"
+    "<Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"216\"/>\n"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"appended\" offset=\"244\"/>\n"
+    "</Lines>\n"
+    "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"260\"/>\n"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"appended\" offset=\"308\"/>\n"
+    "</Polys>\n"
+    "</Piece>\n"
+    "<Piece NumberOfPoints=\"4\" NumberOfLines=\"1\" NumberOfPolys=\"1\">\n"
+    "<PointData><DataArray type=\"Float32\" Name=\"displacement\" NumberOfComponents=\"3\" format=\"appen"
+    "ded\" offset=\"0\"/>\n"
+    "</PointData>\n"
+    "<CellData><DataArray type=\"UInt8\" Name=\"body\" format=\"appended\" offset=\"72\"/>\n"
+    "</CellData>\n"
+    "<Points><DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"appended\" off"
+    "set=\"80\"/>\n"
+    "</Points>\n"
+    "<Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"216\"/>\n"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"appended\" offset=\"244\"/>\n"
+    "</Lines>\n"
+    "<Polys><DataArray type=\"Int64\" Name=\"connectivity\" format=\"appended\" offset=\"260\"/>\n"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"appended\" offset=\"308\"/>\n"
+    "</Polys>\n"
+    "</Piece>\n"
+    "</PolyData>\n"
+    "<AppendedData encoding=\"base64\">\n"
+    "_AAAAMAAAAAA/gAAAQAAAAEBAAABAgAAAQKAAAEDAAABA4AAAQQAAAEEQAABBIAAAQTAAAA==AAAAAgECAAAAYAAAAAAAAAAAAAA"
+    "AAAAAAAAAAAAAAAAAAD/wAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAP/AAAAAAAAAAAAAAAAAAAD/wAAAAAAAAP/AAAAA"
+    "AAAAAAAAAAAAAAA==AAAAEAAAAAAAAAAAAAAAAAAAAAE=AAAACAAAAAAAAAACAAAAIAAAAAAAAAAAAAAAAAAAAAEAAAAAAAAAAwA"
+    "AAAAAAAACAAAACAAAAAAAAAAE\n"
+    "</AppendedData>\n"
+    "</VTKFile>\n";
+
 std::vector<std::string> vtu_files() {
     const ScratchFile file("vtu");
     mesh::write_vtu(mesh::structured_box<3>({0, 0, 0}, {1, 1, 1}, {1, 1, 1}, mesh::CellShape::tetrahedron), file.path());
-    return {text_vtu, bytes_of(file.path())};
+    return {text_vtu, inline_vtu, bytes_of(file.path())};
 }
 
 std::vector<std::string> vtp_files() {
     const ScratchFile file("vtp");
     mesh::write_vtp(mesh::sphere_surface({.n_subdivisions = 0}).soup(), file.path());
-    return {text_vtp, bytes_of(file.path())};
+    return {text_vtp, appended_vtp, bytes_of(file.path())};
 }
 
 /// A tetrahedron and one of its faces, each in a physical group.

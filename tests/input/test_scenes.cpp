@@ -63,7 +63,7 @@ TEST_CASE("the estimate of a check is what the run takes", "[input][check]") {
     CHECK(checked.estimate->steps == result.steps);
     CHECK(checked.estimate->seconds > 0.0);
     CHECK(checked.estimate->seconds < 60.0);  // 13 cells and some dozen steps
-    CHECK(checked.estimate->bytes > 1e6);     // no process with Gmsh and VTK is smaller
+    CHECK(checked.estimate->bytes > 1e6);     // no process with Gmsh is smaller
     for (const char* word : {"13", "takes", "about", "MB"})
         CHECK(input::text_of(*checked.estimate).find(word) != std::string::npos);
 }

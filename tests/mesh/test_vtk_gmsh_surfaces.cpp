@@ -1,26 +1,17 @@
 #include <gmsh.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDoubleArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridWriter.h>
 
 #include <array>
-#include <limits>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "abut/base/messages.hpp"
 #include "abut/mesh/io/write_vtp.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/mesh/shapes/surface_shapes.hpp"
 #include "mesh/meshes.hpp"
 #include "mesh/surfaces.hpp"
+#include "mesh/vtk_arrays.hpp"
 
 using namespace abut;
 using namespace abut::mesh;
@@ -29,39 +20,40 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-/// Two triangles and a quadrangle of a cell each, and a strip of two triangles; the array "body" and a displacement.
-vtkSmartPointer<vtkPolyData> poly_data() {
-    vtkNew<vtkPoints> points;
-    for (const Vector<3>& x : {Vector<3>(0, 0, 0), Vector<3>(1, 0, 0), Vector<3>(0, 1, 0), Vector<3>(1, 1, 0),
-                               Vector<3>(0, 2, 0), Vector<3>(1, 2, 0), Vector<3>(5, 5, 5)})
-        points->InsertNextPoint(x.data());
-    auto grid = vtkSmartPointer<vtkPolyData>::New();
-    grid->SetPoints(points);
-    vtkNew<vtkCellArray> vertices, polygons, strips;
-    vertices->InsertNextCell({6});
-    polygons->InsertNextCell({0, 1, 2});
-    polygons->InsertNextCell({2, 3, 5, 4});
-    strips->InsertNextCell({0, 1, 2, 3});
-    grid->SetVerts(vertices);
-    grid->SetPolys(polygons);
-    grid->SetStrips(strips);
-    vtkNew<vtkDoubleArray> bodies, displacement;
-    bodies->SetName("body");
-    for (const double body : {9.0, 4.0, 2.0, 4.0}) bodies->InsertNextValue(body);
-    grid->GetCellData()->AddArray(bodies);
-    displacement->SetName("displacement");
-    displacement->SetNumberOfComponents(3);
-    for (int i = 0; i < 7; ++i) displacement->InsertNextTuple3(i, 0, -i);
-    grid->GetPointData()->AddArray(displacement);
-    return grid;
+/// A section of a file, with one array of text for each type, name, number of components and values.
+struct TextArray {
+    const char *type, *name;
+    int n_components;
+    std::string values;
+};
+std::string section(const std::string& name, const std::vector<TextArray>& arrays) {
+    std::string text = "<" + name + ">";
+    for (const TextArray& array : arrays)
+        text += std::string("<DataArray type=\"") + array.type + "\" Name=\"" + array.name + "\" NumberOfComponents=\"" +
+                std::to_string(array.n_components) + "\" format=\"ascii\">" + array.values + "</DataArray>\n";
+    return text + "</" + name + ">\n";
+}
+std::string cells(const std::string& name, const std::string& corners, const std::string& ends,
+                  const std::vector<TextArray>& more = {}) {
+    std::vector<TextArray> arrays = {{"Int64", "connectivity", 1, corners}, {"Int64", "offsets", 1, ends}};
+    arrays.insert(arrays.end(), more.begin(), more.end());
+    return section(name, arrays);
+}
+std::string file_of(const std::string& type, const std::string& counts, const std::string& sections) {
+    return "<VTKFile type=\"" + type + "\" version=\"0.1\" byte_order=\"LittleEndian\">\n<" + type + "><Piece " + counts +
+           ">\n" + sections + "</Piece></" + type + "></VTKFile>\n";
 }
 
-template <class Writer>
-void save_grid(vtkDataObject& grid, const std::filesystem::path& path) {
-    vtkNew<Writer> writer;
-    writer->SetInputData(&grid);
-    writer->SetFileName(path.c_str());
-    REQUIRE(writer->Write() == 1);
+const std::string seven_points = section("Points", {{"Float64", "Points", 3, "0 0 0 1 0 0 0 1 0 1 1 0 0 2 0 1 2 0 5 5 5"}});
+
+/// A triangle, a quadrangle and a strip of two triangles, and a vertex; the array "body" and a displacement.
+std::string poly_data(int n_components = 3,
+                      const std::string& displacement = "0 0 0 1 0 -1 2 0 -2 3 0 -3 4 0 -4 5 0 -5 6 0 -6") {
+    return file_of("PolyData",
+                   "NumberOfPoints=\"7\" NumberOfVerts=\"1\" NumberOfLines=\"0\" NumberOfStrips=\"1\" NumberOfPolys=\"2\"",
+                   section("PointData", {{"Float64", "displacement", n_components, displacement}}) +
+                       section("CellData", {{"Float64", "body", 1, "9 4 2 4"}}) + seven_points + cells("Verts", "6", "1") +
+                       cells("Polys", "0 1 2 2 3 5 4", "3 7") + cells("Strips", "0 1 2 3", "4"));
 }
 
 /// Two squares of z = 0 and z = 1, each in a physical group, as a mesh of triangles only.
@@ -85,7 +77,7 @@ void save_squares_with_gmsh(const std::filesystem::path& path, bool with_groups)
 
 TEST_CASE("VTP gives polygons, strips, bodies and displacement", "[mesh][surface]") {
     const ScratchFolder folder;
-    save_grid<vtkXMLPolyDataWriter>(*poly_data(), folder / "a.vtp");
+    save(folder / "a.vtp", poly_data());
     const SurfaceMesh mesh = read_surface(folder / "a.vtp");
     CHECK(mesh.n_ignored_elements == 1);
     CHECK(mesh.faces.size() == 4);
@@ -102,32 +94,18 @@ TEST_CASE("VTP gives polygons, strips, bodies and displacement", "[mesh][surface
 
 TEST_CASE("a displacement of other than three finite components is refused", "[mesh][surface]") {
     const ScratchFolder folder;
-    const auto grid = poly_data();
-    grid->GetPointData()->GetArray("displacement")->SetComponent(4, 1, std::numeric_limits<double>::infinity());
-    save_grid<vtkXMLPolyDataWriter>(*grid, folder / "a.vtp");
+    save(folder / "a.vtp", poly_data(3, "0 0 0 1 0 -1 2 0 -2 3 0 -3 4 inf -4 5 0 -5 6 0 -6"));
     CHECK_THAT(complaint_about(folder / "a.vtp"), Contains("the displacement of vertex 4 is no finite vector."));
-    vtkNew<vtkDoubleArray> plane;
-    plane->SetName("displacement");
-    plane->SetNumberOfComponents(2);
-    plane->SetNumberOfTuples(7);
-    plane->Fill(0.0);
-    grid->GetPointData()->AddArray(plane);
-    save_grid<vtkXMLPolyDataWriter>(*grid, folder / "b.vtp");
+    save(folder / "b.vtp", poly_data(2, "0 0 0 0 0 0 0 0 0 0 0 0 0 0"));
     CHECK_THAT(complaint_about(folder / "b.vtp"), Contains("has 2 components, a displacement has 3."));
 }
 
 TEST_CASE("VTU gives its surface cells, or the boundary of its volume with the displacement", "[mesh][surface]") {
     const ScratchFolder folder;
-    vtkNew<vtkUnstructuredGrid> grid;
-    grid->SetPoints(poly_data()->GetPoints());
-    const auto insert = [&](int type, std::vector<vtkIdType> ids) {
-        grid->InsertNextCell(type, static_cast<vtkIdType>(ids.size()), ids.data());
-    };
-    insert(VTK_LINE, {0, 1});
-    insert(VTK_PIXEL, {0, 1, 2, 3});
-    insert(VTK_POLYGON, {0, 1, 3, 5, 4});
-    insert(VTK_TRIANGLE_STRIP, {0, 1, 2, 3, 4});
-    save_grid<vtkXMLUnstructuredGridWriter>(*grid, folder / "a.vtu");
+    save(folder / "a.vtu",
+         file_of("UnstructuredGrid", "NumberOfPoints=\"7\" NumberOfCells=\"4\"",
+                 seven_points + cells("Cells", "0 1 0 1 2 3 0 1 3 5 4 0 1 2 3 4", "2 6 11 16",
+                                      {{"UInt8", "types", 1, "3 8 7 6"}})));  // line, pixel, polygon, strip
     const SurfaceMesh mesh = read_surface(folder / "a.vtu");
     CHECK(mesh.n_ignored_elements == 1);
     CHECK(mesh.faces.values == std::vector<std::int32_t>{0, 1, 3, 2, 0, 1, 3, 5, 4, 0, 1, 2, 1, 3, 2, 2, 3, 4});
@@ -146,22 +124,19 @@ TEST_CASE("VTU gives its surface cells, or the boundary of its volume with the d
 
 TEST_CASE("the displacement of a volume goes to the vertices it belongs to", "[mesh][surface]") {
     const ScratchFolder folder;
-    vtkNew<vtkPoints> points;
-    for (const Vector<3>& x : corners_of(CellShape::hexahedron)) points->InsertNextPoint(x.data());
-    points->InsertNextPoint(9, 9, 9);  // used by no cell
-    vtkNew<vtkUnstructuredGrid> grid;
-    grid->SetPoints(points);
-    std::array<vtkIdType, 8> ids = {0, 1, 2, 3, 4, 5, 6, 7};
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids.data());
-    vtkNew<vtkDoubleArray> twice;
-    twice->SetName("displacement");
-    twice->SetNumberOfComponents(3);
-    for (vtkIdType i = 0; i < 9; ++i) {
-        const double* x = points->GetPoint(i);
-        twice->InsertNextTuple3(2 * x[0], 2 * x[1], 2 * x[2]);
-    }
-    grid->GetPointData()->AddArray(twice);
-    save_grid<vtkXMLUnstructuredGridWriter>(*grid, folder / "a.vtu");
+    std::string points, twice;
+    std::vector<Vector<3>> vertices;
+    for (const Vector<3>& x : corners_of(CellShape::hexahedron)) vertices.push_back(x);
+    vertices.push_back({9, 9, 9});  // used by no cell
+    for (const Vector<3>& x : vertices)
+        for (int d = 0; d < 3; ++d) {
+            points += exact_number(x[d]) + " ";
+            twice += exact_number(2 * x[d]) + " ";
+        }
+    save(folder / "a.vtu", file_of("UnstructuredGrid", "NumberOfPoints=\"9\" NumberOfCells=\"1\"",
+                                   section("PointData", {{"Float64", "displacement", 3, twice}}) +
+                                       section("Points", {{"Float64", "Points", 3, points}}) +
+                                       cells("Cells", "0 1 2 3 4 5 6 7", "8", {{"UInt8", "types", 1, "12"}})));
     const SurfaceMesh mesh = read_surface(folder / "a.vtu");
     CHECK(mesh.vertices.size() == 8);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) CHECK(mesh.displacement[v] == 2.0 * mesh.vertices[v]);
@@ -185,7 +160,7 @@ TEST_CASE("MSH gives its triangles with their groups, or the boundary of its vol
           std::vector<std::string>{"body_1", "body_2"});
 }
 
-TEST_CASE("faces written as VTP come back through VTK with their arrays", "[mesh][surface]") {
+TEST_CASE("faces written as VTP come back with their arrays", "[mesh][surface]") {
     const ScratchFolder folder;
     const SurfaceMesh gear = gear_surface({.n_teeth = 5});
     std::vector<double> pressure;
@@ -199,19 +174,14 @@ TEST_CASE("faces written as VTP come back through VTK with their arrays", "[mesh
                                               Field<3>{"force [N]", std::span<const Vector<3>>(force)}};
     const std::array<Field<3>, 1> of_vertices = {Field<3>{"displacement", std::span<const Vector<3>>(u)}};
     write_vtp(gear.soup(), folder / "gear.vtp", {of_faces, of_vertices});
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName((folder / "gear.vtp").c_str());
-    reader->Update();
-    vtkPolyData& grid = *reader->GetOutput();
-    REQUIRE(grid.GetNumberOfPolys() == gear.faces.size());
-    vtkDataArray* scalars = grid.GetCellData()->GetArray("pressure [Pa]");
-    vtkDataArray* vectors = grid.GetCellData()->GetArray("force [N]");
+    const VtkGrid grid = read_grid(folder / "gear.vtp");
+    REQUIRE(std::ssize(grid.cell_types) == gear.faces.size());
+    const VtkArray* scalars = find_array(grid.cell_data, "pressure [Pa]");
+    const VtkArray* vectors = find_array(grid.cell_data, "force [N]");
     REQUIRE(scalars != nullptr);
     REQUIRE(vectors != nullptr);
-    for (std::int32_t face = 0; face < gear.faces.size(); ++face) {
-        CHECK(scalars->GetComponent(face, 0) == pressure[static_cast<std::size_t>(face)]);
-        CHECK(vectors->GetComponent(face, 1) == force[static_cast<std::size_t>(face)].y());
-    }
+    CHECK(same_bits(scalars->values, pressure));
+    for (std::size_t face = 0; face < force.size(); ++face) CHECK(component(vectors, face, 1) == force[face].y());
     const SurfaceMesh again = read_surface(folder / "gear.vtp");
     CHECK(same_bits(again.vertices, gear.vertices));
     CHECK(again.faces.values == gear.faces.values);

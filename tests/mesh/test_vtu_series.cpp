@@ -1,15 +1,5 @@
 #include "mesh/meshes.hpp"
 
-#include <vtkCell.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <Eigen/Geometry>
 
 #include <fstream>
@@ -17,20 +7,14 @@
 #include <regex>
 
 #include "abut/mesh/io/write_vtu.hpp"
+#include "mesh/vtk_arrays.hpp"
 
 using namespace abut;
 using namespace abut::mesh;
 using Catch::Matchers::Contains;
+using test::component, test::find_array, test::read_grid;
 
 namespace {
-
-template <class Reader>
-auto read(const std::filesystem::path& path) {
-    vtkNew<Reader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    return vtkSmartPointer(reader->GetOutput());
-}
 
 struct Listed {
     double time;
@@ -59,7 +43,7 @@ std::size_t n_half_written(const std::filesystem::path& folder) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("a series read back by VTK holds the fields, padded to three dimensions", "[mesh][vtu]",
+TEMPLATE_TEST_CASE_SIG("a series that is read back holds the fields, padded to three dimensions", "[mesh][vtu]",
                        ((int Dim), Dim), 2, 3) {
     const test::ScratchFolder folder;
     const auto mesh = [] {
@@ -95,37 +79,36 @@ TEMPLATE_TEST_CASE_SIG("a series read back by VTK holds the fields, padded to th
     REQUIRE(surfaces.size() == 3);
     CHECK(n_files(folder / "out") == 8);  // nothing half-written left behind
 
-    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / ("out/" + listed[1].file));
-    REQUIRE(grid->GetNumberOfCells() == mesh.n_cells());
-    auto* cells = grid->GetCellData();
-    auto* displacement = cells->GetArray("displacement");
-    REQUIRE(displacement->GetNumberOfComponents() == 3);
-    CHECK(displacement->GetComponent(4, 0) == 5.0);
-    CHECK(displacement->GetComponent(4, 2) == (Dim == 3 ? 5.0 : 0.0));
-    auto* tensor = cells->GetArray("stress [Pa]");
-    REQUIRE(tensor->GetNumberOfComponents() == 6);
-    CHECK(tensor->GetComponent(3, 0) == 5.0);
-    CHECK(tensor->GetComponent(3, 2) == (Dim == 3 ? 5.0 : 0.0));
-    CHECK(tensor->GetComponent(3, 3) == 2.0);
-    CHECK(cells->GetArray("energy [J]")->GetComponent(6, 0) == 3.0);
-    CHECK(cells->GetArray("body")->GetComponent(0, 0) == 0.0);
+    const VtkGrid grid = read_grid(folder / ("out/" + listed[1].file));
+    REQUIRE(grid.n_cells() == n);
+    const VtkArray* displacement = find_array(grid.cell_data, "displacement");
+    REQUIRE(displacement->n_components == 3);
+    CHECK(component(displacement, 4, 0) == 5.0);
+    CHECK(component(displacement, 4, 2) == (Dim == 3 ? 5.0 : 0.0));
+    const VtkArray* tensor = find_array(grid.cell_data, "stress [Pa]");
+    REQUIRE(tensor->n_components == 6);
+    CHECK(component(tensor, 3, 0) == 5.0);
+    CHECK(component(tensor, 3, 2) == (Dim == 3 ? 5.0 : 0.0));
+    CHECK(component(tensor, 3, 3) == 2.0);
+    CHECK(component(find_array(grid.cell_data, "energy [J]"), 6, 0) == 3.0);
+    CHECK(component(find_array(grid.cell_data, "body"), 0, 0) == 0.0);
 
-    const auto surface = read<vtkXMLPolyDataReader>(folder / ("out/" + surfaces[1].file));
-    REQUIRE(surface->GetNumberOfCells() == static_cast<vtkIdType>(mesh.boundary_faces.size()));
-    CHECK(surface->GetCellData()->GetArray("contact pressure [Pa]")->GetComponent(2, 0) == 12.0);
-    REQUIRE(surface->GetPointData()->GetArray("displacement") != nullptr);
-    CHECK(surface->GetNumberOfPoints() <= static_cast<vtkIdType>(mesh.vertices.size()));
+    const VtkGrid surface = read_grid(folder / ("out/" + surfaces[1].file));
+    REQUIRE(surface.n_cells() == mesh.boundary_faces.size());
+    CHECK(component(find_array(surface.cell_data, "contact pressure [Pa]"), 2, 0) == 12.0);
+    REQUIRE(find_array(surface.point_data, "displacement") != nullptr);
+    CHECK(surface.points.size() <= mesh.vertices.size());
 }
 
 TEST_CASE("a prism is written as VTK documents a wedge: its first triangle is counter-clockwise from outside",
           "[mesh][vtu]") {
     const test::ScratchFolder folder;
     write_vtu(test::small_box_3d(CellShape::prism), folder / "prisms.vtu");
-    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "prisms.vtu");
-    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
-        std::array<Vector<3>, 6> x;
-        for (vtkIdType i = 0; i < 6; ++i)
-            grid->GetCell(cell)->GetPoints()->GetPoint(i, x[static_cast<std::size_t>(i)].data());
+    const VtkGrid grid = read_grid(folder / "prisms.vtu");
+    REQUIRE(grid.n_cells() > 0);
+    for (std::size_t cell = 0; cell < grid.n_cells(); ++cell) {
+        std::vector<Vector<3>> x;
+        for (const std::int64_t point : grid.corners_of(cell)) x.push_back(grid.points[static_cast<std::size_t>(point)]);
         CHECK((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) < 0.0);
     }
 }
@@ -138,10 +121,10 @@ TEST_CASE("the displacement of a vertex is the mean of its own body's cells", "[
     for (std::size_t c = 6; c < 12; ++c) u[c] = {-3, 2};
     VtuSeries<2> series(folder.path(), "pair", mesh);
     series.write({.displacement = u});
-    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "pair_000000.vtu");
-    auto* displacement = grid->GetPointData()->GetArray("displacement");
-    for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point)
-        CHECK(displacement->GetComponent(point, 0) == (point < 7 ? 1.0 : -3.0));
+    const VtkGrid grid = read_grid(folder / "pair_000000.vtu");
+    const VtkArray* displacement = find_array(grid.point_data, "displacement");
+    for (std::size_t point = 0; point < grid.points.size(); ++point)
+        CHECK(component(displacement, point, 0) == (point < 7 ? 1.0 : -3.0));
 }
 
 TEST_CASE("a displacement that is known at the vertices is written there as it is", "[mesh][vtu]") {
@@ -151,11 +134,11 @@ TEST_CASE("a displacement that is known at the vertices is written there as it i
     for (const Vector<2>& x : mesh.vertices) u.emplace_back(x[1], -x[0]);
     VtuSeries<2> series(folder.path(), "turned", mesh);
     series.write({.vertex_displacement = u});
-    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "turned_000000.vtu");
-    auto* displacement = grid->GetPointData()->GetArray("displacement");
-    CHECK(grid->GetCellData()->GetArray("displacement") == nullptr);
-    for (vtkIdType point = 0; point < grid->GetNumberOfPoints(); ++point)
-        for (int d = 0; d < 2; ++d) CHECK(displacement->GetComponent(point, d) == u[static_cast<std::size_t>(point)][d]);
+    const VtkGrid grid = read_grid(folder / "turned_000000.vtu");
+    const VtkArray* displacement = find_array(grid.point_data, "displacement");
+    CHECK(find_array(grid.cell_data, "displacement") == nullptr);
+    for (std::size_t point = 0; point < grid.points.size(); ++point)
+        for (const int d : {0, 1}) CHECK(component(displacement, point, static_cast<std::size_t>(d)) == u[point][d]);
     u.pop_back();
     CHECK_THROWS_WITH(series.write({.vertex_displacement = u}), Contains("vertices is needed"));
 }
@@ -232,8 +215,7 @@ TEST_CASE("numbers in files and messages do not follow the locale of the program
     series.write({.time = 1234567.25});
     series.write({.time = 1.0 / 3.0});
     CHECK_THROWS_WITH(disc({.radius = -1.5}), Contains("radius is -1.5 m"));
-    const auto grid = read<vtkXMLUnstructuredGridReader>(folder / "run_000001.vtu");
-    CHECK(grid->GetNumberOfCells() == mesh.n_cells());
+    CHECK(std::ssize(read_grid(folder / "run_000001.vtu").cell_types) == mesh.n_cells());
     std::locale::global(std::locale::classic());
     const auto listed = list_of(folder / "run.pvd");
     REQUIRE(listed.size() == 2);

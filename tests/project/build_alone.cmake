@@ -2,7 +2,7 @@
 #
 # Configures, builds and installs these layers where no package of the others can be found.
 string(REPLACE "," ";" OPTIONS "${OPTIONS}")
-foreach(package embree fcl ccd Gmsh VTK nanoflann LBFGSpp fmt nlohmann_json tomlplusplus muparser CLI11 spdlog Polyclipping Catch2 pybind11 MPI Zoltan)
+foreach(package embree fcl ccd Gmsh pugixml nanoflann LBFGSpp fmt nlohmann_json tomlplusplus muparser CLI11 spdlog Polyclipping Catch2 pybind11 MPI Zoltan)
   list(APPEND OPTIONS -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 file(REMOVE_RECURSE ${BUILD} ${PREFIX})

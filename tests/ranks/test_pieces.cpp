@@ -1,16 +1,4 @@
 // Frames that each rank writes its own cells of.
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPPolyDataReader.h>
-#include <vtkXMLPUnstructuredGridReader.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,10 +6,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <pugixml.hpp>
 #include <string>
 #include <vector>
 
 #include "abut/run/frames.hpp"
+#include "mesh/vtk_arrays.hpp"
 #include "ranks/scenes.hpp"
 #include "ranks/shared_run.hpp"
 
@@ -34,32 +24,37 @@ namespace fs = std::filesystem;
 /// All that a file shows of a cell: its arrays, then the positions and arrays of its corners.
 using Cell = std::map<std::string, std::vector<double>>;
 
-/// By the number in array `number`; without it by the order in the file.
-template <class Reader>
-std::map<int, Cell> cells_of(const fs::path& path, const char* number) {
-    vtkNew<Reader> reader;
-    reader->SetFileName(path.c_str());
-    reader->Update();
-    vtkDataSet& grid = *reader->GetOutput();
-    std::map<int, Cell> cells;
-    vtkDataArray* numbers = grid.GetCellData()->GetArray(number);
-    const auto append = [](std::vector<double>& values, vtkDataArray& array, vtkIdType tuple) {
-        for (int k = 0; k < array.GetNumberOfComponents(); ++k) values.push_back(array.GetComponent(tuple, k));
+/// Adds the cells of a file by the number in array `number`; without it by their order.
+void add_cells(std::map<int, Cell>& cells, const fs::path& path, const char* number) {
+    const mesh::VtkGrid grid = mesh::test::read_grid(path);
+    const auto append = [](std::vector<double>& values, const mesh::VtkArray& array, std::size_t tuple) {
+        for (std::size_t k = 0; k < array.n_components; ++k) values.push_back(mesh::test::component(&array, tuple, k));
     };
-    for (vtkIdType c = 0; c < grid.GetNumberOfCells(); ++c) {
-        Cell& cell = cells[numbers ? static_cast<int>(numbers->GetTuple1(c)) : static_cast<int>(c)];
-        for (int i = 0; i < grid.GetCellData()->GetNumberOfArrays(); ++i) {
-            vtkDataArray& array = *grid.GetCellData()->GetArray(i);
-            if (std::string(array.GetName()) != number) append(cell[array.GetName()], array, c);
-        }
-        vtkNew<vtkIdList> corners;
-        grid.GetCellPoints(c, corners);
-        for (vtkIdType k = 0; k < corners->GetNumberOfIds(); ++k) {
-            const vtkIdType point = corners->GetId(k);
-            for (int j = 0; j < 3; ++j) cell["corners"].push_back(grid.GetPoint(point)[j]);
-            append(cell["displacement of corners"], *grid.GetPointData()->GetArray("displacement"), point);
+    const mesh::VtkArray* numbers = mesh::test::find_array(grid.cell_data, number);
+    const mesh::VtkArray* displacement = mesh::test::find_array(grid.point_data, "displacement");
+    for (std::size_t c = 0; c < grid.n_cells(); ++c) {
+        Cell& cell = cells[static_cast<int>(numbers ? mesh::test::component(numbers, c, 0) : static_cast<double>(c))];
+        for (const mesh::VtkArray& array : grid.cell_data)
+            if (array.name != number) append(cell[array.name], array, c);
+        for (const std::int64_t corner : grid.corners_of(c)) {
+            const auto point = static_cast<std::size_t>(corner);
+            for (int j = 0; j < 3; ++j) cell["corners"].push_back(grid.points[point][j]);
+            append(cell["displacement of corners"], *displacement, point);
         }
     }
+}
+
+/// Of a file, or of all pieces that it names.
+std::map<int, Cell> cells_of(const fs::path& path, const char* number) {
+    std::map<int, Cell> cells;
+    if (!path.extension().string().starts_with(".p")) {
+        add_cells(cells, path, number);
+        return cells;
+    }
+    pugi::xml_document head;
+    REQUIRE(head.load_file(path.c_str()));
+    for (const auto& piece : head.select_nodes("//Piece"))
+        add_cells(cells, path.parent_path() / piece.node().attribute("Source").value(), number);
     return cells;
 }
 
@@ -97,11 +92,11 @@ void check_pieces(const run::Scene<Dim>& scene, int steps, const fs::path& folde
             const std::string name = "bodies_00000" + std::to_string(frame);
             CAPTURE(name);
             good = good && fs::exists(folder / "pieces" / (name + "_" + std::to_string(all.size() - 1) + ".vtu"));
-            good = good && same(cells_of<vtkXMLUnstructuredGridReader>(folder / "whole" / (name + ".vtu"), "cell"),
-                                cells_of<vtkXMLPUnstructuredGridReader>(folder / "pieces" / (name + ".pvtu"), "cell"));
+            good = good && same(cells_of(folder / "whole" / (name + ".vtu"), "cell"),
+                                cells_of(folder / "pieces" / (name + ".pvtu"), "cell"));
             const std::string surface = "bodies_surface_00000" + std::to_string(frame);
-            good = good && same(cells_of<vtkXMLPolyDataReader>(folder / "whole" / (surface + ".vtp"), "face"),
-                                cells_of<vtkXMLPPolyDataReader>(folder / "pieces" / (surface + ".pvtp"), "face"));
+            good = good && same(cells_of(folder / "whole" / (surface + ".vtp"), "face"),
+                                cells_of(folder / "pieces" / (surface + ".pvtp"), "face"));
             CHECK(good);
         }
         CHECK(text_of(folder / "pieces" / "bodies.pvd").find("bodies_000003.pvtu") != std::string::npos);

@@ -1,13 +1,12 @@
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
+#include <expat.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <pugixml.hpp>
 #include <sstream>
 #include <string>
 
@@ -29,33 +28,26 @@ using Catch::Contains;
 using nlohmann::json;
 
 /// A document as XML: a strict parser takes it or not.
-vtkSmartPointer<vtkXMLDataElement> parsed(const std::string& text) {
+pugi::xml_document parsed(const std::string& text) {
     const std::string doctype = "<!DOCTYPE html>";
     REQUIRE(text.starts_with(doctype));
-    auto root =
-        vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromString(text.c_str() + doctype.size()));
-    REQUIRE(root);
-    return root;
+    const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> strict(XML_ParserCreate("UTF-8"), XML_ParserFree);
+    REQUIRE(XML_Parse(strict.get(), text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK);
+    pugi::xml_document document;
+    REQUIRE(document.load_string(text.c_str() + doctype.size()));
+    return document;
 }
 
-/// Texts of all elements of a tag, in order, and what its attribute says where one is named.
-void collect(vtkXMLDataElement* element, const std::string& tag, const char* attribute, std::vector<std::string>& texts) {
-    if (tag == element->GetName()) {
-        const char* text = attribute ? element->GetAttribute(attribute) : element->GetCharacterData();
-        texts.emplace_back(text ? text : "");
-    }
-    for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
-        collect(element->GetNestedElement(i), tag, attribute, texts);
-}
-
-std::vector<std::string> all(vtkXMLDataElement* root, const std::string& tag, const char* attribute = nullptr) {
+/// Texts of all elements of a tag, in order, or what an attribute of them says.
+std::vector<std::string> all(const pugi::xml_document& document, const std::string& tag, const char* attribute = nullptr) {
     std::vector<std::string> texts;
-    collect(root, tag, attribute, texts);
+    for (const auto& found : document.select_nodes(("//" + tag).c_str()))
+        texts.emplace_back(attribute ? found.node().attribute(attribute).value() : found.node().text().get());
     return texts;
 }
 
 /// The figures of a report by their place in the summary.
-std::map<std::string, json> figures(vtkXMLDataElement* root) {
+std::map<std::string, json> figures(const pugi::xml_document& root) {
     std::map<std::string, json> result;
     const auto ids = all(root, "data", "id"), values = all(root, "data", "value");
     for (std::size_t i = 0; i < ids.size(); ++i) result[ids[i]] = json::parse(values[i]);
