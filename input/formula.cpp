@@ -17,6 +17,8 @@ namespace abut::input {
 
 namespace {
 
+constexpr std::array<const char*, 4> names{"t", "x", "y", "z"};
+
 /// Calls muParser, whose errors are none of the standard library: nothing of them leaves this file.
 template <class Call>
 auto with_parser(const Call& call) {
@@ -31,9 +33,14 @@ auto with_parser(const Call& call) {
 
 class Formula::Expression {
 public:
-    explicit Expression(const std::string& text) {
+    Expression(const std::string& text, const std::vector<NamedNumber>& numbers) {
+        numbers_.reserve(numbers.size());  // they stay where they are
         with_parser([&] {
             for (std::size_t i = 0; i < names.size(); ++i) parser_.DefineVar(names[i], &values_[i]);
+            for (const NamedNumber& number : numbers) {
+                numbers_.push_back(number.value);
+                parser_.DefineVar(number.name, &numbers_.back());
+            }
             parser_.DefineConst("pi", std::numbers::pi);
             parser_.SetExpr(text);
         });
@@ -52,17 +59,16 @@ public:
         return used;
     }
 
-    static constexpr std::array<const char*, 4> names{"t", "x", "y", "z"};
-
 private:
     std::array<double, 4> values_{};
+    std::vector<double> numbers_;
     mu::Parser parser_;
     std::mutex mutex_;
 };
 
 namespace {
 
-std::vector<std::string> names_of(Variables variables, const std::array<const char*, 4>& names) {
+std::vector<std::string> names_of(Variables variables) {
     const std::ptrdiff_t n = variables == Variables::none             ? 0
                              : variables == Variables::time           ? 1
                              : variables == Variables::time_and_plane ? 3
@@ -72,13 +78,33 @@ std::vector<std::string> names_of(Variables variables, const std::array<const ch
 
 }  // namespace
 
-Formula::Formula(const std::string& text, Variables variables) {
-    const auto expression = std::make_shared<Expression>(text);
-    const auto known = names_of(variables, Expression::names);
+void check_name_of_number(const std::string& name) {
+    std::vector<NamedNumber> number{{.name = name}};
+    bool good = std::ranges::find(names, name) == names.end();
+    try {
+        static_cast<void>(Formula(name, Variables::none, number));
+    } catch (const BadInput&) {
+        good = false;
+    }
+    if (!good || !number.front().used)
+        throw BadInput("its name cannot stand in a formula. Take letters, digits and _, and none of t, x, y, z and pi.");
+}
+
+Formula::Formula(const std::string& text, Variables variables, std::vector<NamedNumber>& numbers) {
+    const auto expression = std::make_shared<Expression>(text, numbers);
+    auto known = names_of(variables);
     bool varies = false;
     for (const std::string& name : expression->used_names()) {
-        varies = true;
-        if (std::ranges::find(known, name) != known.end()) continue;
+        if (std::ranges::find(known, name) != known.end()) {
+            varies = true;
+            continue;
+        }
+        const auto number = std::ranges::find(numbers, name, &NamedNumber::name);
+        if (number != numbers.end()) {
+            number->used = true;
+            continue;
+        }
+        for (const NamedNumber& other : numbers) known.push_back(other.name);
         throw BadInput(fmt::format("a formula knows no name '{}' here.{}", name, hint(name, known)));
     }
     value_ = expression->evaluate(0.0, Vector<3>::Zero());

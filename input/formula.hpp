@@ -2,6 +2,7 @@
 // Private to the layer.
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "abut/base/vector.hpp"
 
@@ -10,15 +11,26 @@ namespace abut::input {
 /// What a formula may depend on.
 enum class Variables { none, time, time_and_plane, time_and_space };
 
-/// A number, or an expression of muParser in t [s] and x, y, z [m], with pi. Calls from several threads wait for each
+/// A number that formulas know by its name.
+struct NamedNumber {
+    std::string name;
+    std::string where;  ///< Fault::where
+    double value = 0.0;
+    bool used = false;  ///< by a formula
+};
+
+/// Throws BadInput for a name that no formula could use, such as "t", "pi" or "a-b".
+void check_name_of_number(const std::string& name);
+
+/// A number, or an expression of muParser in t [s] and x, y, z [m], with pi and named numbers. Calls from several threads wait for each
 /// other.
 class Formula {
 public:
     Formula() = default;
     explicit Formula(double value) : value_(value) {}
     /// Throws BadInput saying what is wrong with the text: a name that is not known here, bad syntax, no finite number
-    /// where it depends on nothing.
-    Formula(const std::string& text, Variables variables);
+    /// where it depends on nothing. Marks the named numbers that it uses.
+    Formula(const std::string& text, Variables variables, std::vector<NamedNumber>& numbers);
 
     [[nodiscard]] double operator()(double time, const Vector<3>& position) const;
     [[nodiscard]] bool varies() const { return expression_ != nullptr; }

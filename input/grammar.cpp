@@ -24,6 +24,14 @@ std::string table(const std::string& title, const Keys<Section>& keys) {
     return fmt::format("### {}\n\n{}{}\n", title, table_head, rows(keys));
 }
 
+/// Any names: no key reads them.
+std::string numbers_table() {
+    return fmt::format(
+        "### [values]\n\n{}| NAME | number |  |  | what formulas of all keys know by this name; its own formula may "
+        "use those before it |\n\n",
+        table_head);
+}
+
 /// The kinds of a body or an obstacle, and then the keys of all.
 template <class Section, class Kind>
 std::string varied(const std::string& title, const std::vector<Variety<Section, Kind>>& varieties,
@@ -39,7 +47,7 @@ std::string varied(const std::string& title, const std::vector<Variety<Section, 
 }  // namespace
 
 std::string grammar() {
-    return table("In no table", top_keys()) + table("[materials.NAME]", material_keys()) +
+    return table("In no table", top_keys()) + numbers_table() + table("[materials.NAME]", material_keys()) +
            varied("[bodies.NAME]", body_varieties(), body_keys()) + table("[bodies.NAME.refinement]", refinement_keys()) +
            table("[bodies.NAME.BODY], BODY being one of the bodies of `mesh`", part_keys()) +
            varied("[obstacles.NAME]", obstacle_varieties(), obstacle_keys()) + table("[supports.NAME]", support_keys()) +

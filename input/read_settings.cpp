@@ -205,9 +205,37 @@ Key<Settings> named_key(const char* name, std::vector<Section> Settings::*member
     return {.name = name, .take = take};
 }
 
-/// Materials are read already: bodies may stand before them.
-Key<Settings> materials_key() {
-    return {.name = "materials", .take = [](Settings&, const Node&, const std::string&, Reader&) {}};
+/// Each may be a formula of those before it. One that cannot be read is 1, so that nothing is said of formulas that use it.
+void read_numbers(const Node& table, Reader& reader) {
+    if (!reader.is_table(table, "values")) return;
+    for (std::size_t i = 0; i < table.items.size(); ++i) {
+        const std::string key = "values." + table.names[i];
+        try {
+            check_name_of_number(table.names[i]);
+        } catch (const BadInput& error) {
+            reader.fault(table.items[i], fmt::format("{}: {}", in_one_line(key), error.what()));
+            continue;
+        }
+        const auto value = reader.number(table.items[i], key, {});
+        reader.numbers.push_back({table.names[i], table.items[i].where, value.value_or(1.0)});
+    }
+}
+
+/// A number that no formula uses may be a name mistyped.
+void check_numbers_used(Reader& reader) {
+    std::vector<std::string> used;
+    for (const NamedNumber& number : reader.numbers)
+        if (number.used) used.push_back(number.name);
+    for (const NamedNumber& number : reader.numbers)
+        if (!number.used)
+            reader.faults().push_back(
+                {number.where, fmt::format("values.{} is used by no formula.{}", number.name,
+                                           used.empty() ? " Leave it out." : hint(number.name, used))});
+}
+
+/// Of a table that is read already, wherever it stands.
+Key<Settings> read_before(const char* name) {
+    return {.name = name, .take = [](Settings&, const Node&, const std::string&, Reader&) {}};
 }
 
 Key<Settings> bodies_key() {
@@ -221,7 +249,8 @@ Key<Settings> bodies_key() {
 
 Keys<Settings> all_keys() {
     Keys<Settings> keys = top_keys();
-    keys.push_back(materials_key());
+    keys.push_back(read_before("values"));
+    keys.push_back(read_before("materials"));
     keys.push_back(bodies_key());
     keys.push_back(named_key("obstacles", &Settings::obstacles));
     keys.push_back(named_key("supports", &Settings::supports));
@@ -307,11 +336,13 @@ ReadSettings read_settings(const std::filesystem::path& path, const Overrides& o
     reader.dimension = dimension_of(document);
     read.settings.options.out = std::filesystem::path("out") / read.settings.file.stem();
     apply_preset(document, read.settings.options);
+    if (const Node* values = document.find("values")) read_numbers(*values, reader);
     if (const Node* materials = document.find("materials"))
         named_key("materials", &Settings::materials).take(read.settings, *materials, "materials", reader);
     read_table(read.settings, document, "", all_keys(), reader);
     if (read.settings.dim != 0 && document.find("bodies") && read.settings.bodies.empty())
         reader.fault(*document.find("bodies"), "bodies has no table. Give a body, [bodies.NAME].");
+    check_numbers_used(reader);
     if (overrides.options) overrides.options(read.settings.options);
     check_options(read.settings, reader.faults());
     read.faults = std::move(reader.faults());

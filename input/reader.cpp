@@ -33,7 +33,7 @@ std::optional<Formula> Reader::formula(const Node& node, const std::string& key,
     }
     if (variables == Variables::time_and_space && dimension == 2) variables = Variables::time_and_plane;
     try {
-        return Formula(node.text, variables);
+        return Formula(node.text, variables, numbers);
     } catch (const BadInput& error) {
         fault(node,
               fmt::format("{} is {}, a number{} is needed: {}", key, description(node), in_brackets(limits), error.what()));

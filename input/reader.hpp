@@ -16,7 +16,8 @@ namespace abut::input {
 /// Takes values out of nodes; what cannot be taken becomes a fault and nothing. `key` is what messages call the node.
 class Reader {
 public:
-    int dimension = 0;  ///< of vectors; 0: not known, 2 or 3
+    int dimension = 0;                 ///< of vectors; 0: not known, 2 or 3
+    std::vector<NamedNumber> numbers;  ///< that formulas may use
 
     void fault(const Node& node, std::string text);
     [[nodiscard]] std::vector<Fault>& faults() { return faults_; }
