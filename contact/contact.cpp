@@ -64,8 +64,7 @@ public:
         candidates_.search(u_0, u_1);
         found_.clear();
         for (const auto& [face_1, face_2] : candidates_.candidates())
-            if (const FacePair pair{SurfaceFace{face_1}, SurfaceFace{face_2}}; !is_own_ || is_own_(pair))
-                found_.push_back(pair);
+            found_.push_back({SurfaceFace{face_1}, SurfaceFace{face_2}});
         keep_contacts(u_0);
         sort_unique(found_);
 
@@ -131,19 +130,6 @@ public:
     }
 
     [[nodiscard]] const PairStore& pair_store() const { return store_; }
-    [[nodiscard]] PairStore release_pairs(std::function<bool(FacePair)> is_own) {
-        PairStore released;
-        if (is_own) released = store_.release([&](FacePair pair) { return !is_own(pair); });
-        is_own_ = std::move(is_own);
-        list_holds_ = false;
-        return released;
-    }
-    void take_pairs(const PairStore& pairs) {
-        for (const FacePair pair : pairs.pairs()) check_taken(pair);
-        store_.take(pairs);
-        list_holds_ = false;
-        has_searched_ = true;
-    }
 
     [[nodiscard]] std::vector<std::byte> state() const {
         return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, store_, {}});
@@ -213,19 +199,6 @@ private:
         step_.report = {};
     }
 
-    void check_taken(FacePair pair) const {
-        const std::int32_t face_1 = number_of(pair.face_1), face_2 = number_of(pair.face_2);
-        const std::string name = "contact: pair (" + std::to_string(face_1) + ", " + std::to_string(face_2) + ") ";
-        if (face_1 < 0 || face_2 >= surface_.size())
-            throw BadInput(name + "is handed over, but there are " + std::to_string(surface_.size()) +
-                               " faces. Hand pairs over between Contacts of the same surface.",
-                           {.face_1 = face_1, .face_2 = face_2});
-        if (is_own_ && !is_own_(pair))
-            throw Misuse(
-                name + "is handed over, but is not this Contact's own. Call `release_pairs` with the new rule first.",
-                {.face_1 = face_1, .face_2 = face_2});
-    }
-
     [[nodiscard]] bool is_admitted_at_first(const ContactPair<Dim>& pair, std::span<const Vector<Dim>> u_0) {
         const FirstAdmission first = admission_.decide_first(pair, u_0, !has_searched_);
         if (first == FirstAdmission::missed) ++report_.missed_contacts;
@@ -270,7 +243,6 @@ private:
     Reconstruction<Dim> law_;
     ContactStep<Dim> step_;
     ContactReport report_;
-    std::function<bool(FacePair)> is_own_;  // empty: all are
     std::vector<FacePair> found_;           // work array of `search`
     std::vector<Vector<Dim>> searched_at_;  // all faces at the start of the step of the last search; of `step` alone
     std::vector<Vector<Dim>> u_0_, u_1_, y_0_, y_1_;  // work arrays of `step`
@@ -329,14 +301,6 @@ std::vector<AdmittedOverlap<Dim>> Contact<Dim>::admitted_overlaps(std::span<cons
 template <int Dim>
 const PairStore& Contact<Dim>::pair_store() const {
     return implementation_->pair_store();
-}
-template <int Dim>
-PairStore Contact<Dim>::release_pairs(std::function<bool(FacePair)> is_own) {
-    return implementation_->release_pairs(std::move(is_own));
-}
-template <int Dim>
-void Contact<Dim>::take_pairs(const PairStore& pairs) {
-    implementation_->take_pairs(pairs);
 }
 template <int Dim>
 std::vector<std::byte> Contact<Dim>::state() const {

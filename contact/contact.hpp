@@ -93,18 +93,11 @@ public:
 
     /// What the listed pairs remember.
     [[nodiscard]] const PairStore& pair_store() const;
-    /// Several Contacts of one surface can share its pairs: from here on this one lists only the pairs for which `is_own` is
-    /// true (empty: all), and returns what it remembers of the others, for `take_pairs` of their new owners. Between two
-    /// steps; the next one must begin with a search, which `step` sees to.
-    [[nodiscard]] PairStore release_pairs(std::function<bool(FacePair)> is_own);
-    /// Takes over what another Contact released. Throws BadInput for a face that the surface does not have, Misuse for a
-    /// pair that is not this one's own, or that it knows already; it stays as it is then.
-    void take_pairs(const PairStore& pairs);
 
     /// All that the next steps depend on, and the counters of `report`, as bytes: versioned, with a checksum. After
-    /// `restore` of an object made for the same surface with the same options (and the same own pairs) the next steps have
-    /// the same bits; they begin with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another
-    /// version, dimension or surface.
+    /// `restore` of an object made for the same surface with the same options the next steps are bitwise identical; they begin
+    /// with a search. Throws BadInput, and stays as it is, for bytes that are damaged, of another version, dimension or
+    /// surface.
     [[nodiscard]] std::vector<std::byte> state() const;
     void restore(std::span<const std::byte> state);
 

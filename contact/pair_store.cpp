@@ -30,33 +30,6 @@ void PairStore::follow(std::span<const FacePair> pairs, const std::function<Pair
     memory_ = std::move(memory);
 }
 
-PairStore PairStore::release(const std::function<bool(FacePair)>& leaves) {
-    PairStore released, kept;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-        PairStore& to = leaves(pairs_[i]) ? released : kept;
-        to.pairs_.push_back(pairs_[i]);
-        to.memory_.push_back(memory_[i]);
-    }
-    *this = std::move(kept);
-    return released;
-}
-
-void PairStore::take(const PairStore& other) {
-    PairStore all;
-    std::size_t i = 0, j = 0;
-    while (i < pairs_.size() || j < other.pairs_.size()) {
-        const bool is_own = j == other.pairs_.size() || (i < pairs_.size() && pairs_[i] <= other.pairs_[j]);
-        if (is_own && j < other.pairs_.size() && pairs_[i] == other.pairs_[j])
-            throw Misuse("pair store: faces " + std::to_string(number_of(pairs_[i].face_1)) + " and " +
-                             std::to_string(number_of(pairs_[i].face_2)) +
-                             " are a pair of both stores. A pair has one owner: release it there first.",
-                         {.face_1 = number_of(pairs_[i].face_1), .face_2 = number_of(pairs_[i].face_2)});
-        all.pairs_.push_back(is_own ? pairs_[i] : other.pairs_[j]);
-        all.memory_.push_back(is_own ? memory_[i++] : other.memory_[j++]);
-    }
-    *this = std::move(all);
-}
-
 void PairStore::save(StateWriter& state) const {
     state.put(static_cast<std::uint64_t>(pairs_.size()));
     for (std::size_t i = 0; i < pairs_.size(); ++i) {

@@ -27,7 +27,7 @@ struct FacePair {
 
 /// What the pairs of a surface remember, by (face_1, face_2). It outlives candidate lists: a pair that stays in the list from
 /// one search to the next keeps its memory, one that leaves the list loses it (else it would come back active from the
-/// side). It can be saved, restored, and handed in parts to another owner.
+/// side). It can be saved and restored.
 class PairStore {
 public:
     [[nodiscard]] std::span<const FacePair> pairs() const { return pairs_; }  ///< increasing, each once
@@ -40,11 +40,6 @@ public:
     /// Replaces the pairs of the store by these, increasing and each once: known ones keep their memory, new ones get
     /// `of_new(i)`. After an exception the store is as it was.
     void follow(std::span<const FacePair> pairs, const std::function<PairMemory(std::size_t i)>& of_new);
-
-    /// Moves the pairs for which `leaves` is true into a store of their own, for another owner.
-    [[nodiscard]] PairStore release(const std::function<bool(FacePair)>& leaves);
-    /// Takes over the pairs of another store. Throws Misuse naming a pair that both have.
-    void take(const PairStore& other);
 
     /// Appends the store to a state, and reads it from there; `n_faces` is the size of the surface. Throws BadInput for pairs
     /// out of order or range.

@@ -1,4 +1,4 @@
-// A step of contact as a host asks for it, and how several Contacts share the pairs of a surface.
+// A step of contact as a host asks for it.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -10,8 +10,6 @@
 using namespace abut;
 using namespace abut::test;
 using Catch::Matchers::Contains;
-using contact::FacePair;
-using contact::PairStore;
 using contact::SurfaceFace;
 
 namespace {
@@ -40,9 +38,6 @@ void check_same_pair(const contact::PairStep<Dim>& a, const contact::PairStep<Di
     CHECK(a.area == b.area);
     CHECK((a.force - b.force).norm() <= 1e-14 * b.force.norm());
 }
-
-bool is_even(FacePair pair) { return (number_of(pair.face_1) + number_of(pair.face_2)) % 2 == 0; }
-bool is_odd(FacePair pair) { return !is_even(pair); }
 
 }  // namespace
 
@@ -172,63 +167,6 @@ TEMPLATE_TEST_CASE_SIG("after a search there is no step yet: no pairs, and zeros
     CHECK(last.mean_correction.size() == last.faces.size());
     CHECK(last.mean_normal_force.size() == last.faces.size());
     for (const auto& gradient : last.mean_gradient) CHECK(gradient.isZero(0.0));
-}
-
-TEMPLATE_TEST_CASE_SIG("two Contacts share the pairs of a surface, swap them, and find together what one finds",
-                       "[contact][store]", ((int Dim), Dim), 2, 3) {
-    const auto surface = plates<Dim>();
-    const auto states = path_of_plates(surface);
-    contact::Contact<Dim> whole(surface.view(), deep()), first(surface.view(), deep()), second(surface.view(), deep());
-    contact::Contact<Dim> forgetful(surface.view(),
-                                    deep());  // gets the same pairs as `second`, but not what is known of them
-    CHECK(first.release_pairs(is_even).size() == 0);
-    CHECK(second.release_pairs(is_odd).size() == 0);
-    CHECK(forgetful.release_pairs(is_odd).size() == 0);
-    std::size_t handed_over = 0, active = 0, losses = 0;
-    for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-        if (i % 10 == 5) {
-            const bool is_swapped = i % 20 == 5;
-            const PairStore of_first = first.release_pairs(is_swapped ? is_odd : is_even);
-            const PairStore of_second = second.release_pairs(is_swapped ? is_even : is_odd);
-            static_cast<void>(forgetful.release_pairs(is_swapped ? is_even : is_odd));
-            first.take_pairs(of_second);
-            second.take_pairs(of_first);
-            handed_over += static_cast<std::size_t>(of_first.size() + of_second.size());
-        }
-        const auto& expected = whole.step(constant_host<Dim>(states[i], states[i + 1]));
-        const auto& a = first.step(constant_host<Dim>(states[i], states[i + 1]));
-        const auto& b = second.step(constant_host<Dim>(states[i], states[i + 1]));
-        losses += b.pairs.size() - forgetful.step(constant_host<Dim>(states[i], states[i + 1])).pairs.size();
-        REQUIRE(a.pairs.size() + b.pairs.size() == expected.pairs.size());
-        auto of_a = a.pairs.begin(), of_b = b.pairs.begin();
-        for (const auto& pair : expected.pairs) {
-            const bool is_of_a = of_a != a.pairs.end() && of_a->face_1 == pair.face_1 && of_a->face_2 == pair.face_2;
-            check_same_pair(is_of_a ? *of_a++ : *of_b++, pair);
-        }
-        active += expected.pairs.size();
-    }
-    CHECK(active > 50);
-    CHECK(handed_over > 20);
-    CHECK(first.report().missed_contacts + second.report().missed_contacts == whole.report().missed_contacts);
-    CHECK(losses > 5);  // what was handed over is what makes the difference
-    CHECK(forgetful.report().missed_contacts + forgetful.report().inadmissible_overlaps > 0);  // and one is told
-}
-
-TEMPLATE_TEST_CASE_SIG("pairs that cannot be taken over are refused by their faces, and nothing changes", "[contact][store]",
-                       ((int Dim), Dim), 2, 3) {
-    const auto surface = plates<Dim>(), larger = plates<Dim>(8);
-    contact::Contact<Dim> contact(surface.view(), deep()), of_larger(larger.view(), deep()), other(surface.view(), deep());
-    for (auto* each : {&contact, &other}) drive(*each, moved(surface, -0.1, 0.0), moved(surface, 0.1, 0.0));
-    drive(of_larger, moved(larger, -0.1, 0.0), moved(larger, 0.1, 0.0));
-    const auto nothing = [](FacePair) { return false; };
-    const auto before = contact.state();
-    CHECK_THROWS_AS(contact.take_pairs(of_larger.release_pairs(nothing)), BadInput);
-    const PairStore released = other.release_pairs(nothing);
-    REQUIRE(released.size() > 0);
-    CHECK_THROWS_AS(contact.take_pairs(released), Misuse);  // it knows them already
-    CHECK_THROWS_WITH(other.take_pairs(released), Contains("not this Contact's own"));
-    CHECK(contact.state() == before);
-    CHECK(other.pair_store().size() == 0);
 }
 
 TEMPLATE_TEST_CASE_SIG("arrays of a wrong size and functions that are not set are refused", "[contact][step]",
