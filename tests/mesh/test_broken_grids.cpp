@@ -130,6 +130,9 @@ TEST_CASE("a VTU file whose attributes promise more than its size can hold is re
                    Contains("line 10: the array 'types' holds '" + type + "', a number of the type 'UInt8' is needed."));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "Name=\"types\"", "Name=\"offsets\"")),
                Contains("line 10: there are two arrays 'offsets'"));
+    CHECK_THAT(said_of("a.vtu",
+                       replaced(tetrahedron_vtu, "Name=\"connectivity\"", "Name=\"connectivity\" NumberOfComponents=\"0\"")),
+               Contains("line 8: the array 'connectivity' has 0 values of the type 'Int64', 4 whole numbers are needed."));
     CHECK_THAT(said_of("a.vtu", replaced(tetrahedron_vtu, "NumberOfPoints=\"4\"", "NumberOfPoints=\"4e0\"")),
                Contains("a.vtu: line 5: NumberOfPoints is '4e0', a whole number of at least 0 is needed."));
 }
@@ -164,6 +167,43 @@ TEST_CASE("a VTU file whose compressed data promise more than it can hold is ref
     CHECK_THAT(said_of("a.vtu", damaged), Contains("the file is damaged: the blocks of the array 'body' end behind the "));
     CHECK_THAT(said_of("a.vtu", replaced(whole, "raw\">", "raw\"><")),
                Contains("a.vtu: line ") && Contains("'_' does not follow <AppendedData>"));
+}
+
+TEST_CASE("a VTP file whose arrays share their data is refused where all together are more than it can hold",
+          "[mesh][files][broken]") {
+    const ScratchFolder folder;
+    SurfaceMesh mesh;
+    for (int i = 0; i < 30'000; ++i) mesh.vertices.push_back({0, 0, 0});
+    mesh.faces.append(std::array{0, 0, 0});
+    write_vtp(mesh.soup(), folder / "whole.vtp");
+    std::ifstream file(folder / "whole.vtp", std::ios::binary);
+    const std::string whole{std::istreambuf_iterator<char>(file), {}};
+    const auto with_arrays = [&](int n) {
+        std::string arrays;
+        for (int i = 0; i < n; ++i)
+            arrays += "<DataArray type=\"Float64\" Name=\"d" + std::to_string(i) +
+                      "\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/>";
+        return replaced(whole, "<PointData>", "<PointData>" + arrays);
+    };
+    CHECK(said_of("a.vtp", with_arrays(1)) == "nothing");
+    CHECK_THAT(said_of("a.vtp", with_arrays(100)), Contains("a.vtp: line 5: the file is damaged: its arrays, up to 'd"));
+}
+
+TEST_CASE("elements nested without end and entities that double each other take neither stack nor memory",
+          "[mesh][files][broken]") {
+    std::string begins, ends, entities = "<!DOCTYPE VTKFile [<!ENTITY e0 \"x\">";
+    for (int i = 0; i < 200'000; ++i) {
+        begins += "<a>";
+        ends += "</a>";
+    }
+    for (int i = 0; i < 30; ++i)
+        entities += "<!ENTITY e" + std::to_string(i + 1) + " \"&e" + std::to_string(i) + ";&e" + std::to_string(i) + ";\">";
+    CHECK(said_of("a.vtp", replaced(triangle_vtp, "<PolyData>", begins + ends + "<PolyData>")) == "nothing");
+    CHECK(said_of("a.vtp", entities + "]>" +
+                               replaced(triangle_vtp, "<Points>",
+                                        "<PointData><DataArray type=\"Int8\" "
+                                        "Name=\"&e30;\" format=\"ascii\">1 2 3</DataArray></PointData><Points>")) ==
+          "nothing");
 }
 
 TEST_CASE("a grid of equal values, which compress best, is read", "[mesh][files][broken]") {
