@@ -26,6 +26,7 @@ namespace {
 using Node = pugi::xml_node;
 
 constexpr const char* blanks = " \t\r\n";
+constexpr std::string_view zlib = "vtkZLibDataCompressor";
 
 std::string_view trimmed(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
@@ -142,7 +143,10 @@ public:
         order_ = file.attribute("byte_order").value() == std::string_view("BigEndian") ? ByteOrder::big : ByteOrder::little;
         header_size_ = file.attribute("header_type").value() == std::string_view("UInt64") ? 8 : 4;
         compressor_ = file.attribute("compressor").value();
-        if (!compressor_.empty()) ratio_ = static_cast<double>(largest_zlib_ratio);
+        if (compressor_ == zlib)
+            ratio_ = static_cast<double>(largest_zlib_ratio);
+        else if (!compressor_.empty())
+            ratio_ = 8192.0;  // LZMA's; what is compressed so is refused when it is met
         const Node grid = file.child(type.c_str());
         for (const Node field : grid.children("FieldData"))
             for (const Node array : field.children("DataArray"))
@@ -266,9 +270,9 @@ private:
             return *found;
         };
         const Node offsets = array("offsets"), connectivity = array("connectivity");
+        const auto ends = values<std::int64_t>(offsets, n);
         const auto types =
             kind.type == vtk_empty_cell ? values<std::int64_t>(array("types"), n) : std::vector<std::int64_t>(n, kind.type);
-        const auto ends = values<std::int64_t>(offsets, n);
         for (std::size_t i = 0; i < n; ++i)
             if (ends[i] < (i == 0 ? 0 : ends[i - 1]) || static_cast<double>(ends[i]) > ratio_ * n_bytes())
                 refuse_damage(offsets, "the offset " + std::to_string(ends[i]) +
@@ -442,7 +446,7 @@ private:
     /// Before the blocks stand their number, the bytes of a block and of the last one (0 if it is full), and the bytes of each
     /// as it is stored.
     std::string compressed_data(Node array, const Stored& stored, std::size_t n) {
-        if (compressor_ != "vtkZLibDataCompressor")
+        if (compressor_ != zlib)
             throw MeshError(name_ + ": its data are compressed by " + in_quotes(compressor_) +
                             ", of which no reader is here. Convert it: open it in ParaView and save it with the compressor "
                             "ZLib, or without one.");
