@@ -221,13 +221,13 @@ void read_numbers(const Node& table, Reader& reader) {
     }
 }
 
-/// A number that no formula uses may be a name mistyped.
-void check_numbers_used(Reader& reader) {
+/// A number that no formula uses may be a name mistyped. Those of the file may be in formulas that `set` has replaced.
+void check_numbers_used(const std::vector<std::string>& set, Reader& reader) {
     std::vector<std::string> used;
     for (const NamedNumber& number : reader.numbers)
         if (number.used) used.push_back(number.name);
     for (const NamedNumber& number : reader.numbers)
-        if (!number.used)
+        if (!number.used && (set.empty() || number.where.starts_with("--set")))
             reader.faults().push_back(
                 {number.where, fmt::format("values.{} is used by no formula.{}", number.name,
                                            used.empty() ? " Leave it out." : hint(number.name, used))});
@@ -342,7 +342,7 @@ ReadSettings read_settings(const std::filesystem::path& path, const Overrides& o
     read_table(read.settings, document, "", all_keys(), reader);
     if (read.settings.dim != 0 && document.find("bodies") && read.settings.bodies.empty())
         reader.fault(*document.find("bodies"), "bodies has no table. Give a body, [bodies.NAME].");
-    check_numbers_used(reader);
+    check_numbers_used(overrides.set, reader);
     if (overrides.options) overrides.options(read.settings.options);
     check_options(read.settings, reader.faults());
     read.faults = std::move(reader.faults());
