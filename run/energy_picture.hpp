@@ -1,20 +1,17 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
+
+#include "abut/dynamics/ledger.hpp"
+#include "abut/run/scene.hpp"
 
 namespace abut::run {
 
-/// What the picture of the energies of a run is drawn from and scaled by.
-struct EnergyPicture {
-    std::string title;
-    double pseudo_energy;    ///< H~ at the start [J]
-    double scale;            ///< what drifts are divided by [J]
-    std::string scale_name;  ///< "K0": a letter and its index
-};
-
-/// energy.gp beside energy.csv, and energy.png, which gnuplot makes of it: above kinetic and potential energy, H and H~;
-/// below |H~ - H~0 - work| and H - H~ over the scale, logarithmic. Says why there is no picture; empty if there is one.
-/// Throws BadInput if the script cannot be written.
-[[nodiscard]] std::string draw_energy(const std::filesystem::path& directory, const EnergyPicture& picture);
+/// Writes energy.svg, the two pictures of energies of a report, to a folder: above kinetic and potential energy, H and H~;
+/// below |H~ - H~0 - work| and H - H~ over the scale, logarithmic. Throws BadInput if the file cannot be written.
+template <int Dim>
+void write_energy_picture(const std::filesystem::path& directory, const std::string& title,
+                          std::span<const dynamics::LedgerEntry<Dim>> entries, const EnergyScale& scale);
 
 }  // namespace abut::run

@@ -11,26 +11,10 @@
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/files.hpp"
-#include "abut/run/gnuplot.hpp"
+#include "abut/run/report/cell_map.hpp"
 
 namespace abut::run {
 namespace {
-
-constexpr std::string_view script = R"gp(set size ratio -1
-set tmargin 4
-set xlabel "{axis_1} [m]"
-set ylabel "{axis_2} [m]"
-set cblabel "speed [m/s]"
-set logscale cb
-set format cb "%g"
-set cbrange [{slowest:.6g}:{fastest:.6g}]
-set palette defined (0 "#dfe8f3", 0.5 "#2a78d6", 1 "#eb6834")
-set title '{title}'."\n".'{subtitle}' font ",13" noenhanced
-shown(v) = v > {slowest:.6g} ? v : {slowest:.6g}  # colours are of a logarithm
-plot "failed.csv" using "{axis_1}":"{axis_2}":(shown(column("speed"))) with points pt 7 ps {size:.3g} lc palette notitle, \
-     "-" using 1:2 with points pt 6 ps 5 lw 3 lc rgb "#1b1b1a" notitle
-{rings}e
-)gp";
 
 constexpr std::array<std::string_view, 3> axis_names{"x", "y", "z"};
 
@@ -102,28 +86,30 @@ std::pair<double, double> speed_range(const std::vector<double>& speed) {
 
 /// Where `cells` are, in rings.
 template <int Dim>
-Picture picture(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& position, const std::vector<double>& speed,
-                const Failure& failure, const std::vector<std::int32_t>& cells) {
+CellMap cell_map(const mesh::Mesh<Dim>& mesh, const std::vector<Vector<Dim>>& position, const std::vector<double>& speed,
+                 const Failure& failure, const std::vector<std::int32_t>& cells) {
     const auto [first, second] = widest_axes(position);
-    std::string rings, names;
+    const auto in_plane = [first = first, second = second](const Vector<Dim>& x) { return std::array{x[first], x[second]}; };
+    const auto [slowest, fastest] = speed_range(speed);
+    CellMap map{
+        .title = fmt::format("Last sound state, step {}, t = {:.4g} s, coloured by {}", failure.sound.steps,
+                             failure.sound.time, failure.lost ? "the speeds with which the run was given up" : "its speeds"),
+        .subtitle = {},
+        .x_label = fmt::format("{} [m]", axis_names[static_cast<std::size_t>(first)]),
+        .y_label = fmt::format("{} [m]", axis_names[static_cast<std::size_t>(second)]),
+        .value_label = "speed [m/s]",
+        .position = {},
+        .value = speed,
+        .lower = slowest,
+        .upper = fastest,
+        .rings = {}};
+    for (const Vector<Dim>& x : position) map.position.push_back(in_plane(x));
     for (const std::int32_t cell : cells) {
         const auto& x = position[static_cast<std::size_t>(cell)];
-        rings += fmt::format("{:.17g},{:.17g}\n", x[first], x[second]);
-        names += (names.empty() ? "Ring: " : ", ") + name_of_cell<Dim>(mesh, cell, x);
+        map.rings.push_back(in_plane(x));
+        map.subtitle += (map.subtitle.empty() ? "Ring: " : ", ") + name_of_cell<Dim>(mesh, cell, x);
     }
-    const auto [slowest, fastest] = speed_range(speed);
-    const std::string title =
-        fmt::format("Last sound state, step {}, t = {:.4g} s, coloured by {}", failure.sound.steps, failure.sound.time,
-                    failure.lost ? "the speeds with which the run was given up" : "its speeds");
-    return {
-        .name = std::string(failure_name),
-        .purpose = "Where a run has failed, from failed.csv beside this file",
-        .height = 900,
-        .script = fmt::format(fmt::runtime(script), fmt::arg("axis_1", axis_names[first]),
-                              fmt::arg("axis_2", axis_names[second]), fmt::arg("slowest", slowest),
-                              fmt::arg("fastest", fastest), fmt::arg("title", title), fmt::arg("subtitle", in_quotes(names)),
-                              fmt::arg("size", std::clamp(60.0 / std::sqrt(static_cast<double>(position.size())), 0.3, 4.0)),
-                              fmt::arg("rings", rings))};
+    return map;
 }
 
 }  // namespace
@@ -138,11 +124,10 @@ std::string write_failure(const std::filesystem::path& directory, const std::str
     for (std::size_t c = 0; c < position.size(); ++c) position[c] += solid.mesh().cell_centroid[c];
     write_frame(directory, series, failure, speed, solid);
     write_table(directory / (std::string(failure_name) + ".csv"), solid.mesh(), position, speed);
-    const std::string without_picture = draw(directory, picture(solid.mesh(), position, speed, failure, cells));
-    const std::string drawn = without_picture.empty() ? std::string(failure_name) + ".png shows where it failed, "
-                                                      : "there is no picture of where it failed (" + without_picture + "), ";
-    return drawn + failure_series(series) + ".pvd holds the last sound state, step " + std::to_string(failure.sound.steps) +
-           ".";
+    const std::string picture = std::string(failure_name) + ".svg";
+    write_whole(directory / picture, drawing_file(cell_map<Dim>(solid.mesh(), position, speed, failure, cells)));
+    return picture + " shows where it failed, " + failure_series(series) + ".pvd holds the last sound state, step " +
+           std::to_string(failure.sound.steps) + ".";
 }
 
 template std::string write_failure<2>(const std::filesystem::path&, const std::string&, const Failure&,

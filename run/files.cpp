@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> plain_results = {"summary.json", "report.html",        "energy.csv", "energy.png",
-                                                "energy.gp",    paraview_script_name, "probes.csv", "forces.csv"};
+const std::vector<std::string> plain_results = {"summary.json",       "report.html", "energy.csv", "energy.svg",
+                                                paraview_script_name, "probes.csv",  "forces.csv"};
 
 bool take(std::string_view& text, std::string_view start) {
     if (!text.starts_with(start)) return false;
@@ -72,7 +72,7 @@ std::vector<std::string> files_of_series(const fs::path& directory, const std::s
 std::vector<std::string> files_of_failure(const fs::path& directory, const std::string& series) {
     const std::string name(failure_name);
     std::vector<std::string> names = files_of_series(directory, failure_series(series));
-    names.insert(names.end(), {name + ".csv", name + ".gp", name + ".png"});
+    names.insert(names.end(), {name + ".csv", name + ".svg"});
     return names;
 }
 

@@ -19,12 +19,9 @@ namespace {
 const std::vector<std::string> texts_beside{"scene.toml", "restart.json"};
 
 template <int Dim>
-std::string draw(const std::filesystem::path& out, const std::string& program, const Scene<Dim>& scene,
-                 const RunResult<Dim>& result) {
-    const std::string title = fmt::format("{}, {}D, {}, {} cells, {} steps", program, Dim,
-                                          name_of(result.options.integrator), scene.mesh.n_cells(), result.steps);
-    const double scale = result.scale.value > 0.0 ? result.scale.value : 1.0;  // nothing has moved
-    return draw_energy(out, {title, result.ledger.entries().front().pseudo_energy, scale, result.scale.name});
+std::string title_of(const std::string& program, const Scene<Dim>& scene, const RunResult<Dim>& result) {
+    return fmt::format("{}, {}D, {}, {} cells, {} steps", program, Dim, name_of(result.options.integrator),
+                       scene.mesh.n_cells(), result.steps);
 }
 
 }  // namespace
@@ -144,7 +141,7 @@ void ResultFiles<Dim>::save(StateWriter& state) {
 template <int Dim>
 void ResultFiles<Dim>::resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) {
     const Stopwatch watch(seconds_);
-    remove_files(out_, {"summary.json", "report.html", "energy.csv", "energy.png", "energy.gp"});
+    remove_files(out_, {"summary.json", "report.html", "energy.csv", "energy.svg"});
     remove_failure(out_, name_);
     energies_.resume(scene, result, state);
     n_steps_ = result.steps;
@@ -162,7 +159,7 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
         energies_.finish();
         if (probes_) probes_->finish();
         if (forces_) forces_->finish();
-        without_picture_ = draw(out_, program_, scene, result);
+        write_energy_picture<Dim>(out_, title_of(program_, scene, result), result.ledger.entries(), result.scale);
     }
     result.seconds.output += seconds_ + seconds;
     result.seconds.total += seconds;
@@ -176,8 +173,8 @@ void ResultFiles<Dim>::finish(const Scene<Dim>& scene, RunResult<Dim>& result) {
 template <int Dim>
 std::vector<ReportFile> ResultFiles<Dim>::files_of_report() const {
     std::vector<ReportFile> files = {{"summary.json", "all figures of this page and more, for programs"},
-                                     {"energy.csv", "energies and momenta, a row per record"}};
-    if (without_picture_.empty()) files.push_back({"energy.png", "the picture of the energies"});
+                                     {"energy.csv", "energies and momenta, a row per record"},
+                                     {"energy.svg", "the picture of the energies"}};
     if (frames_) {
         files.push_back({name_ + ".pvd", "cells over time, for ParaView"});
         files.push_back({name_ + "_surface.pvd", "boundary faces over time, for ParaView"});
@@ -197,7 +194,7 @@ std::string ResultFiles<Dim>::table() const {
     if (forces_) text += table_line("forces", path("forces.csv"));
     if (frames_) text += table_line("for ParaView", path(name_ + ".pvd") + ", " + path(name_ + "_surface.pvd"));
     if (frames_ && frames_->has_pairs()) text += table_line("", path(pairs_series(name_) + ".pvd"));
-    return text + table_line("picture", without_picture_.empty() ? path("energy.png") : "none: " + without_picture_);
+    return text + table_line("picture", path("energy.svg"));
 }
 
 template class ResultFiles<2>;

@@ -19,7 +19,7 @@
 namespace abut::run {
 
 /// All files of a run in one folder, RunOptions::out: energy.csv, the VTU series, probes.csv and forces.csv (where
-/// Scene::outputs asks for them) as it goes, then energy.gp, energy.png, the script for ParaView, report.html and summary.json;
+/// Scene::outputs asks for them) as it goes, then energy.svg, the script for ParaView, report.html and summary.json;
 /// in `checkpoints`, what a run that is stopped goes on from; of a run that fails its last sound state and where it failed
 /// (write_failure). The folder is its own (FolderLock) until `finish`, or until it
 /// goes.
@@ -50,7 +50,7 @@ public:
     void save(StateWriter& state) override;
     void resume(const Scene<Dim>& scene, const RunResult<Dim>& result, StateReader& state) override;
     /// After the run. Adds the time of all output to `result.seconds`, that of the picture also to the total. Throws
-    /// BadInput if a file cannot be written; a picture that cannot be drawn is no error.
+    /// BadInput if a file cannot be written.
     void finish(const Scene<Dim>& scene, RunResult<Dim>& result);
 
     /// What a run that was stopped goes on from, of the folder `checkpoints` in that of the results. Throws as
@@ -61,8 +61,6 @@ public:
 
     /// What is left of a run that fails, in sentences for its message; empty if it has not begun.
     [[nodiscard]] std::string left_behind() const;
-    /// Why there is no energy.png, after `finish`; empty if there is.
-    [[nodiscard]] const std::string& without_picture() const { return without_picture_; }
     /// "Files" and a line for each kind of them, as closing_table: to follow it.
     [[nodiscard]] std::string table() const;
 
@@ -88,7 +86,6 @@ private:
     bool has_begun_ = false;
     std::string failed_;  // what `fail` has left
     double seconds_ = 0.0;
-    std::string without_picture_;
 };
 
 }  // namespace abut::run

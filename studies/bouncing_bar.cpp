@@ -171,7 +171,7 @@ private:
 };
 
 /// The end of the bar, energies and drifts over time.
-run::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
+apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double end) {
     constexpr std::array colours = {"#2a78d6", "#eb6834", "#1f9e6e", "#8a4fc7", "#c2a100"};
     const auto lines = [&](const std::string& what, const std::string& style) {
         std::string plots;

@@ -102,7 +102,7 @@ private:
 };
 
 /// One panel an integrator.
-run::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
+apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
     const int n = static_cast<int>(runs.size());
     const double height = 100.0 + 210.0 * n;  // [pixels]
     std::string script = fmt::format(

@@ -212,7 +212,7 @@ apps::Table profile(const Mesh& mesh, const std::vector<apps::SchemeRun>& runs, 
 }
 
 /// The profiles, and what is wrong with them.
-run::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
+apps::Picture picture(const std::vector<apps::SchemeRun>& runs, double time) {
     constexpr std::array styles = {"lw 3 lc rgb \"#2a78d6\"", "lw 1.8 lc rgb \"#eb6834\"", "lw 1.8 dt 3 lc rgb \"#1b1b1a\""};
     std::string above = "\"profile.csv\" using \"x\":\"exact\" with lines lw 5 lc rgb \"#b9b8b4\" title \"exact\"",
                 below = "0 with lines lc rgb \"#b9b8b4\" notitle";

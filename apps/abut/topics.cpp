@@ -79,7 +79,7 @@ const Topic output{"output", "Results",
   report.html          for people: verdict, pictures, bodies, warnings, settings
   summary.json         for programs: all figures and the options as they were used
   energy.csv           energies and momenta, a row per record (--interval)
-  energy.png           their picture, if gnuplot is there; energy.gp draws it
+  energy.svg           their picture
   bodies.pvd           cells over time for ParaView (--frames), bodies_surface.pvd boundary faces,
                        bodies_pairs.pvd pairs of faces in contact
   view_in_paraview.py  opens them with sensible views: paraview --script=...

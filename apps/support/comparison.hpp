@@ -12,9 +12,9 @@
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "abut/run/gnuplot.hpp"
 #include "abut/run/value.hpp"
 #include "apps/support/csv.hpp"
+#include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/schemes.hpp"
 
@@ -200,7 +200,7 @@ struct Comparison {
     std::vector<SchemeRun> runs;
     std::vector<run::Finding> findings;  ///< of all of them together
     nlohmann::ordered_json options;
-    run::Picture picture;
+    apps::Picture picture;
 };
 
 /// Leaves <scheme>.csv, the picture and summary.json, and prints the table: one line per figure, one column per scheme. Then

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Draws frames of a 2D run on the deformed mesh, coloured by von Mises stress (needs python3-vtk9 and gnuplot).
 
-    slipping_cylinders --size 0.05 --frames 41 --out /tmp/slip
+    abut run scenes/slipping_cylinders.toml --set values.size=0.05 --frames 41 --out /tmp/slip
     docs/images/draw_cylinders.py /tmp/slip docs/images/slipping_cylinders.png 0 9 15 28
-    cp /tmp/slip/energy.png docs/images/slipping_energy.png
+    cp /tmp/slip/energy.svg docs/images/slipping_energy.svg
 """
 import pathlib
 import subprocess
@@ -45,7 +45,7 @@ set cbtics 0,0.03
 
 
 def frames_of(directory):
-    tree = xml.etree.ElementTree.parse(directory / "cylinders.pvd")
+    tree = xml.etree.ElementTree.parse(directory / "bodies.pvd")
     return [(float(entry.get("timestep")), directory / entry.get("file")) for entry in tree.iter("DataSet")]
 
 

@@ -2,25 +2,28 @@
 
 #include <cmath>
 #include <functional>
-
-#include "abut/run/report/plot.hpp"
+#include <string>
+#include <vector>
 
 namespace abut::run {
 namespace {
 
 template <int Dim>
+using Entries = std::span<const dynamics::LedgerEntry<Dim>>;
+
+template <int Dim>
 using Quantity = std::function<double(const dynamics::LedgerEntry<Dim>&)>;
 
 template <int Dim>
-std::vector<double> values(const RunResult<Dim>& result, const Quantity<Dim>& quantity) {
+std::vector<double> values(Entries<Dim> entries, const Quantity<Dim>& quantity) {
     std::vector<double> all;
-    for (const auto& entry : result.ledger.entries()) all.push_back(quantity(entry));
+    for (const auto& entry : entries) all.push_back(quantity(entry));
     return all;
 }
 
 template <int Dim>
-std::vector<double> times(const RunResult<Dim>& result) {
-    return values<Dim>(result, [](const auto& entry) { return entry.time; });
+std::vector<double> times(Entries<Dim> entries) {
+    return values<Dim>(entries, [](const auto& entry) { return entry.time; });
 }
 
 Markup figure(const Plot& plot, const std::string& caption) {
@@ -28,60 +31,67 @@ Markup figure(const Plot& plot, const std::string& caption) {
 }
 
 template <int Dim>
-Plot energies(const RunResult<Dim>& result) {
+Plot energies(Entries<Dim> entries) {
     return {.title = "Energies over time",
             .x_label = "time [s]",
             .y_label = "energy [J]",
-            .x = times(result),
-            .curves = {{"H", "grey", values<Dim>(result, [](const auto& entry) { return entry.energy; })},
-                       {"kinetic", "blue", values<Dim>(result, [](const auto& entry) { return entry.kinetic; })},
-                       {"potential", "orange", values<Dim>(result, [](const auto& entry) { return entry.potential; })},
-                       {"H~", "ink", values<Dim>(result, [](const auto& entry) { return entry.pseudo_energy; })}}};
+            .x = times<Dim>(entries),
+            .curves = {{"H", "grey", values<Dim>(entries, [](const auto& entry) { return entry.energy; })},
+                       {"kinetic", "blue", values<Dim>(entries, [](const auto& entry) { return entry.kinetic; })},
+                       {"potential", "orange", values<Dim>(entries, [](const auto& entry) { return entry.potential; })},
+                       {"H~", "ink", values<Dim>(entries, [](const auto& entry) { return entry.pseudo_energy; })}}};
 }
 
 /// |H~ - H~0 - W|, less what restarts with another step have added, and H - H~.
 template <int Dim>
-Plot errors(const RunResult<Dim>& result) {
-    const double start = result.ledger.entries().front().pseudo_energy;
-    const EnergyScale& scale = result.scale;
+Plot errors(Entries<Dim> entries, const EnergyScale& scale) {
+    const double start = entries.front().pseudo_energy;
     const auto drift = [=, &scale](const auto& entry) {
         return scale.over(std::abs(entry.pseudo_energy - start - entry.work - entry.restart_jumps));
     };
     const auto excess = [&scale](const auto& entry) { return scale.over(entry.energy - entry.pseudo_energy); };
-    return {
-        .title = "Errors of the energies over time",
-        .x_label = "time [s]",
-        .y_label = "over " + result.scale.name,
-        .x = times(result),
-        .curves = {{"H - H~", "orange", values<Dim>(result, excess)}, {"|H~ - H~0 - W|", "ink", values<Dim>(result, drift)}},
-        .logarithmic = true};
+    return {.title = "Errors of the energies over time",
+            .x_label = "time [s]",
+            .y_label = "over " + scale.name,
+            .x = times<Dim>(entries),
+            .curves = {{"H - H~", "orange", values<Dim>(entries, excess)},
+                       {"|H~ - H~0 - W|", "ink", values<Dim>(entries, drift)}},
+            .logarithmic = true};
 }
 
 }  // namespace
 
 template <int Dim>
+std::array<Plot, 2> energy_plots(std::span<const dynamics::LedgerEntry<Dim>> entries, const EnergyScale& scale) {
+    return {energies<Dim>(entries), errors<Dim>(entries, scale)};
+}
+
+template <int Dim>
 Markup energy_pictures(const RunResult<Dim>& result) {
-    return figure(energies(result),
+    const auto [energies, errors] = energy_plots<Dim>(result.ledger.entries(), result.scale);
+    return figure(energies,
                   "Kinetic and potential energy, their sum H, and the pseudo-energy H~ that the scheme conserves.") +
-           figure(errors(result),
+           figure(errors,
                   "What H~ has gained beyond the work W from outside, and H - H~, the part of H that it does not hold. An "
                   "exact zero, or less, is drawn at the lower end.");
 }
 
 template <int Dim>
 Markup contact_picture(const RunResult<Dim>& result) {
-    const auto pairs = values<Dim>(result, [](const auto& entry) { return static_cast<double>(entry.active_pairs); });
+    const Entries<Dim> entries = result.ledger.entries();
+    const auto pairs = values<Dim>(entries, [](const auto& entry) { return static_cast<double>(entry.active_pairs); });
     if (result.contact.active_pairs_max == 0) return {};
     return figure({.title = "Pairs in contact over time",
                    .x_label = "time [s]",
                    .y_label = "pairs in contact",
-                   .x = times(result),
+                   .x = times<Dim>(entries),
                    .curves = {{"pairs of faces in contact", "blue", pairs}}},
                   "Pairs of faces that touch, at each record.");
 }
 
-#define ABUT_INSTANTIATE(Dim)                                    \
-    template Markup energy_pictures<Dim>(const RunResult<Dim>&); \
+#define ABUT_INSTANTIATE(Dim)                                                                                        \
+    template std::array<Plot, 2> energy_plots<Dim>(std::span<const dynamics::LedgerEntry<Dim>>, const EnergyScale&); \
+    template Markup energy_pictures<Dim>(const RunResult<Dim>&);                                                     \
     template Markup contact_picture<Dim>(const RunResult<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

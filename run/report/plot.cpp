@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "abut/run/report/svg.hpp"
 #include "abut/run/report/ticks.hpp"
 
 namespace abut::run {
@@ -16,6 +17,7 @@ namespace {
 // All in units of the drawing, which a reader scales as a whole.
 constexpr double width = 760.0, height = 300.0;
 constexpr double left = 78.0, right = 12.0, top = 30.0, bottom = 44.0;
+constexpr double heading = 30.0;  // above the plots of a file
 constexpr double tick_length = 5.0, legend_mark = 22.0, letter = 7.2;
 constexpr int most_ticks_x = 9, most_ticks_y = 7, columns = 640;
 constexpr double margin = 0.04;  // above and below the curves, of their range
@@ -53,8 +55,6 @@ Axis x_axis(const Plot& plot) {
     return plot.x.empty() ? linear_axis(0.0, 1.0, most_ticks_x) : linear_axis(plot.x.front(), plot.x.back(), most_ticks_x);
 }
 
-std::string shown(double position) { return fmt::format("{:.1f}", position); }
-
 /// The two axes as places on the drawing, y downwards.
 struct Frame {
     Axis x, y;
@@ -62,15 +62,6 @@ struct Frame {
     [[nodiscard]] double at_x(double value) const { return left + x.share(value) * (width - left - right); }
     [[nodiscard]] double at_y(double value) const { return height - bottom - y.share(value) * (height - top - bottom); }
 };
-
-Markup line(const std::string& style, double x_1, double y_1, double x_2, double y_2) {
-    return element("line",
-                   {{"class", style}, {"x1", shown(x_1)}, {"y1", shown(y_1)}, {"x2", shown(x_2)}, {"y2", shown(y_2)}});
-}
-
-Markup label(const std::string& text, double x, double y, const std::string& anchor) {
-    return element("text", {{"x", shown(x)}, {"y", shown(y)}, {"text-anchor", anchor}}, text);
-}
 
 Markup grid(const Frame& frame) {
     Markup result;
@@ -92,12 +83,7 @@ Markup axes(const Plot& plot, const Frame& frame) {
     return grid(frame) + line("axis", left, height - bottom, width - right, height - bottom) +
            line("axis", left, top, left, height - bottom) +
            label(plot.x_label, 0.5 * (left + width - right), height - 6.0, "middle") +
-           element("text",
-                   {{"x", "0"},
-                    {"y", "0"},
-                    {"text-anchor", "middle"},
-                    {"transform", fmt::format("translate(14 {:.1f}) rotate(-90)", middle)}},
-                   plot.y_label);
+           upright_label(plot.y_label, 14.0, middle);
 }
 
 /// "M1,2L3,4": after a gap it begins again.
@@ -122,6 +108,14 @@ Markup legend(const Plot& plot) {
         x += legend_mark + 24.0 + letter * static_cast<double>(curve.name.size());
     }
     return result;
+}
+
+Markup content(const Plot& plot) {
+    const Frame frame{x_axis(plot), y_axis(plot)};
+    Markup result = axes(plot, frame);
+    for (const Curve& curve : plot.curves)
+        result += element("path", {{"class", "curve " + curve.style}, {"d", path(plot, curve, frame)}});
+    return result + legend(plot);
 }
 
 /// First, last, least and greatest of the points of a part of the x axis.
@@ -169,16 +163,22 @@ std::vector<std::size_t> thinned(std::span<const double> x, std::span<const doub
 }
 
 Markup drawing(const Plot& plot) {
-    const Frame frame{x_axis(plot), y_axis(plot)};
-    Markup content = element("title", plot.title) + axes(plot, frame);
-    for (const Curve& curve : plot.curves)
-        content += element("path", {{"class", "curve " + curve.style}, {"d", path(plot, curve, frame)}});
     return element("svg",
                    {{"xmlns", "http://www.w3.org/2000/svg"},
                     {"viewBox", fmt::format("0 0 {} {}", width, height)},
                     {"role", "img"}},
-                   content + legend(plot)) +
+                   element("title", plot.title) + content(plot)) +
            "\n";
+}
+
+std::string drawing_file(const std::string& title, std::span<const Plot> plots) {
+    Markup all = element("text", {{"class", "heading"}, {"x", shown(left)}, {"y", "22"}}, title);
+    double y = heading;
+    for (const Plot& plot : plots) {
+        all += element("g", {{"transform", fmt::format("translate(0 {:.0f})", y)}}, content(plot));
+        y += height;
+    }
+    return svg_file(title, width, y, all);
 }
 
 }  // namespace abut::run

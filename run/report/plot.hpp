@@ -28,6 +28,8 @@ struct Plot {
 /// The plot as inline SVG with axes, ticks and the names of the curves. It takes at most a few thousand points per curve,
 /// however many there are: see `thinned`.
 [[nodiscard]] Markup drawing(const Plot& plot);
+/// Plots below each other under their title, as the text of an SVG file.
+[[nodiscard]] std::string drawing_file(const std::string& title, std::span<const Plot> plots);
 
 /// Indices of the points that show a curve in `columns` equal parts of the x axis: of each part the first, the last, the
 /// least and the greatest value, in order; of values in a row that are not finite the first.

@@ -36,6 +36,7 @@ void ImpactFiles<Dim>::record(const dynamics::LedgerEntry<Dim>& entry, const Axi
     std::vector<double> row = dynamics::ledger_values(entry);
     row.insert(row.end(), turning_momentum.data(), turning_momentum.data() + turning_momentum.size());
     energies_.rows.push_back(std::move(row));
+    entries_.push_back(entry);
 }
 
 template <int Dim>
@@ -59,13 +60,8 @@ void ImpactFiles<Dim>::write(const dynamics::RunView<Dim>& run, P1Bodies<Dim>& b
 template <int Dim>
 void ImpactFiles<Dim>::finish(const ImpactFigures& figures) const {
     apps::write_csv(options_.out / "energy.csv", energies_);
-    if (energies_.rows.empty()) return;
-    const auto column = std::ranges::find(energies_.columns, "pseudo_energy") - energies_.columns.begin();
-    static_cast<void>(
-        run::draw_energy(options_.out, {.title = title_,
-                                        .pseudo_energy = energies_.rows.front()[static_cast<std::size_t>(column)],
-                                        .scale = figures.largest_energy,
-                                        .scale_name = "E0"}));
+    if (entries_.empty()) return;
+    run::write_energy_picture<Dim>(options_.out, title_, entries_, {"E0", figures.largest_energy});
 }
 
 template class ImpactFiles<2>;

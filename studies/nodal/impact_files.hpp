@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "abut/mesh/io/write_vtu.hpp"
 #include "apps/support/csv.hpp"
@@ -26,6 +27,7 @@ private:
     std::string title_;
     std::int64_t steps_;
     apps::Table energies_;
+    std::vector<dynamics::LedgerEntry<Dim>> entries_;
     std::optional<mesh::VtuSeries<Dim>> series_;
 };
 

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "abut/run/files.hpp"
-#include "abut/run/gnuplot.hpp"
 #include "apps/support/csv.hpp"
+#include "apps/support/gnuplot.hpp"
 #include "apps/support/preset.hpp"
 
 namespace abut::studies::trade {
@@ -193,7 +194,7 @@ std::string panel(std::size_t i, const std::vector<Row>& rows) {
                        fmt::join(lines, ", \\\n     "));
 }
 
-run::Picture picture(const std::vector<Row>& rows) {
+apps::Picture picture(const std::vector<Row>& rows) {
     std::string script =
         "set multiplot\nset logscale xy\nset format x \"10^{%T}\"\nset format y \"10^{%T}\"\nset xlabel \"seconds\"\n"
         "set key at screen 0.97,0.44 right top\n";

@@ -113,7 +113,7 @@ apps::Table curve(const Study& study) {
 }
 
 /// Errors of the stress on each mesh, on a logarithmic axis with the limit.
-run::Picture picture(const Study& study) {
+apps::Picture picture(const Study& study) {
     std::string tics;
     for (std::size_t i = 0; i < study.levels.size(); ++i) {
         const std::string& name = study.levels[i].name;

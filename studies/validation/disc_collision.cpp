@@ -90,7 +90,7 @@ std::string panel(const std::vector<double>& sizes, double offset, int axis) {
 }
 
 /// Head-on on the left, off-centre on the right; x above, y below. One legend is enough.
-run::Picture picture(const std::vector<double>& sizes) {
+apps::Picture picture(const std::vector<double>& sizes) {
     std::string script =
         "set multiplot\nset size 0.5,0.5\nset xlabel \"time [s]\"\nset autoscale xfix\nset yrange [-0.06:0.06]\n"
         "set key center right samplen 2 opaque\n";

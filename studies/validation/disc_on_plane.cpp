@@ -68,7 +68,7 @@ std::string lines(const std::vector<double>& cells, const std::string& value, co
 }
 
 /// The whole motion above; below it, from just before the contact, what the velocity has gained over free fall.
-run::Picture picture(const std::vector<double>& cells) {
+apps::Picture picture(const std::vector<double>& cells) {
     const std::string velocity = "column(\"velocity\")";
     const std::string script = fmt::format(
         "set multiplot\nset samples 1000\nset size 1,0.55\nset origin 0,0.45\n"

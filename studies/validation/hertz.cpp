@@ -101,7 +101,7 @@ apps::Table curve(const HertzResult<Dim>& result) {
 
 std::string curve_name(double faces) { return fmt::format("pressure_{:g}", faces); }
 
-run::Picture picture(const Options& options, const std::string& title) {
+apps::Picture picture(const Options& options, const std::string& title) {
     std::string script = fmt::format(R"gp(set title "{}" font ",15" noenhanced
 set xlabel "{}"
 set ylabel "pressure / p_0"

@@ -180,7 +180,7 @@ void add_level(Study& study, const SpectrumOptions& options) {
     study.levels.push_back(level);
 }
 
-const run::Picture picture{
+const apps::Picture picture{
     .name = "spectrum",
     .purpose = "Frequencies of the discrete operator and their closed form",
     .width = 1100,

@@ -105,7 +105,7 @@ std::string lines(const std::vector<double>& faces, const std::string& of_hertz,
     return script + "\n";
 }
 
-run::Picture picture(const std::vector<double>& faces) {
+apps::Picture picture(const std::vector<double>& faces) {
     const std::string approach = "1e6*column(\"approach\")";
     const std::string script =
         "set multiplot\nset size 1,0.5\nset key top right samplen 2\nset xrange [0:*]\nset autoscale xfixmax\n"

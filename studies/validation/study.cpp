@@ -157,7 +157,7 @@ run::FolderLock prepare_study(const apps::Program& program, const std::filesyste
 void report(const apps::Program& program, const std::filesystem::path& out, const Study& study) {
     for (const auto& [name, table] : study.curves) apps::write_csv(out / (name + ".csv"), table);
     std::vector<std::string> without_picture;
-    for (const run::Picture& picture : study.pictures)
+    for (const apps::Picture& picture : study.pictures)
         if (std::string why = draw(out, picture); !why.empty()) without_picture.push_back(std::move(why));
     run::write_whole(out / "values.csv", values_text(study));
     apps::write_json(out / "summary.json", summary(program, study));

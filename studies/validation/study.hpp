@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "abut/run/folder_lock.hpp"
-#include "abut/run/gnuplot.hpp"
 #include "abut/run/scene.hpp"
 #include "apps/support/csv.hpp"
+#include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
 
@@ -68,7 +68,7 @@ struct Study {
     std::string reference;  ///< where the known answers come from, a sentence
     std::vector<Level> levels;
     std::vector<std::pair<std::string, apps::Table>> curves;  ///< "pressure" is left as pressure.csv
-    std::vector<run::Picture> pictures;
+    std::vector<apps::Picture> pictures;
     nlohmann::ordered_json options;  ///< as they were used
     std::vector<OrderTarget> orders{};
 };

@@ -107,7 +107,7 @@ apps::Table exact_table(const Options& options) {
                      {bars.time, 0.0, v_2, v_1}}};
 }
 
-run::Picture picture(const Options& options) {
+apps::Picture picture(const Options& options) {
     const auto& cells = options.bars.cells;
     const double pressure = 0.5 * Bar{}.impedance() * options.closing_speed(), margin = 0.05 * options.closing_speed();
     const std::string script = fmt::format(

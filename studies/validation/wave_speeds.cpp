@@ -235,7 +235,7 @@ void add_half_plane(Study& study, const run::RunOptions& run, const HalfPlaneOpt
 
 /// Traces of the receivers on the surface at their distances, with the times at which the waves of the middle of the source
 /// arrive.
-run::Picture seismogram_picture() {
+apps::Picture seismogram_picture() {
     std::string traces;
     const auto n = receivers_on_surface().size();
     for (std::size_t i = 1; i <= n; ++i)
@@ -260,7 +260,7 @@ run::Picture seismogram_picture() {
                 (static_cast<double>(n) + 2.2) * rayleigh_wavelength(), traces, lines)};
 }
 
-const run::Picture dispersion_picture{
+const apps::Picture dispersion_picture{
     .name = "dispersion",
     .purpose = "Phase speeds of plane waves on squares, and the scheme's closed form",
     .width = 1100,

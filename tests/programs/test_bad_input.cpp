@@ -126,7 +126,7 @@ const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons =
 
 void check_no_result(const fs::path& directory) {
     REQUIRE_FALSE(directory.empty());
-    for (const char* file : {"summary.json", "energy.csv", "energy.png", "energy.gp"})
+    for (const char* file : {"summary.json", "energy.csv", "energy.svg"})
         CHECK_FALSE(fs::exists(directory / file));
 }
 

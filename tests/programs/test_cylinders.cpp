@@ -179,10 +179,11 @@ TEST_CASE("a log that is no terminal gets plain lines, about one for every tenth
     CHECK(lines <= 11);
 }
 
-TEST_CASE("without gnuplot the run says so and leaves its numbers and the script of the picture", "[programs]") {
-    const auto outcome = run_well("slipping_cylinders", "--size 0.25 --frames 0", "no_gnuplot", "PATH=/nowhere");
-    CHECK(outcome.out.find("gnuplot is not installed") != std::string::npos);
-    CHECK_FALSE(std::filesystem::exists(outcome.directory / "energy.png"));
-    for (const char* file : {"energy.csv", "energy.gp", "summary.json"})
-        CHECK(std::filesystem::exists(outcome.directory / file));
+TEST_CASE("a run draws its energies with no other program", "[programs]") {
+    const auto outcome = run_well("slipping_cylinders", "--size 0.25 --frames 0", "picture", "PATH=/nowhere");
+    CHECK(outcome.out.find("energy.svg") != std::string::npos);
+    const std::string picture = read_text(outcome.directory / "energy.svg");
+    CHECK(picture.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
+    for (const char* word : {"slipping_cylinders", "kinetic", "potential", "H~", "time [s]", "over K0"})
+        CHECK(picture.find(word) != std::string::npos);
 }

@@ -48,7 +48,7 @@ TEST_CASE("a run ends after its present step at SIGINT and SIGTERM, with all its
     CHECK(read_energies(outcome).column("time").back() == summary["time"].get<double>());
     CHECK(steps.back() < 1e8);
     CHECK(steps[1] == 7.0);
-    for (const char* name : {"energy.gp", "cylinders.pvd", "cylinders_surface.pvd"}) CHECK(fs::exists(folder.path() / name));
+    for (const char* name : {"energy.svg", "cylinders.pvd", "cylinders_surface.pvd"}) CHECK(fs::exists(folder.path() / name));
     CHECK_FALSE(any_partial(folder.path()));
 }
 

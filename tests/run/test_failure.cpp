@@ -141,7 +141,9 @@ TEST_CASE("files of a failure can be read back, and go with the next run in that
     CHECK(fs::exists(folder.path() / "blocks_failed.pvd"));
     CHECK(abut::mesh::read_vtu<2>(folder.path() / "blocks_failed_000000.vtu").n_cells() == scene.mesh.n_cells());
     CHECK(read_text(folder.path() / "blocks_failed_000000.vtu").find("speed when lost [m/s]") != std::string::npos);
-    CHECK(fs::exists(folder.path() / "failed.gp"));
+    const std::string picture = read_text(folder.path() / "failed.svg");
+    for (const char* word : {"Last sound state", "Ring: ", "<circle ", "speed [m/s]", "x [m]"})
+        CHECK(picture.find(word) != std::string::npos);
 
     options.steps = 1;
     const run::ResultFiles<2> next(options, "mine", "blocks");

@@ -47,11 +47,10 @@ TEST_CASE("a program of a few lines leaves the files of a run, and a summary of 
     files.finish(scene, result);
 
     for (const char* name :
-         {"energy.csv", "energy.gp", "summary.json", "block.pvd", "block_000002.vtu", "block_surface_000002.vtp"})
+         {"energy.csv", "energy.svg", "summary.json", "block.pvd", "block_000002.vtu", "block_surface_000002.vtp"})
         CHECK(fs::exists(options.out / name));
     CHECK_FALSE(fs::exists(options.out / "block_000003.vtu"));
     CHECK_FALSE(fs::exists(options.out / "energy.csv.partial"));
-    CHECK(fs::exists(options.out / "energy.png") == files.without_picture().empty());
 
     std::istringstream energies(read_text(options.out / "energy.csv"));
     std::int64_t lines = 0;
@@ -101,7 +100,7 @@ TEST_CASE("files of a folder that no run has claimed are the user's: none is rem
           "[run][files]") {
     const Folder folder;
     const run::RunOptions options{.out = folder.path(), .frames = 0};
-    for (const char* name : {"summary.json", "forces.csv", "block_000007.vtu", "block_surface.pvd", "failed.png"}) {
+    for (const char* name : {"summary.json", "forces.csv", "block_000007.vtu", "block_surface.pvd", "failed.svg"}) {
         fs::create_directories(folder.path());
         std::ofstream(folder.path() / name) << "mine";
         CHECK_THROWS_WITH(run::ResultFiles<2>(options, "mine", "block"),
@@ -125,7 +124,7 @@ TEST_CASE("a run that is asked to stop leaves all its files, and its summary say
     CHECK(summary["steps"] == 3);
     CHECK(summary["time"].get<double>() == Approx(3 * result.dt));
     CHECK(run::closing_table("mine", scene, result).find("asked to stop") != std::string::npos);
-    for (const char* name : {"energy.csv", "energy.gp", "block.pvd"}) CHECK(fs::exists(folder.path() / name));
+    for (const char* name : {"energy.csv", "energy.svg", "block.pvd"}) CHECK(fs::exists(folder.path() / name));
     CHECK_FALSE(fs::exists(folder.path() / "energy.csv.partial"));
 }
 

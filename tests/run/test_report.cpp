@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "abut/run/report/cell_map.hpp"
 #include "abut/run/report/markup.hpp"
 #include "abut/run/report/plot.hpp"
 #include "abut/run/report/report.hpp"
@@ -238,4 +239,37 @@ TEST_CASE("places on a drawing are proportional to values, and a gap interrupts 
     CHECK(places[4] - places[0] == Approx(3.0 * (places[2] - places[0])).margin(0.2));
     CHECK(places[5] - places[1] == Approx(3.0 * (places[3] - places[1])).margin(0.2));
     CHECK(places[5] < places[1]);  // upwards
+}
+
+TEST_CASE("a picture is a file of its own: well-formed, with its style, and its plots below each other", "[run][report]") {
+    const run::Plot plot{
+        .title = "t", .x_label = "x < 1", .y_label = "y", .x = {0.0, 1.0}, .curves = {{"c", "ink", {0.0, 1.0}}}};
+    const auto root = parsed("<!DOCTYPE html>" + run::drawing_file("a & b", std::array{plot, plot}));
+    CHECK(all(root, "path", "d").size() == 2);
+    CHECK(all(root, "style").size() == 1);
+    const auto shifts = all(root, "g", "transform");
+    REQUIRE(shifts.size() == 2);
+    CHECK(shifts[0] != shifts[1]);
+}
+
+TEST_CASE("a map of cells is as long along both axes, and shows the highest value of points in one place", "[run][report]") {
+    run::CellMap map{.title = "a & b",
+                     .subtitle = "c",
+                     .x_label = "x [m]",
+                     .y_label = "y [m]",
+                     .value_label = "v",
+                     .position = {{0.0, 0.0}, {4.0, 0.0}, {0.0, 1.0}, {4.0, 0.0}},
+                     .value = {1.0, 1.0, 1.0, 100.0},
+                     .lower = 1.0,
+                     .upper = 100.0,
+                     .rings = {{0.0, 0.0}, {4.0, 0.0}, {0.0, 1.0}}};
+    const auto root = parsed("<!DOCTYPE html>" + run::drawing_file(map));
+    const auto x = all(root, "circle", "cx"), y = all(root, "circle", "cy");
+    REQUIRE(x.size() == 3);
+    CHECK(std::stod(x[1]) - std::stod(x[0]) == Approx(4.0 * (std::stod(y[0]) - std::stod(y[2]))).margin(0.3));
+    CHECK(std::stod(y[0]) == std::stod(y[1]));
+    const auto dots = all(root, "path", "d");
+    REQUIRE(dots.size() == 2);  // two colours, and not the low point below the high one
+    CHECK(std::ranges::count(dots[0], 'M') == 2);
+    CHECK(std::ranges::count(dots[1], 'M') == 1);
 }

@@ -1,4 +1,4 @@
-#include "abut/run/gnuplot.hpp"
+#include "apps/support/gnuplot.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 #include "abut/base/text.hpp"
 #include "abut/run/files.hpp"
 
-namespace abut::run {
+namespace abut::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,14 +54,14 @@ int run_gnuplot(const fs::path& directory, const std::string& setting, const std
 
 std::string draw(const fs::path& directory, const Picture& picture) {
     const std::string script = picture.name + ".gp", partial_name = picture.name + ".partial.png";
-    write_whole(
+    run::write_whole(
         directory / script,
         fmt::format(fmt::runtime(beginning), picture.purpose, picture.name, picture.width, picture.height) + picture.script);
     const fs::path partial = directory / partial_name;
     const int code = run_gnuplot(directory, fmt::format("picture='{}'", partial_name), script);
     std::error_code error;
     if (code == 0 && fs::exists(partial)) {
-        move_file(partial, directory / (picture.name + ".png"));
+        run::move_file(partial, directory / (picture.name + ".png"));
         return "";
     }
     fs::remove(partial, error);
@@ -77,4 +77,4 @@ std::string in_quotes(const std::string& text) {
     return doubled;
 }
 
-}  // namespace abut::run
+}  // namespace abut::apps
