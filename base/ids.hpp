@@ -11,7 +11,7 @@
 
 namespace abut {
 
-/// An index of one kind of thing as a type of its own: `enum class SurfaceFace : std::int32_t {};`. Ids of two numberings
+/// An index of one kind of thing as a type of its own: `enum class Face : std::int32_t {};`. Ids of two numberings
 /// cannot be compared, assigned or used in each other's place.
 template <class Id>
 concept IndexId = std::is_enum_v<Id> && std::same_as<std::underlying_type_t<Id>, std::int32_t>;

@@ -216,7 +216,7 @@ struct Plates {
 
 /// Faces that answer to their own correction alone, and hold no gradient of their own.
 template <int Dim>
-contact::FaceCoupling<Dim> own_coupling(std::span<const contact::SurfaceFace> listed) {
+contact::FaceCoupling<Dim> own_coupling(std::span<const contact::Face> listed) {
     contact::FaceCoupling<Dim> own;
     for (std::size_t i = 0; i < listed.size(); ++i) {
         own.columns.push_back(static_cast<std::int32_t>(i));
@@ -236,14 +236,14 @@ nlohmann::json time_laws(int repetitions) {
         std::ranges::fill(y_0, Vector<Dim>::Zero());
         std::ranges::fill(y_1, Vector<Dim>::Zero());
     };
-    nodal.step(plates.nodes, plates.nodes);
-    by_faces.step({plates.rest, plates.rest, coupling, gradients});
+    nodal.step(1.0, plates.nodes, plates.nodes);
+    by_faces.step(1.0, {plates.rest, plates.rest, coupling, gradients});
     const auto times =
         benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
-                                {[&] { (void)nodal.step(plates.start, plates.end); },
-                                 [&] { (void)nodal.step(plates.start, plates.start, contact::TakenForce::end); },
+                                {[&] { (void)nodal.step(1.0, plates.start, plates.end); },
+                                 [&] { (void)nodal.step(1.0, plates.start, plates.start, contact::TakenForce::end); },
                                  [&] {
-                                     (void)by_faces.step({plates.u_0, plates.u_1, coupling, gradients});
+                                     (void)by_faces.step(1.0, {plates.u_0, plates.u_1, coupling, gradients});
                                  }});
     const double nodal_pairs = static_cast<double>(nodal.report().active_pairs);
     const double face_pairs = static_cast<double>(by_faces.report().active_pairs);
@@ -294,7 +294,7 @@ nlohmann::json time_steps(int repetitions, double size) {
         const auto times =
             benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
                                     {[&] { host.mean_force(q, q, 0.0, 1e-3, f); },
-                                     [&] { (void)host.contact().step(placed<Dim>(host, q), placed<Dim>(host, q)); },
+                                     [&] { (void)host.contact().step(1.0, placed<Dim>(host, q), placed<Dim>(host, q)); },
                                      [&] { (void)placed<Dim>(host, q), (void)placed<Dim>(host, q); }});
         const double contact = times[1].least() - times[2].least();
         if (near != (host.contact().report().active_pairs > 0))

@@ -18,7 +18,7 @@ namespace abut::contact {
 
 /// How the gradients of a host answer to corrections of these listed faces; asked after each search.
 template <int Dim>
-using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const SurfaceFace> faces)>;
+using CouplingOf = std::function<FaceCoupling<Dim>(std::span<const Face> faces)>;
 
 /// One step as `Contact::step` wants it from a host.
 template <int Dim>
@@ -28,8 +28,7 @@ struct HostStep {
     CouplingOf<Dim> coupling_of;
     /// Asked at each step: y_f = dV/ddelta_f at delta = 0, less applied tractions, of the listed faces at both ends
     /// (n_listed) [N]. It is dV/dũ_f - |f| t_f where a correction moves its own face alone.
-    std::function<void(std::span<const SurfaceFace> faces, std::span<Vector<Dim>> gradient_0,
-                       std::span<Vector<Dim>> gradient_1)>
+    std::function<void(std::span<const Face> faces, std::span<Vector<Dim>> gradient_0, std::span<Vector<Dim>> gradient_1)>
         gradients_of;
     TakenForce take = TakenForce::mean;
 };
@@ -55,9 +54,10 @@ public:
     Contact(Contact&&) noexcept;
     Contact& operator=(Contact&&) noexcept;
 
-    /// Contact along one step; searches first where the candidate list is no longer valid. Throws what `search` and
-    /// `integrate` throw, BadInput for arrays of the wrong size or a function that is not set.
-    const ContactStep<Dim>& step(const HostStep<Dim>& host);
+    /// Contact along one step that takes `dt` [s], finite and > 0; searches first where the candidate list is no longer valid.
+    /// Without friction nothing depends on `dt`. Throws what `search` and `integrate` throw, BadInput for arrays of the wrong
+    /// size or a function that is not set.
+    const ContactStep<Dim>& step(double dt, const HostStep<Dim>& host);
 
     /// Whether the candidate list is still a superset of all that can touch, when no face has moved by more than `motion`
     /// [m] since `search`.
@@ -68,17 +68,14 @@ public:
     void search(std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, const CouplingOf<Dim>& coupling_of);
 
     /// Faces of the candidate list, increasing: those whose path the host must give.
-    [[nodiscard]] std::span<const SurfaceFace> faces() const;
+    [[nodiscard]] std::span<const Face> faces() const;
 
-    /// Decides admission at the start of the step, then integrates along it. Throws TooDeep naming the faces when a pair is
-    /// pressed in deeper than `compression_limit`, Diverged when the path or a force is not finite, BadInput for a wrong
-    /// size, Misuse without a list.
-    const ContactStep<Dim>& integrate(const FacePath<Dim>& path);
-
-    /// For schemes that take the force at the end of a step alone: decides admission at its start as `integrate` does, then
-    /// takes corrections and pair forces at its end. There are no events; throws as `integrate`.
-    const ContactStep<Dim>& follow(std::span<const Vector<Dim>> displacement_0, std::span<const Vector<Dim>> displacement_1,
-                                   std::span<const Vector<Dim>> gradient_1);
+    /// Decides admission at the start of a step that takes `dt` [s], finite and > 0, then integrates along it. With
+    /// TakenForce::end, for schemes that take the force at the end of a step alone, it takes corrections and pair forces there:
+    /// there are no events, and `gradient_0` is not read and may be empty. Throws TooDeep naming the faces when a pair is
+    /// pressed in deeper than `compression_limit`, Diverged when the path or a force is not finite, BadInput for a wrong size
+    /// or `dt`, Misuse without a list.
+    const ContactStep<Dim>& integrate(double dt, const FacePath<Dim>& path, TakenForce take = TakenForce::mean);
 
     /// Corrections and pair forces of one state (n_listed), as along a path without motion, with the admission as it stands;
     /// counts nothing. Throws as `integrate`, except TooDeep.
@@ -108,7 +105,7 @@ public:
     [[nodiscard]] const FaceCoupling<Dim>& coupling() const;  ///< of the listed faces, as the host gave it
 
 private:
-    class Implementation;
+    struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
 

@@ -21,7 +21,7 @@ std::array<Vector<Dim>, Dim> corners_of(const Surface<Dim>& facets, std::int32_t
 }
 
 template <int Dim>
-std::string name_of(const NodalSurface<Dim>& surface, SurfaceFace face) {
+std::string name_of(const NodalSurface<Dim>& surface, Face face) {
     const std::int32_t facet = surface.facet_offsets()[static_cast<std::size_t>(face)];
     return face_name(surface.facets().view(), facet, number_of(face));
 }
@@ -34,7 +34,7 @@ std::string collapse_of(const NodalSurface<Dim>& surface, std::int32_t facet, Po
     const double allowed = collapsed * surface.facets().area[facet];
     const bool collapses = !(measure_0 > allowed) || !(measure_1 > allowed);
     if (!collapses && geometry::face_normal<Dim>(start).dot(geometry::face_normal<Dim>(end)) > 0.0) return "";
-    return "face " + std::to_string(number_of(surface.face_of(facet))) +
+    return "face " + std::to_string(number_of(surface.face_of(Facet{facet}))) +
            (collapses ? " loses its area" : " turns over and has no area in between") + " (from " + number(measure_0) +
            " to " + number(measure_1) + (Dim == 2 ? " m" : " m^2") + " in this step)";
 }
@@ -53,7 +53,7 @@ std::string text_of_depth(double depth) { return "they are pressed " + number(de
 template <int Dim>
 void refuse_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const geometry::PairMeanGradient<Dim>& found,
                  PointsView<Dim> x_0, PointsView<Dim> x_1) {
-    const SurfaceFace face_1 = surface.face_of(pair.facet_1), face_2 = surface.face_of(pair.facet_2);
+    const Face face_1 = surface.face_of(Facet{pair.facet_1}), face_2 = surface.face_of(Facet{pair.facet_2});
     std::string why = collapse_of(surface, pair.facet_1, x_0, x_1);
     if (why.empty()) why = collapse_of(surface, pair.facet_2, x_0, x_1);
     if (why.empty())

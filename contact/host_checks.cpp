@@ -1,6 +1,7 @@
 #include "abut/contact/host_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -17,7 +18,7 @@ constexpr double rounding = 1e-10;
 template <int Dim>
 struct CouplingCheck {
     const SurfaceView<Dim>& surface;
-    std::span<const SurfaceFace> faces;
+    std::span<const Face> faces;
     const FaceCoupling<Dim>& coupling;
 
     void sizes() const {
@@ -153,8 +154,15 @@ void check_compression(double warning, double limit) {
         refuse_option("compression_limit is " + number(limit) + "; it must be > 0. 2 is the default.", limit);
 }
 
+void check_step_length(double dt) {
+    if (!(dt > 0.0) || !std::isfinite(dt))
+        throw BadInput("contact: a step has the length dt = " + number(dt) +
+                           " s; it must be finite and > 0. Give the time from the start of the step to its end.",
+                       {.value = dt});
+}
+
 template <int Dim>
-void check_coupling(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FaceCoupling<Dim>& coupling) {
+void check_coupling(const SurfaceView<Dim>& surface, std::span<const Face> faces, const FaceCoupling<Dim>& coupling) {
     const CouplingCheck<Dim> check{surface, faces, coupling};
     check.sizes();
     for (std::size_t f = 0; f < faces.size(); ++f) check.columns_of(f);
@@ -170,7 +178,7 @@ void check_listed(std::size_t size, std::size_t n_faces) {
 }
 
 template <int Dim>
-void check_path(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FacePath<Dim>& path) {
+void check_path(const SurfaceView<Dim>& surface, std::span<const Face> faces, const FacePath<Dim>& path) {
     const std::size_t n_faces = faces.size();
     for (const std::size_t size :
          {path.displacement_0.size(), path.displacement_1.size(), path.gradient_0.size(), path.gradient_1.size()})
@@ -197,9 +205,9 @@ void check_host_step(const SurfaceView<Dim>& surface, const HostStep<Dim>& host)
             "both be set.");
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                                                           \
-    template void check_coupling<Dim>(const SurfaceView<Dim>&, std::span<const SurfaceFace>, const FaceCoupling<Dim>&); \
-    template void check_path<Dim>(const SurfaceView<Dim>&, std::span<const SurfaceFace>, const FacePath<Dim>&);         \
+#define ABUT_INSTANTIATE(Dim)                                                                                    \
+    template void check_coupling<Dim>(const SurfaceView<Dim>&, std::span<const Face>, const FaceCoupling<Dim>&); \
+    template void check_path<Dim>(const SurfaceView<Dim>&, std::span<const Face>, const FacePath<Dim>&);         \
     template void check_host_step<Dim>(const SurfaceView<Dim>&, const HostStep<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)

@@ -10,14 +10,16 @@ namespace abut::contact {
 /// Checks of a host's input. All throw BadInput; `check_path` throws Diverged where a value is not finite.
 void check_options(const ContactOptions& options);
 void check_compression(double warning, double limit);
+/// `dt` [s] must be finite and > 0.
+void check_step_length(double dt);
 /// An array that should have one entry per listed face.
 void check_listed(std::size_t size, std::size_t n_faces);
 /// A coupling that is no second derivative of an energy would give a wrong force, or none. Linear in the number of blocks,
 /// except that the block of a column is looked for in its row.
 template <int Dim>
-void check_coupling(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FaceCoupling<Dim>& coupling);
+void check_coupling(const SurfaceView<Dim>& surface, std::span<const Face> faces, const FaceCoupling<Dim>& coupling);
 template <int Dim>
-void check_path(const SurfaceView<Dim>& surface, std::span<const SurfaceFace> faces, const FacePath<Dim>& path);
+void check_path(const SurfaceView<Dim>& surface, std::span<const Face> faces, const FacePath<Dim>& path);
 template <int Dim>
 void check_host_step(const SurfaceView<Dim>& surface, const HostStep<Dim>& host);
 

@@ -29,7 +29,7 @@ struct NodalOptions {
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
     /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
-    std::function<bool(SurfaceFace, SurfaceFace)> wanted;
+    std::function<bool(Face, Face)> wanted;
 };
 
 /// n_1 . n_2 at which the weight of a pair is a quarter: what looks at each other less is pressed in deeper than others, or
@@ -65,11 +65,12 @@ public:
     NodalContact(NodalContact&&) noexcept;
     NodalContact& operator=(NodalContact&&) noexcept;
 
-    /// Contact along one step in which the nodes move from x_0 to x_1 (n_nodes) [m] on straight lines. Searches first where
-    /// the candidate list does not hold. Throws BadInput for a wrong number of nodes, Diverged for a node that is not finite
+    /// Contact along one step that takes `dt` [s], finite and > 0, and in which the nodes move from x_0 to x_1 (n_nodes) [m] on
+    /// straight lines. Without friction nothing depends on `dt`. Searches first where the candidate list is not valid. Throws
+    /// BadInput for a wrong `dt` or number of nodes, Diverged for a node that is not finite
     /// or moves too far, and for a force that is not finite (a face loses its area within the step), TooDeep for a pair that
     /// is deeper than `compression_limit`, both naming the faces, LimitExceeded for a search that takes more than it may.
-    const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
+    const NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
 
     /// W and its gradient at one state, with the admission as it stands: for V(q) and F(q) of a host between two steps, at
     /// any x. Changes nothing that the next steps depend on; only before the first step the run begins at x. Cheap where the
@@ -84,9 +85,10 @@ public:
     [[nodiscard]] bool is_valid_for(double motion) const;
     /// Makes a new list for a step from x_0 to x_1; throws as `step`. The list holds for that step, however long it is.
     void search(PointsView<Dim> x_0, PointsView<Dim> x_1);
-    /// As `step` and `evaluate` where the list holds, which is not asked: they read the nodes of the list alone, `last().nodes`.
-    /// Throw Misuse without a list.
-    const NodalStep<Dim>& step_listed(PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take = TakenForce::mean);
+    /// Like `step` and `evaluate`, without checking that the list is valid: they read the nodes of the list alone,
+    /// `last().nodes`. Throw Misuse without a list.
+    const NodalStep<Dim>& step_listed(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                      TakenForce take = TakenForce::mean);
     const NodalStep<Dim>& evaluate_listed(PointsView<Dim> x);
 
     /// The result of the last of these calls.
@@ -114,7 +116,7 @@ public:
 
     /// Goes on with another surface of the same nodes or of others, between two steps: faces have eroded, and what was
     /// behind them is a face now. `old_face_of`: of each new face that was there before, its old number, else -1 (n_faces).
-    /// Pairs of old faces keep what they remember. For those with a new face the run begins: what is pressed in by less than
+    /// Old faces and their pairs keep what they remember. For those with a new face the run begins: what is pressed in by less than
     /// D is a contact, and W jumps by what `evaluate` tells before and after. Throws BadInput, and stays as it is, for numbers
     /// out of range or given twice.
     void surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of);
@@ -125,7 +127,7 @@ public:
     [[nodiscard]] double skin() const;  ///< of the current list [m]
 
 private:
-    class Implementation;
+    struct Implementation;
     std::unique_ptr<Implementation> implementation_;
 };
 

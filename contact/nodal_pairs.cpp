@@ -20,8 +20,8 @@ double admission_depth(double stiffness, double depth) {
 }
 
 template <int Dim>
-NodalPair<Dim> make_pair(const Surface<Dim>& facets, const FacePair& of_facets, const geometry::FacingFade& facing) {
-    const std::int32_t facet_1 = number_of(of_facets.face_1), facet_2 = number_of(of_facets.face_2);
+NodalPair<Dim> make_pair(const Surface<Dim>& facets, const FacetPair& of_facets, const geometry::FacingFade& facing) {
+    const std::int32_t facet_1 = number_of(of_facets.facet_1), facet_2 = number_of(of_facets.facet_2);
     NodalPair<Dim> pair{.facet_1 = facet_1, .facet_2 = facet_2};
     for (int v = 0; v < Dim; ++v) {
         pair.node[v] = facets.face_vertices[Dim * facet_1 + v];
@@ -77,12 +77,12 @@ std::int32_t index_in(const std::vector<T>& sorted, const T& value) {
 }  // namespace
 
 template <int Dim>
-void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets,
-                             std::span<const FacePair> in_contact, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
+void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets,
+                             std::span<const FacetPair> in_contact, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
                              double compression) {
     compression_ = compression;
     pairs_.clear();
-    for (const FacePair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
+    for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
     look_ahead(x_0, x_1, reach);
     std::size_t n = 0;
     for (std::size_t p = 0; p < facets.size(); ++p) {
@@ -99,9 +99,9 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FaceP
 }
 
 template <int Dim>
-void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets) {
+void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacetPair> facets) {
     pairs_.clear();
-    for (const FacePair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
+    for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
     index(surface);
 }
 

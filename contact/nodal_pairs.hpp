@@ -57,10 +57,10 @@ public:
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
     /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
     /// nothing of how faces lie to each other.
-    void assign(const NodalSurface<Dim>& surface, std::vector<FacePair>& facets, std::span<const FacePair> in_contact,
+    void assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets, std::span<const FacetPair> in_contact,
                 PointsView<Dim> x_0, PointsView<Dim> x_1, double reach, double compression);
     /// Pairs without an outlook: of a list that does not hold.
-    void assign(const NodalSurface<Dim>& surface, std::span<const FacePair> facets);
+    void assign(const NodalSurface<Dim>& surface, std::span<const FacetPair> facets);
     [[nodiscard]] std::span<const NodalPair<Dim>> pairs() const { return pairs_; }
 
     /// The list is pruned again and again while it holds: these of its pairs can act in the step from x_0 to x_1, and in the

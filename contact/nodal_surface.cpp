@@ -126,9 +126,9 @@ private:
 };
 
 /// The corners of a facet, as indices into those of its face.
-using Facet = std::array<std::size_t, 3>;
+using Corners = std::array<std::size_t, 3>;
 
-using Halves = std::array<Facet, 2>;
+using Halves = std::array<Corners, 2>;
 
 /// Whether two triangles look the same way.
 bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halves& halves) {
@@ -143,7 +143,7 @@ bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halv
 /// Two triangles of a face with four corners, along the shorter diagonal, the first one of equals; of a concave face along
 /// that inside.
 Halves halves_of(PointsView<3> rest, std::int32_t face, std::span<const std::int32_t> corners) {
-    Halves shorter{Facet{0, 1, 2}, Facet{0, 2, 3}}, longer{Facet{0, 1, 3}, Facet{1, 2, 3}};
+    Halves shorter{Corners{0, 1, 2}, Corners{0, 2, 3}}, longer{Corners{0, 1, 3}, Corners{1, 2, 3}};
     const double first = (rest[corners[2]] - rest[corners[0]]).norm(), second = (rest[corners[3]] - rest[corners[1]]).norm();
     if (first > second * (1.0 + 1e-12)) std::swap(shorter, longer);
     if (agree(rest, corners, shorter)) return shorter;
@@ -189,7 +189,7 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
     for (std::int32_t face = 0; face < n_faces_; ++face) {
         const auto corners = host.corners(face);
         nodes_.insert(nodes_.end(), corners.begin(), corners.end());
-        const auto append = [&](const Facet& facet) {
+        const auto append = [&](const Corners& facet) {
             append_facet(face, corners, facet);
             facets_.cell_depth.push_back(host.depth(face));
             facets_.body.push_back(host.body(face));
@@ -198,7 +198,7 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
         if (corners.size() == Dim) append({0, 1, 2});
         if (corners.size() != Dim)
             if constexpr (Dim == 3)
-                for (const Facet& half : halves_of(rest, face, corners)) append(half);
+                for (const Corners& half : halves_of(rest, face, corners)) append(half);
         facet_offsets_.push_back(static_cast<std::int32_t>(face_of_.size()));
     }
     sort_unique(nodes_);
@@ -222,7 +222,7 @@ void NodalSurface<Dim>::append_facet(std::int32_t face, std::span<const std::int
     facets_.centroid.push_back(geometry::face_centroid<Dim>(points));
     facets_.normal.push_back(geometry::face_normal<Dim>(points));
     facets_.area.push_back(area);
-    face_of_.push_back(SurfaceFace{face});
+    face_of_.push_back(Face{face});
 }
 
 template <int Dim>

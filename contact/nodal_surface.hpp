@@ -59,7 +59,7 @@ public:
     /// The facets at rest; their vertices are the nodes.
     [[nodiscard]] const Surface<Dim>& facets() const { return facets_; }
     /// Face of the host that a facet belongs to.
-    [[nodiscard]] SurfaceFace face_of(std::int32_t facet) const { return face_of_[static_cast<std::size_t>(facet)]; }
+    [[nodiscard]] Face face_of(Facet facet) const { return face_of_[static_cast<std::size_t>(facet)]; }
     /// Facets of a face of the host: one, or two that follow each other.
     [[nodiscard]] std::span<const std::int32_t> facet_offsets() const { return facet_offsets_; }  ///< (n_faces + 1)
     /// Bodies whose faces close a volume and all look into it: the walls of a cavity that is filled, or faces with their
@@ -74,7 +74,7 @@ private:
 
     Surface<Dim> facets_;
     std::vector<double> stiffness_;
-    std::vector<SurfaceFace> face_of_;
+    std::vector<Face> face_of_;
     std::vector<std::int32_t> facet_offsets_;
     std::vector<std::int32_t> nodes_;
     std::int32_t n_faces_ = 0;

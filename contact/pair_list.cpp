@@ -65,18 +65,18 @@ void PairList<Dim>::clear() {
 }
 
 template <int Dim>
-void PairList<Dim>::list_faces(std::vector<SurfaceFace>& faces) {
+void PairList<Dim>::list_faces(std::vector<Face>& faces) {
     faces.clear();
     for (const ContactPair<Dim>& pair : pairs_) {
-        faces.push_back(SurfaceFace{pair.face_1});
-        faces.push_back(SurfaceFace{pair.face_2});
+        faces.push_back(Face{pair.face_1});
+        faces.push_back(Face{pair.face_2});
     }
     sort_unique(faces);
     number_faces(faces);
 }
 
 template <int Dim>
-void PairList<Dim>::number_faces(std::span<const SurfaceFace> faces) {
+void PairList<Dim>::number_faces(std::span<const Face> faces) {
     if (faces.empty()) return;
     listed_.resize(static_cast<std::size_t>(faces.back()) + 1);
     for (std::size_t i = 0; i < faces.size(); ++i)

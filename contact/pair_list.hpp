@@ -43,9 +43,9 @@ public:
     void append(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, InterfaceWeighting weighting);
     void clear();
     /// The faces of all pairs, increasing; then `number_faces`.
-    void list_faces(std::vector<SurfaceFace>& faces);
+    void list_faces(std::vector<Face>& faces);
     /// Sets `listed_1` and `listed_2`: the indices of the pairs' faces among these, which increase.
-    void number_faces(std::span<const SurfaceFace> faces);
+    void number_faces(std::span<const Face> faces);
 
     [[nodiscard]] std::span<const ContactPair<Dim>> pairs() const { return pairs_; }
     [[nodiscard]] const ContactPair<Dim>& operator[](std::int32_t i) const { return pairs_[static_cast<std::size_t>(i)]; }

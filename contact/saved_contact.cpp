@@ -5,11 +5,14 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/ids.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/contact/report_counters.hpp"
 
 namespace abut::contact {
 namespace {
+
+constexpr std::uint32_t state_version = 5;
 
 /// A new counter needs its line in `for_each_counter`, or it is lost where a state is saved; then a new version, too.
 static_assert(sizeof(ContactReport) == 15 * sizeof(double));
@@ -17,19 +20,20 @@ static_assert(sizeof(ContactReport) == 15 * sizeof(double));
 }  // namespace
 
 std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact) {
-    StateWriter state(key.kind, key.version);
+    StateWriter state(key.kind, state_version);
     state.put(key.fingerprint);
     state.put(static_cast<std::uint8_t>(contact.has_searched));
     state.put(contact.next_skin);
     for_each_counter(contact.report, [&](const auto& counter) { state.put(counter); });
-    state.put(static_cast<std::int32_t>(contact.new_faces.size()));
-    for (const std::int32_t face : contact.new_faces) state.put(face);
-    contact.store.save(state);
+    state.put(static_cast<std::int32_t>(contact.new_facets.size()));
+    for (const Facet facet : contact.new_facets) state.put(number_of(facet));
+    contact.pairs.save(state);
+    contact.facets.save(state);
     return std::move(state).finish();
 }
 
 SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
-    StateReader state(bytes, key.kind, key.version);
+    StateReader state(bytes, key.kind, state_version);
     if (state.get<std::uint64_t>() != key.fingerprint)
         throw BadInput("state of " + key.kind +
                        ": it is of another surface. Restore it where the faces, depths and stiffnesses are the same.");
@@ -39,11 +43,12 @@ SavedContact read_saved(const StateKey& key, std::span<const std::byte> bytes) {
     for_each_counter(contact.report,
                      [&](auto& counter) { counter = state.get<std::remove_reference_t<decltype(counter)>>(); });
     const auto n_new = state.get<std::int32_t>();
-    if (n_new < 0 || n_new > key.n_faces)
-        throw BadInput("state of " + key.kind + ": it has " + std::to_string(n_new) + " new faces of " +
-                       std::to_string(key.n_faces) + " at most. It is damaged.");
-    for (std::int32_t i = 0; i < n_new; ++i) contact.new_faces.push_back(state.get<std::int32_t>());
-    contact.store = PairStore::restored(state, key.n_faces);
+    if (n_new < 0 || n_new > key.n_facets)
+        throw BadInput("state of " + key.kind + ": it has " + std::to_string(n_new) + " new facets of " +
+                       std::to_string(key.n_facets) + " at most. It is damaged.");
+    for (std::int32_t i = 0; i < n_new; ++i) contact.new_facets.push_back(Facet{state.get<std::int32_t>()});
+    contact.pairs = PairStore::restored(state, key.n_facets);
+    contact.facets = FacetStore::restored(state, key.n_facets, key.facet_memory);
     state.finish();
     return contact;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/facet_store.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/report.hpp"
 
@@ -13,10 +14,10 @@ namespace abut::contact {
 
 /// What a state is of, and what it must fit.
 struct StateKey {
-    std::string kind;  ///< "contact 3D"
-    std::uint32_t version;
+    std::string kind;           ///< "contact 3D"
     std::uint64_t fingerprint;  ///< of the surface
-    std::int32_t n_faces;
+    std::int32_t n_facets;
+    std::int32_t facet_memory;  ///< numbers per facet that the law remembers
 };
 
 /// What the next steps depend on, whatever the law.
@@ -24,8 +25,9 @@ struct SavedContact {
     bool has_searched = false;
     double next_skin = 0.0;  ///< [m]
     ContactReport report;
-    PairStore store;
-    std::vector<std::int32_t> new_faces;  ///< that no search has seen yet, increasing
+    PairStore pairs;
+    FacetStore facets;
+    std::vector<Facet> new_facets;  ///< that no search has seen yet, increasing
 };
 
 [[nodiscard]] std::vector<std::byte> saved(const StateKey& key, const SavedContact& contact);

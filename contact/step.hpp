@@ -38,8 +38,8 @@ struct FacePath {
 /// What one pair of faces did in a step: a pair with A > 0 and g < 0 at some time of it.
 template <int Dim>
 struct PairStep {
-    SurfaceFace face_1;
-    SurfaceFace face_2;
+    Face face_1;
+    Face face_2;
     Vector<Dim> normal;   ///< n_12, unit, from the body of face 1 into that of face 2
     double gap_0;         ///< g at the start of the step [m], > 0 apart
     double gap_1;         ///< g at its end [m]
@@ -76,7 +76,7 @@ struct StepReport {
 /// zero.
 template <int Dim>
 struct ContactStep {
-    std::vector<SurfaceFace> faces;                     ///< the listed faces, increasing (n)
+    std::vector<Face> faces;                     ///< the listed faces, increasing (n)
     IdVector<ListedFace, Vector<Dim>> mean_correction;  ///< mean over the step of delta_f (n) [m]
     /// Mean over the step of what the pairs add to dV/dû_f (n) [N]; on a rigid face: minus the force on the obstacle.
     IdVector<ListedFace, Vector<Dim>> mean_gradient;
@@ -92,8 +92,8 @@ struct ContactStep {
 /// Two faces of an admitted pair that share area in some state.
 template <int Dim>
 struct AdmittedOverlap {
-    SurfaceFace face_1;
-    SurfaceFace face_2;
+    Face face_1;
+    Face face_2;
     Vector<Dim> normal;  ///< n_12
     double gap;          ///< g [m]
     double area;         ///< A_12 [m^(Dim-1)], > 0

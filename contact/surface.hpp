@@ -9,8 +9,11 @@
 
 namespace abut::contact {
 
-/// Index of a face of a surface, as its host numbers them.
-enum class SurfaceFace : std::int32_t {};
+/// Index of a face of a host, as it numbers them.
+enum class Face : std::int32_t {};
+/// Index of a facet: the part of a face that acts, flat and convex. Faces of a SurfaceView have one each; of a NodalSurface
+/// those with four corners have two.
+enum class Facet : std::int32_t {};
 /// Index of a face in the candidate list of a Contact: index in `Contact::faces()`.
 enum class ListedFace : std::int32_t {};
 

@@ -61,11 +61,11 @@ public:
         return std::reduce(product.begin(), product.end()) + contact.evaluate(placed(q)).energy;
     }
     void force(std::span<const double> q, std::span<double> f) { add(q, q, contact.evaluate(placed(q)), f); }
-    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
-        add(q_0, q_1, contact.step(placed(q_0), placed(q_1), contact::TakenForce::mean), f);
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double dt, std::span<double> f) {
+        add(q_0, q_1, contact.step(dt, placed(q_0), placed(q_1), contact::TakenForce::mean), f);
     }
-    void end_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
-        add(q_1, q_1, contact.step(placed(q_0), placed(q_1), contact::TakenForce::end), f);
+    void end_force(std::span<const double> q_0, std::span<const double> q_1, double, double dt, std::span<double> f) {
+        add(q_1, q_1, contact.step(dt, placed(q_0), placed(q_1), contact::TakenForce::end), f);
     }
 
     const mesh::Mesh<Dim> mesh;

@@ -195,7 +195,7 @@ Figures run(Host& host, ranks::SharedNodalContact<2>& contact) {
     for (; figures.steps * dt < 15.0; ++figures.steps) {
         for (std::size_t n = 0; n < x_0.size(); ++n) x_1[n] = x_0[n] + dt / host.mass[n] * p_after[n];
         host.mean_force(x_0, x_1, force);
-        const contact::NodalStep<2>& step = contact.step(x_0, x_1);
+        const contact::NodalStep<2>& step = contact.step(dt, x_0, x_1);
         step.add_force_to(force);
         for (std::size_t n = 0; n < x_0.size(); ++n) p_before[n] += 2.0 * dt * force[n];
         std::swap(p_before, p_after);

@@ -18,6 +18,7 @@
 using namespace abut;
 
 constexpr double mass = 1.0, stiffness = 100.0, speed = 1.0, cell_depth = 0.5;  // [kg], [N/m^3], [m/s], [m]
+constexpr double dt = 1e-3;                                                     // of all steps [s]
 
 /// The unknowns q are the displacements of the two pucks, (2, 2); a host with a mesh has its own reconstruction û = R q.
 class Pucks {
@@ -51,9 +52,9 @@ private:
         for (const std::int32_t body : surface_.body) u.push_back(as_vectors<2>(q)[static_cast<std::size_t>(body)]);
         return u;
     }
-    contact::FaceCoupling<2> coupling(std::span<const contact::SurfaceFace> faces) const {
+    contact::FaceCoupling<2> coupling(std::span<const contact::Face> faces) const {
         contact::FaceCoupling<2> own;  // Q = k |f| I: a face answers to itself alone
-        for (const contact::SurfaceFace face : faces) {
+        for (const contact::Face face : faces) {
             own.columns.push_back(static_cast<std::int32_t>(own.columns.size()));
             own.offsets.push_back(static_cast<std::int32_t>(own.columns.size()));
             own.blocks.push_back(stiffness * surface_.area[std::size_t(face)] * Matrix<2>::Identity());
@@ -65,7 +66,7 @@ private:
         const auto springs_at_rest = [](auto, auto y_0, auto y_1) {  // y = dV/dũ where ũ = û
             for (std::size_t i = 0; i < y_0.size(); ++i) y_0[i] = y_1[i] = Vector<2>(0.0, 0.0);
         };
-        return contact_.step({u_0, u_1, [this](auto faces) { return coupling(faces); }, springs_at_rest});
+        return contact_.step(dt, {u_0, u_1, [this](auto faces) { return coupling(faces); }, springs_at_rest});
     }
 
     std::vector<double> inverse_mass_ = std::vector<double>(4, 1.0 / mass);
@@ -75,7 +76,7 @@ private:
 
 int main() {
     Pucks pucks;
-    dynamics::Memm<Pucks> memm(pucks, std::vector<double>(4, 0.0), std::vector{mass * speed, 0.0, 0.0, 0.0}, 1e-3);
+    dynamics::Memm<Pucks> memm(pucks, std::vector<double>(4, 0.0), std::vector{mass * speed, 0.0, 0.0, 0.0}, dt);
     double drift = 0.0, duration = 0.0, energy = memm.pseudo_energy();
     while (memm.time() < 0.5) {
         memm.step();

@@ -64,8 +64,8 @@ public:
         return energy;
     }
     void force(std::span<const double> q, std::span<double> f) { add(q, q, contact.evaluate(placed(q)), f); }
-    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double, std::span<double> f) {
-        add(q_0, q_1, contact.step(placed(q_0), placed(q_1)), f);
+    void mean_force(std::span<const double> q_0, std::span<const double> q_1, double, double dt, std::span<double> f) {
+        add(q_0, q_1, contact.step(dt, placed(q_0), placed(q_1)), f);
     }
     /// sum (x - c) x p of a body about its centre at rest.
     double spin(int b, const V& centre, std::span<const double> q, std::span<const double> p) const {

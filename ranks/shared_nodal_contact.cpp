@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/base/throw_again.hpp"
@@ -21,8 +23,8 @@
 namespace abut::ranks {
 namespace {
 
+using contact::Face;
 using contact::NodalStep;
-using contact::SurfaceFace;
 
 template <int Dim>
 bool same_bits(const Vector<Dim>& a, const Vector<Dim>& b) {
@@ -60,8 +62,8 @@ public:
     }
     Implementation(const Implementation&) = delete;  // `wanted` has a view of the numbers
 
-    const NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1, contact::TakenForce take) {
-        const Look seen = look(x_0, x_1);
+    const NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, contact::TakenForce take) {
+        const Look seen = look(dt, x_0, x_1);
         if (!contact_.is_valid_for(seen.motion)) {
             all_.bring<Dim>(communicator_, {{x_0, x_0_}, {x_1, x_1_}}, traffic_);
             search([&] { contact_.search(x_0_, x_1_); }, x_0, x_1);
@@ -72,12 +74,12 @@ public:
         } else {
             list_.bring<Dim>(communicator_, {{x_0, x_0_}, {x_1, x_1_}}, traffic_);
         }
-        named([&] { contact_.step_listed(x_0_, x_1_, take); });
+        named([&] { contact_.step_listed(dt, x_0_, x_1_, take); });
         return take_results();
     }
 
     const NodalStep<Dim>& evaluate(PointsView<Dim> x) {
-        const Look seen = look(x, x);
+        const Look seen = look(no_step, x, x);
         if (!contact_.is_valid_for(seen.motion)) {
             all_.bring<Dim>(communicator_, {{x, x_1_}}, traffic_);
             x_0_ = x_1_;
@@ -126,6 +128,8 @@ public:
     [[nodiscard]] const Traffic& traffic() const { return traffic_; }
 
 private:
+    static constexpr double no_step = 0.0;
+
     /// What all ranks together see of a step before it.
     struct Look {
         double motion;  ///< the farthest from where the list was searched for [m]; NaN where a node is not finite
@@ -139,18 +143,18 @@ private:
 
     [[nodiscard]] contact::NodalOptions in_numbers(contact::NodalOptions options) const {
         if (options.wanted)
-            options.wanted = [this, wanted = std::move(options.wanted)](SurfaceFace face_1, SurfaceFace face_2) {
+            options.wanted = [this, wanted = std::move(options.wanted)](Face face_1, Face face_2) {
                 return wanted(number_of_face(face_1), number_of_face(face_2));
             };
         return options;
     }
-    [[nodiscard]] SurfaceFace number_of_face(SurfaceFace face) const {
-        return SurfaceFace{numbers_.face[static_cast<std::size_t>(face)]};
-    }
+    [[nodiscard]] Face number_of_face(Face face) const { return Face{numbers_.face[static_cast<std::size_t>(face)]}; }
 
     /// A call of all ranks, one reduction; throws on all what is wrong on one.
-    Look look(PointsView<Dim> x_0, PointsView<Dim> x_1) {
-        std::array<double, 3> found{0.0, 0.0, 0.0};  // 1: not a number, 2: an error; motion; whether it begins elsewhere
+    Look look(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1) {
+        const double length = std::isfinite(dt) ? dt : no_step;  // contact refuses both
+        // 1: not a number, 2: an error; motion; whether it begins elsewhere; longest step; shortest step, negative
+        std::array<double, 5> found{0.0, 0.0, 0.0, length, -length};
         std::exception_ptr error;
         try {
             checks_.check_size(x_0.size());
@@ -160,7 +164,7 @@ private:
                 return !same_bits<Dim>(x_0[node.own], x_1_[static_cast<std::size_t>(node.surface)]);
             };
             found = {std::isnan(motion) ? 1.0 : 0.0, std::isnan(motion) ? 0.0 : motion,
-                     std::ranges::any_of(list_.owned(), begins_elsewhere) ? 1.0 : 0.0};
+                     std::ranges::any_of(list_.owned(), begins_elsewhere) ? 1.0 : 0.0, length, -length};
         } catch (...) {
             error = std::current_exception();
             found[0] = 2.0;
@@ -168,6 +172,10 @@ private:
         take_largest(communicator_, found);
         ++traffic_.reductions;
         if (found[0] == 2.0) communicator_.agree(error);
+        if (found[3] != -found[4])
+            throw BadInput("shared nodal contact: ranks give steps from " + number(-found[4]) + " to " + number(found[3]) +
+                               " s long. Give all ranks the same dt.",
+                           {.value = -found[4], .allowed = found[3]});
         return {found[0] == 1.0 ? std::nan("") : found[1], found[2] == 0.0};
     }
 
@@ -299,8 +307,9 @@ template <int Dim>
 SharedNodalContact<Dim>& SharedNodalContact<Dim>::operator=(SharedNodalContact&&) noexcept = default;
 
 template <int Dim>
-const NodalStep<Dim>& SharedNodalContact<Dim>::step(PointsView<Dim> x_0, PointsView<Dim> x_1, contact::TakenForce take) {
-    return implementation_->step(x_0, x_1, take);
+const NodalStep<Dim>& SharedNodalContact<Dim>::step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                                    contact::TakenForce take) {
+    return implementation_->step(dt, x_0, x_1, take);
 }
 template <int Dim>
 const NodalStep<Dim>& SharedNodalContact<Dim>::evaluate(PointsView<Dim> x) {

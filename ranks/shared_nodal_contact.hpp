@@ -34,11 +34,12 @@ public:
     SharedNodalContact(SharedNodalContact&&) noexcept;
     SharedNodalContact& operator=(SharedNodalContact&&) noexcept;
 
-    /// Contact along one step in which the nodes of this rank move from x_0 to x_1 (n_nodes) [m]. What comes back is the same
-    /// on all ranks, except for `nodes`, `gradient` and `least_force_size`, which are of this rank's nodes (indices as in
-    /// NodalPart::rest): `add_force_to` adds to the forces of this rank. Faces of `pairs` are face numbers. Throws as
-    /// contact::NodalContact::step, and BadInput where copies of a node are farther apart than rounding explains.
-    const contact::NodalStep<Dim>& step(PointsView<Dim> x_0, PointsView<Dim> x_1,
+    /// Contact along one step that takes `dt` [s], the same on all ranks, and in which the nodes of this rank move from x_0 to
+    /// x_1 (n_nodes) [m]. What comes back is the same on all ranks, except for `nodes`, `gradient` and `least_force_size`, which
+    /// are of this rank's nodes (indices as in NodalPart::rest): `add_force_to` adds to the forces of this rank. Faces of `pairs`
+    /// are face numbers. Throws as contact::NodalContact::step, and BadInput where copies of a node are farther apart than
+    /// rounding explains, or ranks give different `dt`.
+    const contact::NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                         contact::TakenForce take = contact::TakenForce::mean);
 
     /// W and its gradient at one state, as contact::NodalContact::evaluate: cheapest where the last step ended.

@@ -82,9 +82,7 @@ std::set<std::array<std::int32_t, 2>> pushing_bodies(const solid::Solid<Dim>& so
     std::set<std::array<std::int32_t, 2>> pushing;
     const auto add = [&](std::int32_t a, std::int32_t b) { pushing.insert({std::min(a, b), std::max(a, b)}); };
     if (const contact::Contact<Dim>* by_faces = solid.contact()) {
-        const auto body_of = [&](contact::SurfaceFace face) {
-            return by_faces->surface().body[static_cast<std::size_t>(face)];
-        };
+        const auto body_of = [&](contact::Face face) { return by_faces->surface().body[static_cast<std::size_t>(face)]; };
         for (const auto& pair : by_faces->last().pairs) add(body_of(pair.face_1), body_of(pair.face_2));
     }
     if (const contact::NodalContact<Dim>* by_nodes = solid.nodal_contact()) {

@@ -9,6 +9,7 @@
 
 #include "abut/contact/blind_corners.hpp"
 #include "abut/contact/contact.hpp"
+#include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/solid/ccg/ccg.hpp"
@@ -19,11 +20,29 @@
 
 namespace abut::solid {
 
+/// Displacements at both ends of a part of a step, in which not all cells are evaluated: those of the cells that are asked
+/// for, in arrays of all [m]. Each is valid until the next call.
+template <int Dim>
+class PartOfStep {
+public:
+    PartOfStep() = default;
+    PartOfStep(const PartOfStep&) = delete;
+    PartOfStep& operator=(const PartOfStep&) = delete;
+    virtual ~PartOfStep() = default;
+
+    [[nodiscard]] virtual std::span<const Vector<Dim>> start_of(std::span<const std::int32_t> cells) = 0;
+    [[nodiscard]] virtual std::span<const Vector<Dim>> end_of(std::span<const std::int32_t> cells) = 0;
+    [[nodiscard]] virtual std::span<const std::int32_t> all_cells() const = 0;
+    /// Cells that some boundary face depends on, and those of the faces themselves.
+    [[nodiscard]] virtual std::span<const std::int32_t> surface_cells() const = 0;
+};
+
 /// Leads contact along the steps of a solid, by one of its laws: it gives the surface, searches where the candidate list is no
 /// longer valid, and takes what comes back to the boundary faces. All that asks contact for something is here.
 ///
 /// Displacements q are those of all points (n_points) [m]. A step is `follow`; then `integrate`, or `take_start` and
-/// `take_end`; then `end_step`.
+/// `take_end`; then `end_step`. A step of a driver with `makes_parts` may also be `begin_parts`, then of each part
+/// `integrate_part` and `end_step`.
 template <int Dim>
 class ContactDriver {
 public:
@@ -48,19 +67,30 @@ public:
     /// Goes on from there, in q, where the last step ended at `time`; frames and loads are those of q.
     virtual void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) = 0;
 
-    // Contact on that path. Each replaces the results below.
+    // Contact on that path, which takes `dt` [s]. Each replaces the results below.
 
     /// The mean over the step.
-    virtual void integrate() = 0;
+    virtual void integrate(double dt) = 0;
     /// At the start of the step.
     virtual void take_start() = 0;
     /// At its end, with the pairs that may touch as they are at its start.
-    virtual void take_end() = 0;
+    virtual void take_end(double dt) = 0;
     /// Where the last step ended, in q.
     virtual void evaluate_last_end(std::span<const Vector<Dim>> q) = 0;
     /// In one state with the loads at the end of the step, `time` being when the last step ended. Throws Misuse for a state
     /// too far from where candidates were searched.
     virtual void evaluate(std::span<const Vector<Dim>> q, double time) = 0;
+
+    // Steps that are not made by all cells at once
+
+    [[nodiscard]] virtual bool makes_parts() const { return false; }
+    /// A step of this length begins [s].
+    virtual void begin_parts(double) {}
+    /// Contact in a part of it, from `time` on and `dt` long [s], looking at no more cells than it needs; its impulses and the
+    /// work of obstacles are booked. Whether some pair is active.
+    virtual bool integrate_part(PartOfStep<Dim>&, double, double, double&) { return false; }
+    /// Cells that the faces of the list depend on, increasing.
+    [[nodiscard]] virtual std::span<const std::int32_t> input_cells() const { return {}; }
 
     // Results
 
@@ -90,8 +120,11 @@ public:
     [[nodiscard]] virtual std::vector<dynamics::ContactPatch<Dim>> patches() const = 0;
 
     /// Of a face as errors of contact number it; `no_face` of an obstacle, and where there is none of that number.
-    [[nodiscard]] virtual BoundaryFace mesh_boundary(contact::SurfaceFace face) const = 0;
+    [[nodiscard]] virtual BoundaryFace mesh_boundary(contact::Face face) const = 0;
 
+    /// Contact itself, of the law that has it; null under the other one.
+    [[nodiscard]] virtual const contact::Contact<Dim>* by_faces() const { return nullptr; }
+    [[nodiscard]] virtual const contact::NodalContact<Dim>* by_nodes() const { return nullptr; }
     [[nodiscard]] virtual contact::ContactReport report() const = 0;
     [[nodiscard]] virtual double skin() const = 0;  ///< of the candidate list [m]
     [[nodiscard]] virtual std::vector<contact::BlindCorner<Dim>> blind_corners() const = 0;

@@ -143,7 +143,7 @@ contact::NodalSurface<Dim> CornerSurface<Dim>::for_contact() const {
 }
 
 template <int Dim>
-std::span<const std::int32_t> CornerSurface<Dim>::points_of(contact::SurfaceFace face) const {
+std::span<const std::int32_t> CornerSurface<Dim>::points_of(contact::Face face) const {
     const auto i = static_cast<std::size_t>(face);
     if (is_obstacle(i) || std::isinf(stiffness_[i])) return {};
     if (!is_deformable(i)) return rigid_points_[rigid_of(i)];
@@ -158,13 +158,13 @@ std::vector<dynamics::Hold<Dim>> CornerSurface<Dim>::holds_of(std::int32_t point
 }
 
 template <int Dim>
-Vector<Dim> CornerSurface<Dim>::rest_centroid(contact::SurfaceFace face) const {
+Vector<Dim> CornerSurface<Dim>::rest_centroid(contact::Face face) const {
     const auto i = static_cast<std::size_t>(face);
     return ranks_ ? ranks_->faces()[i].centroid : ccg_.centroid(boundary_[i]);
 }
 
 template <int Dim>
-Vector<Dim> CornerSurface<Dim>::middle(contact::SurfaceFace face, const Points& x) const {
+Vector<Dim> CornerSurface<Dim>::middle(contact::Face face, const Points& x) const {
     const auto i = static_cast<std::size_t>(face);
     Vector<Dim> sum = Vector<Dim>::Zero();
     for (std::int32_t n = corner_offsets_[i]; n < corner_offsets_[i + 1]; ++n) sum += x[n];

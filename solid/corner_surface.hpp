@@ -65,11 +65,11 @@ public:
     [[nodiscard]] BoundaryFace boundary(std::size_t face) const { return boundary_[face]; }
     [[nodiscard]] std::size_t body_of(std::size_t face) const { return static_cast<std::size_t>(faces_.body[face]); }
     /// In the numbering of the mesh; `no_face` of an obstacle, and of a face on other ranks.
-    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const {
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const {
         return is_obstacle(static_cast<std::size_t>(face)) ? no_face : mesh_boundary_[static_cast<std::size_t>(face)];
     }
     /// Points of the system that move a face; none of an obstacle or of a face that a support holds. On several ranks, by their numbers among those of all.
-    [[nodiscard]] std::span<const std::int32_t> points_of(contact::SurfaceFace face) const;
+    [[nodiscard]] std::span<const std::int32_t> points_of(contact::Face face) const;
     /// The part of a displacement or a force of a corner, in the frame, that its cell has a say in.
     [[nodiscard]] Vector<Dim> free_part(BoundaryFace face, const Vector<Dim>& of_corner) const {
         return of_corner - ccg_.prescribed()[face] * of_corner;
@@ -77,9 +77,9 @@ public:
     /// What holds such a point; nothing does one of a rigid body.
     [[nodiscard]] std::vector<dynamics::Hold<Dim>> holds_of(std::int32_t point) const;
     /// Of a body that deforms.
-    [[nodiscard]] Vector<Dim> rest_centroid(contact::SurfaceFace face) const;
+    [[nodiscard]] Vector<Dim> rest_centroid(contact::Face face) const;
     /// Mean of its corners, of a body.
-    [[nodiscard]] Vector<Dim> middle(contact::SurfaceFace face, const Points& x) const;
+    [[nodiscard]] Vector<Dim> middle(contact::Face face, const Points& x) const;
 
     // Where they are
 

@@ -143,10 +143,10 @@ void PairPotentialDriver<Dim>::end_step() {
 // Contact ------------------------------------------------------------------------------------------------------------
 
 template <int Dim>
-void PairPotentialDriver<Dim>::integrate() {
+void PairPotentialDriver<Dim>::integrate(double dt) {
     const Stopwatch watch(times_.contact);
     has_stepped_ = false;  // until the step has ended well
-    contact_.step_listed(x_0_, x_1_, contact::TakenForce::mean);
+    contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::mean);
     collect(x_0_, x_1_);
     keep_touching_faces();
 }
@@ -158,10 +158,10 @@ void PairPotentialDriver<Dim>::take_start() {
 }
 
 template <int Dim>
-void PairPotentialDriver<Dim>::take_end() {
+void PairPotentialDriver<Dim>::take_end(double dt) {
     const Stopwatch watch(times_.contact);
     has_stepped_ = false;
-    contact_.step_listed(x_0_, x_1_, contact::TakenForce::end);
+    contact_.step_listed(dt, x_0_, x_1_, contact::TakenForce::end);
     collect(x_1_, x_1_);
     keep_touching_faces();
 }
@@ -256,7 +256,7 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
     for (const contact::PairStep<Dim>& pair : contact_.last().pairs) {
         TouchingPoints<Dim> touching{corners_.points_of(pair.face_1), corners_.points_of(pair.face_2), Vector<Dim>::Zero(),
                                      pair.normal};
-        const auto hold = [&](contact::SurfaceFace body, contact::SurfaceFace obstacle) {
+        const auto hold = [&](contact::Face body, contact::Face obstacle) {
             touching.position = middle_of(body);
             touching.normal = obstacle_normal(obstacle);
         };
@@ -268,14 +268,14 @@ void PairPotentialDriver<Dim>::keep_touching_faces() {
 
 /// Of a face of a body: at rest where none turns, else in the middle of the step (dynamics::MomentArms).
 template <int Dim>
-Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::SurfaceFace face) const {
+Vector<Dim> PairPotentialDriver<Dim>::middle_of(contact::Face face) const {
     if (!frames_.any_turns() && !bodies_.any_rigid() && !bodies_.any_finite()) return corners_.rest_centroid(face);
     return 0.5 * (corners_.middle(face, x_0_) + corners_.middle(face, x_1_));
 }
 
 /// In the middle of the step. What a tilted face pushes along a wall must not let the filter change the momentum along it.
 template <int Dim>
-Vector<Dim> PairPotentialDriver<Dim>::obstacle_normal(contact::SurfaceFace face) const {
+Vector<Dim> PairPotentialDriver<Dim>::obstacle_normal(contact::Face face) const {
     const auto& surface = contact_.surface();
     const auto nodes = surface.facets().view().vertices_of(surface.facet_offsets()[static_cast<std::size_t>(face)]);
     std::array<Vector<Dim>, Dim> corners;
@@ -291,7 +291,7 @@ ContactField PairPotentialDriver<Dim>::field() const {
     const std::size_t n = mesh.boundary_faces.size();
     ContactField field{std::vector<double>(n, 0.0), std::vector<double>(n, std::numeric_limits<double>::infinity())};
     for (const contact::PairStep<Dim>& pair : contact_.last().pairs)
-        for (const contact::SurfaceFace face : {pair.face_1, pair.face_2})
+        for (const contact::Face face : {pair.face_1, pair.face_2})
             if (const BoundaryFace b = corners_.mesh_boundary(face); b != no_face) {
                 field.pressure[number_of(b)] += pair.normal_force / mesh.face_measure[mesh_face(mesh, b)];
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], pair.gap_1);

@@ -33,9 +33,9 @@ public:
     [[nodiscard]] std::vector<std::byte> state() const override;
     void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;
 
-    void integrate() override;
+    void integrate(double dt) override;
     void take_start() override;
-    void take_end() override;
+    void take_end(double dt) override;
     void evaluate_last_end(std::span<const Vector<Dim>> q) override;
     void evaluate(std::span<const Vector<Dim>> q, double time) override;
 
@@ -52,10 +52,10 @@ public:
     [[nodiscard]] std::span<const contact::PairStep<Dim>> pairs() const override { return contact_.last().pairs; }
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
 
-    [[nodiscard]] const contact::NodalContact<Dim>& contact() const { return contact_; }
+    [[nodiscard]] const contact::NodalContact<Dim>* by_nodes() const override { return &contact_; }
     [[nodiscard]] contact::ContactReport report() const override { return contact_.report(); }
     [[nodiscard]] double skin() const override { return contact_.skin(); }
-    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const override {
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override {
         return corners_.mesh_boundary(face);
     }
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const override;
@@ -92,8 +92,8 @@ private:
     /// The gradients of the last call of contact between these two placements of the nodes, face by face.
     void collect(const Points& x_0, const Points& x_1);
     void keep_touching_faces();
-    [[nodiscard]] Vector<Dim> middle_of(contact::SurfaceFace face) const;
-    [[nodiscard]] Vector<Dim> obstacle_normal(contact::SurfaceFace face) const;
+    [[nodiscard]] Vector<Dim> middle_of(contact::Face face) const;
+    [[nodiscard]] Vector<Dim> obstacle_normal(contact::Face face) const;
 
     const Bodies<Dim>& bodies_;
     Ccg<Dim>& ccg_;

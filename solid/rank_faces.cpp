@@ -163,10 +163,10 @@ void RankFaces<Dim>::gather_displacement(std::span<const Vector<Dim>> of_boundar
 }
 
 template <int Dim>
-void RankFaces<Dim>::set_listed(std::span<const contact::SurfaceFace> listed) {
+void RankFaces<Dim>::set_listed(std::span<const contact::Face> listed) {
     listed_.clear();
     own_listed_.clear();
-    for (const contact::SurfaceFace face : listed) {
+    for (const contact::Face face : listed) {
         const auto i = static_cast<std::size_t>(face);
         listed_.push_back(i);
         if (is_own(i)) own_listed_.push_back(here_[i]);

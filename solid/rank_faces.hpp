@@ -51,7 +51,7 @@ public:
     void gather_displacement(std::span<const Vector<Dim>> of_boundary, std::span<Vector<Dim>> of_surface) const;
 
     /// These faces are listed from now on, increasing.
-    void set_listed(std::span<const contact::SurfaceFace> listed);
+    void set_listed(std::span<const contact::Face> listed);
     /// Those that are evaluated here, increasing.
     [[nodiscard]] std::span<const BoundaryFace> own_listed() const { return own_listed_; }
     /// û [m] and y [N] of all listed faces, from those that are evaluated here.

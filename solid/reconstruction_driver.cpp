@@ -104,17 +104,17 @@ void ReconstructionDriver<Dim>::search(std::span<const Vector<Dim>> q_0, std::sp
     const Stopwatch watch(times_.search);
     const auto u_0 = surface_displacement(q_0, loads_.start(), time);
     const auto u_1 = surface_displacement(q_1, loads_.end(), time + dt);
-    contact_->search(u_0, u_1, [&](std::span<const contact::SurfaceFace> faces) { return list_faces(faces); });
+    contact_->search(u_0, u_1, [&](std::span<const contact::Face> faces) { return list_faces(faces); });
     watch_.set_searched(q_0, loads_.start(), time, q_1, loads_.end());
     set_start(q_0, time);
 }
 
 template <int Dim>
-contact::FaceCoupling<Dim> ReconstructionDriver<Dim>::list_faces(std::span<const contact::SurfaceFace> faces) {
+contact::FaceCoupling<Dim> ReconstructionDriver<Dim>::list_faces(std::span<const contact::Face> faces) {
     boundary_of_listed_.clear();
     listed_here_.clear();
     n_listed_deformable_ = static_cast<std::size_t>(
-        std::ranges::partition_point(faces, [&](contact::SurfaceFace face) { return !is_of_obstacle(face); }) -
+        std::ranges::partition_point(faces, [&](contact::Face face) { return !is_of_obstacle(face); }) -
         faces.begin());
     for (std::size_t i = 0; i < n_listed_deformable_; ++i)
         if (const BoundaryFace b = mesh_boundary(faces[i]); b != no_face) {
@@ -186,9 +186,9 @@ void ReconstructionDriver<Dim>::end_step() {
 // Contact on that path -----------------------------------------------------------------------------------------------
 
 template <int Dim>
-void ReconstructionDriver<Dim>::integrate() {
+void ReconstructionDriver<Dim>::integrate(double dt) {
     const Stopwatch watch(times_.contact);
-    keep_touching_faces(contact_->integrate({u_0_, u_1_, y_0_, y_1_}));
+    keep_touching_faces(contact_->integrate(dt, {u_0_, u_1_, y_0_, y_1_}));
 }
 
 template <int Dim>
@@ -197,21 +197,35 @@ void ReconstructionDriver<Dim>::take_start() {
 }
 
 template <int Dim>
-void ReconstructionDriver<Dim>::take_end() {
+void ReconstructionDriver<Dim>::take_end(double dt) {
     const Stopwatch watch(times_.contact);
-    keep_touching_faces(contact_->follow(u_0_, u_1_, y_1_));
+    keep_touching_faces(contact_->integrate(dt, {u_0_, u_1_, y_0_, y_1_}, contact::TakenForce::end));
+}
+
+template <int Dim>
+bool ReconstructionDriver<Dim>::integrate_part(PartOfStep<Dim>& part, double time, double dt, double& work) {
+    if (!is_valid_at(part.end_of(part.surface_cells()), time + dt))
+        search(part.start_of(part.all_cells()), part.end_of(part.all_cells()), time, dt);
+    else if (!has_stepped_)
+        set_start(part.start_of(input_cells()), time);
+    set_end(part.end_of(input_cells()), time + dt);
+    integrate(dt);
+    take_obstacle_forces(1.0, work);
+    obstacles_.add_part(dt);
+    add_impulses(dt);
+    return !touching_.empty();
 }
 
 template <int Dim>
 void ReconstructionDriver<Dim>::keep_touching_faces(const contact::ContactStep<Dim>& step) {
     touching_.clear();
-    const auto points = [&](contact::SurfaceFace face) {
+    const auto points = [&](contact::Face face) {
         if (is_rigid(face)) return std::span<const std::int32_t>{};
         if (ranks_) return std::span<const std::int32_t>(ranks_->faces()[static_cast<std::size_t>(face)].cells);
         return ccg_.cells_of(mesh_boundary(face));
     };
     for (const contact::PairStep<Dim>& pair : step.pairs) {
-        const contact::SurfaceFace of_body = is_rigid(pair.face_1) ? pair.face_2 : pair.face_1;
+        const contact::Face of_body = is_rigid(pair.face_1) ? pair.face_2 : pair.face_1;
         touching_.push_back(
             {points(pair.face_1), points(pair.face_2),
              ranks_ ? ranks_->faces()[static_cast<std::size_t>(of_body)].centroid : ccg_.centroid(mesh_boundary(of_body)),
@@ -283,7 +297,7 @@ void ReconstructionDriver<Dim>::take_obstacle_forces(double share, double& work)
 
 template <int Dim>
 void ReconstructionDriver<Dim>::add_impulses(double dt) {
-    const auto body = [&](contact::SurfaceFace face) { return surface_.body[static_cast<std::size_t>(face)]; };
+    const auto body = [&](contact::Face face) { return surface_.body[static_cast<std::size_t>(face)]; };
     for (const contact::PairStep<Dim>& pair : contact_->last().pairs)
         this->impulses_.add(body(pair.face_1), body(pair.face_2), dt * pair.force, dt * pair.normal_force);
 }
@@ -305,7 +319,7 @@ ContactField ReconstructionDriver<Dim>::field() const {
                 step.mean_normal_force.values()[listed_here_[i]] / mesh_.face_measure[mesh_face(mesh_, b)];
         }
     for (const contact::AdmittedOverlap<Dim>& overlap : contact_->admitted_overlaps(u_1_))
-        for (const contact::SurfaceFace face : {overlap.face_1, overlap.face_2})
+        for (const contact::Face face : {overlap.face_1, overlap.face_2})
             if (const BoundaryFace b = mesh_boundary(face); b != no_face)
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], overlap.gap);
     return field;

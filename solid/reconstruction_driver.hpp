@@ -21,9 +21,6 @@
 namespace abut::solid {
 
 /// By the modified reconstruction: the faces of bodies that do not turn, each moved as a whole. The points are the cells.
-///
-/// `follow` consists of parts, for steps that are not made by all cells at once: `is_valid_at`, `search`, `set_start`,
-/// `set_end`.
 template <int Dim>
 class ReconstructionDriver final : public ContactDriver<Dim> {
 public:
@@ -38,36 +35,28 @@ public:
                 double dt) override;
     void follow_jump(std::span<const Vector<Dim>> q, double time) override;
     void jumped(std::span<const Vector<Dim>> q, double time) override { set_start(q, time); }
-    /// Whether the candidate list is valid in q, where the current step ends, at that time.
-    [[nodiscard]] bool is_valid_at(std::span<const Vector<Dim>> q, double time);
-    /// Rebuilds the candidate list for the current step, and sets the start of the path.
-    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
-    void set_start(std::span<const Vector<Dim>> q_0, double time);
-    void set_end(std::span<const Vector<Dim>> q_1, double time);
-    /// The start of the path is known: it is where the last step ended.
-    [[nodiscard]] bool has_stepped() const { return has_stepped_; }
-    /// The cells that `set_start` and `set_end` read, increasing.
-    [[nodiscard]] std::span<const std::int32_t> input_cells() const { return region_.input_cells; }
     void end_step() override;
     [[nodiscard]] std::vector<std::byte> state() const override;
     void restore(std::span<const std::byte> state, std::span<const Vector<Dim>> q, double time) override;
 
     // Contact on that path
 
-    void integrate() override;
+    void integrate(double dt) override;
     void take_start() override;
-    void take_end() override;
+    void take_end(double dt) override;
     void evaluate_last_end(std::span<const Vector<Dim>> q) override;
     void evaluate(std::span<const Vector<Dim>> q, double time) override;
+
+    [[nodiscard]] bool makes_parts() const override { return true; }
+    void begin_parts(double dt) override { obstacles_.begin_parts(dt); }
+    bool integrate_part(PartOfStep<Dim>& part, double time, double dt, double& work) override;
+    [[nodiscard]] std::span<const std::int32_t> input_cells() const override { return region_.input_cells; }
 
     // Results
 
     [[nodiscard]] FaceCorrections<Dim> corrections() const override;
-    /// Whether some pair was active in the last step.
-    [[nodiscard]] bool is_active() const { return !touching_.empty(); }
     void take_obstacle_forces(double share, double& work) override;
     void add_impulses(double dt) override;
-    [[nodiscard]] Obstacles<Dim>& obstacles() { return obstacles_; }
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
     [[nodiscard]] double compression() const override;
     [[nodiscard]] ContactField field() const override;
@@ -75,9 +64,9 @@ public:
     [[nodiscard]] std::span<const contact::PairStep<Dim>> pairs() const override { return contact_->last().pairs; }
     [[nodiscard]] std::vector<dynamics::ContactPatch<Dim>> patches() const override;
 
-    [[nodiscard]] const contact::Contact<Dim>& contact() const { return *contact_; }
+    [[nodiscard]] const contact::Contact<Dim>* by_faces() const override { return &*contact_; }
     [[nodiscard]] contact::ContactReport report() const override;
-    [[nodiscard]] BoundaryFace mesh_boundary(contact::SurfaceFace face) const override {
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override {
         const auto i = static_cast<std::size_t>(face);
         return i < boundary_of_surface_.size() ? boundary_of_surface_[i] : no_face;
     }
@@ -86,15 +75,21 @@ public:
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override;
 
 private:
+    /// Whether the candidate list is valid in q, where the current step ends, at that time.
+    [[nodiscard]] bool is_valid_at(std::span<const Vector<Dim>> q, double time);
+    /// Rebuilds the candidate list for the current step, and sets the start of the path.
+    void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
+    void set_start(std::span<const Vector<Dim>> q_0, double time);
+    void set_end(std::span<const Vector<Dim>> q_1, double time);
     void build_surface();
     void make_contact() { contact_.emplace(surface_.view(), options_, sharing_ ? &*sharing_ : nullptr); }
     void append_faces();
-    [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::SurfaceFace> faces);
-    [[nodiscard]] bool is_of_obstacle(contact::SurfaceFace face) const {
+    [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::Face> faces);
+    [[nodiscard]] bool is_of_obstacle(contact::Face face) const {
         return static_cast<std::size_t>(face) >= boundary_of_surface_.size();
     }
     /// Whether it is one of an obstacle or held by a support: nothing that touches it moves it.
-    [[nodiscard]] bool is_rigid(contact::SurfaceFace face) const {
+    [[nodiscard]] bool is_rigid(contact::Face face) const {
         return surface_.view().is_rigid(static_cast<std::int32_t>(face));
     }
     [[nodiscard]] std::span<const Vector<Dim>> values_here(std::span<const Vector<Dim>> of_listed,
@@ -106,7 +101,7 @@ private:
                                                                 const BoundaryLoad<Dim>& load, double time);
     void evaluate_faces(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load, double time,
                         std::vector<Vector<Dim>>& displacement, std::vector<Vector<Dim>>& gradient);
-    [[nodiscard]] std::size_t obstacle_of(contact::SurfaceFace face) const {
+    [[nodiscard]] std::size_t obstacle_of(contact::Face face) const {
         return static_cast<std::size_t>(surface_.body[static_cast<std::size_t>(face)] - mesh_.n_bodies());
     }
 
@@ -122,7 +117,7 @@ private:
     std::optional<RankSharing> sharing_;             // likewise
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
-    bool has_stepped_ = false;
+    bool has_stepped_ = false;  // the start of the path is known: it is where the last step ended
     Region<Dim> region_;                            // of the deformable listed faces, of those that are evaluated here
     std::size_t n_listed_deformable_ = 0;           // they come first in the list
     std::vector<BoundaryFace> boundary_of_listed_;  // of those that are here: all on one rank

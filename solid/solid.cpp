@@ -114,9 +114,7 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
     if (law == ContactLaw::pair_potential) {
         contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, part_.get());
     } else {
-        auto driver = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, part_.get());
-        reconstruction_ = driver.get();
-        contact_ = std::move(driver);
+        contact_ = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, part_.get());
     }
 }
 

@@ -10,12 +10,11 @@
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"
+#include "abut/solid/contact_driver.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
-#include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
 #include "abut/solid/rank_part.hpp"
-#include "abut/solid/reconstruction_driver.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
@@ -87,7 +86,7 @@ void Solid<Dim>::require_depth() const {
     const auto pair = std::ranges::max_element(contact_->pairs(), {}, &contact::PairStep<Dim>::compression);
     const double deepest = pair->compression, limit = options_.contact->compression_limit;
     if (!(deepest > limit)) return;
-    const auto name_of = [&](contact::SurfaceFace face) -> std::string {
+    const auto name_of = [&](contact::Face face) -> std::string {
         const BoundaryFace boundary = contact_->mesh_boundary(face);
         if (boundary == no_face) return "an obstacle";
         const std::int32_t of_mesh = mesh_face(mesh_, boundary);
@@ -117,13 +116,12 @@ std::span<const BodyImpulse<Dim>> Solid<Dim>::contact_impulses() const {
 
 template <int Dim>
 const contact::Contact<Dim>* Solid<Dim>::contact() const {
-    return reconstruction_ ? &reconstruction_->contact() : nullptr;
+    return contact_ ? contact_->by_faces() : nullptr;
 }
 
 template <int Dim>
 const contact::NodalContact<Dim>* Solid<Dim>::nodal_contact() const {
-    const auto* driver = dynamic_cast<const PairPotentialDriver<Dim>*>(contact_.get());
-    return driver ? &driver->contact() : nullptr;
+    return contact_ ? contact_->by_nodes() : nullptr;
 }
 
 template <int Dim>
@@ -145,7 +143,7 @@ dynamics::ContactCounts Solid<Dim>::contact_counts() const {
 template <int Dim>
 std::int32_t Solid<Dim>::cell_of_contact_face(std::int64_t face) const {
     if (!contact_ || face < 0 || face > std::numeric_limits<std::int32_t>::max()) return -1;
-    const BoundaryFace boundary = contact_->mesh_boundary(contact::SurfaceFace{static_cast<std::int32_t>(face)});
+    const BoundaryFace boundary = contact_->mesh_boundary(contact::Face{static_cast<std::int32_t>(face)});
     return boundary == no_face ? -1 : cell_of(mesh_, boundary);
 }
 

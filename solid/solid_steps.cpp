@@ -6,21 +6,42 @@
 #include "abut/base/processor_stopwatch.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/solid/bodies.hpp"
+#include "abut/solid/contact_driver.hpp"
 #include "abut/solid/frame_loads.hpp"
 #include "abut/solid/largest_motion.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
 #include "abut/solid/outside_loads.hpp"
-#include "abut/solid/pair_potential_driver.hpp"
 #include "abut/solid/point_loads.hpp"
 #include "abut/solid/rank_part.hpp"
-#include "abut/solid/reconstruction_driver.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {
 
 inline constexpr double same_time = 1e-6;  // of a step: sums of steps are rounded
+
+/// Cells that fly freely from now on for `dt` [s], until the next part of the step.
+template <int Dim>
+class FlightPart final : public PartOfStep<Dim> {
+public:
+    FlightPart(LocalLevels<Dim>& levels, const dynamics::FreeFlight& flight, double dt)
+        : levels_(levels), flight_(flight), dt_(dt) {}
+
+    [[nodiscard]] std::span<const Vector<Dim>> start_of(std::span<const std::int32_t> cells) override {
+        return levels_.start_of(flight_, cells);
+    }
+    [[nodiscard]] std::span<const Vector<Dim>> end_of(std::span<const std::int32_t> cells) override {
+        return levels_.end_of(flight_, dt_, cells);
+    }
+    [[nodiscard]] std::span<const std::int32_t> all_cells() const override { return levels_.all_cells(); }
+    [[nodiscard]] std::span<const std::int32_t> surface_cells() const override { return levels_.surface_cells(); }
+
+private:
+    LocalLevels<Dim>& levels_;
+    const dynamics::FreeFlight& flight_;
+    double dt_;
+};
 
 }  // namespace
 
@@ -36,7 +57,7 @@ void Solid<Dim>::mean_force(std::span<const double> q_0, std::span<const double>
     const double motion = follow_frames(of_cells(u_0), of_cells(u_1));
     if (contact_) {
         contact_->follow(u_0, u_1, motion, time, dt);
-        contact_->integrate();
+        contact_->integrate(dt);
     }
 
     const Stopwatch watch(times_.bulk);
@@ -73,7 +94,7 @@ void Solid<Dim>::end_force(std::span<const double> q_0, std::span<const double> 
         add_work(0.5);
     }
     frames_->stand_at_end();
-    if (contact_) contact_->take_end();
+    if (contact_) contact_->take_end(dt);
     const Stopwatch watch(times_.bulk);
     {
         const ProcessorStopwatch of_cells(times_.own_cells);
@@ -173,7 +194,7 @@ void Solid<Dim>::end_step(double time) {
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
     refuse_ranks("local steps");
-    if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !reconstruction_))
+    if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !contact_->makes_parts()))
         throw BadInput(mesh_.name +
                        ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "
                        "body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. Take "
@@ -193,40 +214,24 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
 template <int Dim>
 void Solid<Dim>::add_impulse(std::int32_t level, const dynamics::FreeFlight& flight, double time, double dt,
                              std::span<double> impulse) {
-    if (level == 0 && reconstruction_) reconstruction_->obstacles().begin_parts(dt);
+    if (level == 0 && contact_) contact_->begin_parts(dt);
     {
         const Stopwatch watch(times_.bulk);
         evaluations_ += levels_->add_bulk_impulse(level, flight, dt, as_vectors<Dim>(impulse));
     }
     if (!levels_->is_finest(level)) return;
     require_start(time, dt);
-    if (reconstruction_) add_contact_impulse(flight, time, dt, as_vectors<Dim>(impulse));
+    if (contact_) add_contact_impulse(flight, time, dt, as_vectors<Dim>(impulse));
     end_step(time + dt);
 }
 
 template <int Dim>
 void Solid<Dim>::add_contact_impulse(const dynamics::FreeFlight& flight, double time, double dt,
                                      std::span<Vector<Dim>> impulse) {
-    follow_flight(flight, time, dt);
-    reconstruction_->integrate();
-    reconstruction_->take_obstacle_forces(1.0, work_);
-    reconstruction_->obstacles().add_part(dt);
-    reconstruction_->add_impulses(dt);
-    if (!reconstruction_->is_active()) return;
+    FlightPart<Dim> part(*levels_, flight, dt);
+    if (!contact_->integrate_part(part, time, dt, work_)) return;
     const Stopwatch watch(times_.contact);
-    levels_->add_contact_impulse(reconstruction_->input_cells(), corrections(), dt, impulse);
-}
-
-/// As ContactDriver::follow, but looks at no more cells than the surface needs.
-template <int Dim>
-void Solid<Dim>::follow_flight(const dynamics::FreeFlight& flight, double time, double dt) {
-    LocalLevels<Dim>& levels = *levels_;
-    if (!reconstruction_->is_valid_at(levels.end_of(flight, dt, levels.surface_cells()), time + dt))
-        reconstruction_->search(levels.start_of(flight, levels.all_cells()), levels.end_of(flight, dt, levels.all_cells()),
-                                time, dt);
-    else if (!reconstruction_->has_stepped())
-        reconstruction_->set_start(levels.start_of(flight, reconstruction_->input_cells()), time);
-    reconstruction_->set_end(levels.end_of(flight, dt, reconstruction_->input_cells()), time + dt);
+    levels_->add_contact_impulse(contact_->input_cells(), corrections(), dt, impulse);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                              \

@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
     abut_error error = ABUT_ERROR_INIT;
     abut_step_result result = ABUT_STEP_RESULT_INIT;
     check(abut_create(3, x[0], &faces, NULL, &contact, &error), &error);
-    check(abut_step(contact, x[0], x[1], ABUT_MEAN, force, &result, &error), &error);
+    check(abut_step(contact, 1.0, x[0], x[1], ABUT_MEAN, force, &result, &error), &error);
     const clock_t start = clock();
-    for (long i = 0; i < calls; ++i) check(abut_step(contact, x[1], x[2], ABUT_MEAN, force, &result, &error), &error);
+    for (long i = 0; i < calls; ++i) check(abut_step(contact, 1.0, x[1], x[2], ABUT_MEAN, force, &result, &error), &error);
     const double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
     printf("%.4f %" PRId64 " %.16e\n", 1e6 * seconds / (double)calls, result.active_pairs, result.energy);
     abut_destroy(contact);

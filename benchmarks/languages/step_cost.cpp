@@ -34,9 +34,9 @@ void run(const char* file, long calls) {
     const auto points = [&](int i) { return PointsView<3>(std::span(std::as_const(x[i]))); };
 
     contact::NodalContact<3> contact({points(0), {corners, {}, body, depth, stiffness}});
-    contact.step(points(0), points(1));
+    contact.step(1.0, points(0), points(1));
     const std::clock_t start = std::clock();
-    for (long i = 0; i < calls; ++i) contact.step(points(1), points(2)).add_force_to(std::span(force));
+    for (long i = 0; i < calls; ++i) contact.step(1.0, points(1), points(2)).add_force_to(std::span(force));
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     std::printf("%.4f %zu %.16e\n", 1e6 * seconds / static_cast<double>(calls), contact.last().pairs.size(),
                 contact.last().energy);

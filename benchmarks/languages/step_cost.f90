@@ -32,10 +32,10 @@ program step_cost
   result = abut_new_result()
   faces = abut_faces_of(corners, body, depth, stiffness)
   call check(abut_create(3, abut_points(x(:, :, 1)), faces, c_null_ptr, contact, error))
-  call check(abut_step(contact, abut_points(x(:, :, 1)), abut_points(x(:, :, 2)), abut_mean, abut_points(f), result, error))
+  call check(abut_step(contact, 1d0, abut_points(x(:, :, 1)), abut_points(x(:, :, 2)), abut_mean, abut_points(f), result, error))
   call cpu_time(start)
   do i = 1, calls
-    call check(abut_step(contact, abut_points(x(:, :, 2)), abut_points(x(:, :, 3)), abut_mean, abut_points(f), result, &
+    call check(abut_step(contact, 1d0, abut_points(x(:, :, 2)), abut_points(x(:, :, 3)), abut_mean, abut_points(f), result, &
       error))
   end do
   call cpu_time(end)

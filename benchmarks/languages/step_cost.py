@@ -14,9 +14,9 @@ with open(sys.argv[1], "rb") as scene:
 calls = int(sys.argv[2])
 force = np.zeros((n_nodes, 3))
 contact = abut.NodalContact(rest, corners.reshape(n_faces, 3), body, depth, stiffness)
-contact.step(rest, x_0, out=force)
+contact.step(1.0, rest, x_0, out=force)
 start = time.process_time()
 for _ in range(calls):
-    step = contact.step(x_0, x_1, out=force)
+    step = contact.step(1.0, x_0, x_1, out=force)
 seconds = time.process_time() - start
 print(f"{1e6 * seconds / calls:.4f} {step['active_pairs']} {step['energy']:.16e}")

@@ -35,7 +35,7 @@ contact::NodalOptions nodal_options(const abut_options& given, std::int32_t inde
     options.facing = {.full = given.facing_full, .none = given.facing_none};
     options.events = given.events != 0;
     if (given.wanted != nullptr)
-        options.wanted = [given, index_base](contact::SurfaceFace face_1, contact::SurfaceFace face_2) {
+        options.wanted = [given, index_base](contact::Face face_1, contact::Face face_2) {
             return call_host([&] {
                 return given.wanted(number_of(face_1) + index_base, number_of(face_2) + index_base, given.user) != 0;
             });
@@ -167,8 +167,8 @@ int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, const abu
 
 void abut_destroy(abut_contact* contact) { delete contact; }
 
-int abut_step(abut_contact* handle, abut_array x_0, abut_array x_1, int32_t take, abut_array force, abut_step_result* result,
-              abut_error* error) {
+int abut_step(abut_contact* handle, double dt, abut_array x_0, abut_array x_1, int32_t take, abut_array force,
+              abut_step_result* result, abut_error* error) {
     return guarded(error, index_base_of(handle), [&] {
         with_contact(handle, [&](auto& contact) {
             constexpr int Dim = dimension_of<decltype(contact)>;
@@ -178,7 +178,7 @@ int abut_step(abut_contact* handle, abut_array x_0, abut_array x_1, int32_t take
             const abut_options& options = handle->options;
             if (options.cancel != nullptr && call_host([&] { return options.cancel(options.user) != 0; })) throw Cancelled{};
             const auto forces = force_of<Dim>(force, contact);
-            const auto& step = contact.step(view_of<Dim>(x_0, "x_0"), view_of<Dim>(x_1, "x_1"),
+            const auto& step = contact.step(dt, view_of<Dim>(x_0, "x_0"), view_of<Dim>(x_1, "x_1"),
                                             take == ABUT_MEAN ? contact::TakenForce::mean : contact::TakenForce::end);
             if (forces) step.add_force_to(*forces);
             if (result != nullptr)

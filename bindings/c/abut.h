@@ -202,9 +202,9 @@ ABUT_API int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, 
 /* NULL is no error. */
 ABUT_API void abut_destroy(abut_contact* contact);
 
-/* From x_0 to x_1; adds the forces to `force` (data NULL: does not), which may end before the nodes of obstacles do, but not before
-   those of other faces. `result` may be NULL. */
-ABUT_API int abut_step(abut_contact* contact, abut_array x_0, abut_array x_1, int32_t take, abut_array force,
+/* From x_0 to x_1 in a step that takes dt [s], finite and > 0; without friction nothing depends on it. Adds the forces to `force`
+   (data NULL: does not), which may end before the nodes of obstacles do, but not before those of other faces. `result` may be NULL. */
+ABUT_API int abut_step(abut_contact* contact, double dt, abut_array x_0, abut_array x_1, int32_t take, abut_array force,
                        abut_step_result* result, abut_error* error);
 /* W and forces at any x, without a step: changes nothing that the next steps depend on. */
 ABUT_API int abut_evaluate(abut_contact* contact, abut_array x, abut_array force, double* energy, abut_error* error);

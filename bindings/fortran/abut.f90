@@ -146,9 +146,10 @@ module abut
       import
       type(c_ptr), value :: contact
     end subroutine
-    integer(c_int) function abut_step(contact, x_0, x_1, take, force, result, error) bind(c)
+    integer(c_int) function abut_step(contact, dt, x_0, x_1, take, force, result, error) bind(c)
       import
       type(c_ptr), value :: contact
+      real(c_double), value :: dt
       type(abut_array), value :: x_0, x_1, force
       integer(c_int32_t), value :: take
       type(abut_step_result), intent(inout) :: result

@@ -59,13 +59,13 @@ public:
         callbacks_->after_call();
     }
 
-    py::dict step(const py::array& x_0, const py::array& x_1, const py::object& out, const std::string& mode) {
+    py::dict step(double dt, const py::array& x_0, const py::array& x_1, const py::object& out, const std::string& mode) {
         if (mode != "mean" && mode != "end") throw py::value_error("mode is '" + mode + "'; 'mean' and 'end' are allowed");
         const abut_array from = view_of(x_0, dim_, "x_0"), to = view_of(x_1, dim_, "x_1");
         const abut_array force = writable_view_of(out, dim_, "out");
         abut_step_result result = ABUT_STEP_RESULT_INIT;
         call_unlocked([&](abut_error* error) {
-            return abut_step(handle_.get(), from, to, mode == "mean" ? ABUT_MEAN : ABUT_END, force, &result, error);
+            return abut_step(handle_.get(), dt, from, to, mode == "mean" ? ABUT_MEAN : ABUT_END, force, &result, error);
         });
         callbacks_->after_call();
         using namespace py::literals;
@@ -233,8 +233,9 @@ PYBIND11_MODULE(_contact, module) {
              "compression_warning"_a = defaults.compression_warning, "compression_limit"_a = defaults.compression_limit,
              "facing"_a = std::pair(defaults.facing_full, defaults.facing_none), "events"_a = defaults.events != 0,
              "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none())
-        .def("step", &NodalContact::step, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
-             "From x_0 to x_1; adds the forces to out, which may end before the nodes of obstacles do. mode: 'mean' of the "
+        .def("step", &NodalContact::step, "dt"_a, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
+             "From x_0 to x_1 within dt [s], > 0 (without friction nothing depends on it); adds the forces to out, which "
+             "may end before the nodes of obstacles do. mode: 'mean' of the "
              "step, exact for energy, or 'end', for central differences. Returns energy_0, energy (W [J] at both ends), "
              "work, active_pairs, "
              "events, compression and correction.")

@@ -233,8 +233,8 @@ void PairPotential<Dim>::add_pair(const NodalSurface<Dim>& surface, const NodalP
     const auto& found = outcome.found;
     const Vector<Dim> force = force_on_second<Dim>(found.gradient), normal = outcome.normal.normalized();
     const double compression = -std::min(found.gap_0, found.gap_1) / pair.admission_depth;
-    step.pairs.push_back({.face_1 = surface.face_of(pair.facet_1),
-                          .face_2 = surface.face_of(pair.facet_2),
+    step.pairs.push_back({.face_1 = surface.face_of(Facet{pair.facet_1}),
+                          .face_2 = surface.face_of(Facet{pair.facet_2}),
                           .normal = normal,
                           .gap_0 = found.gap_0,
                           .gap_1 = found.gap_1,

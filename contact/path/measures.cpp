@@ -16,8 +16,8 @@ PairStep<Dim> geometry_of(const ContactPair<Dim>& pair, const ActivePairs<Dim>& 
         area += length * (piece.area[0] + piece.area[1] / 2.0 + piece.area[2] / 3.0);
         share += length;
     }
-    return {.face_1 = SurfaceFace{pair.face_1},
-            .face_2 = SurfaceFace{pair.face_2},
+    return {.face_1 = Face{pair.face_1},
+            .face_2 = Face{pair.face_2},
             .normal = pair.frame.normal(),
             .gap_0 = motion.at_0.gap,
             .gap_1 = motion.at_1.gap,

@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
         for (int i = 0; i < n_nodes; ++i)
             for (int d = 0; d < 2; ++d) next[i][d] = x[i][d] + stable.dt * v[i][d];
         memset(f, 0, sizeof(f));
-        if (abut_step(contact, from, to, ABUT_END, force, &result, &error) != ABUT_OK) stop("contact", &error);
+        if (abut_step(contact, stable.dt, from, to, ABUT_END, force, &result, &error) != ABUT_OK) stop("contact", &error);
         if (result.energy > deepest) deepest = result.energy, memcpy(of_deepest, f, sizeof(f));
         memcpy(x, next, sizeof(x));
         add_elastic_forces();

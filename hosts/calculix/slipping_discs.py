@@ -172,7 +172,7 @@ class Discs:
         kicked = self.v + 0.5 * self.dt * self.f / self.mass[:, None]
         x_1, v_1, self.a = self.free_step(self.x, kicked, self.a)
         self.f[:] = 0.0
-        self.contact.step(self.x, x_1, out=self.f, mode="end")
+        self.contact.step(self.dt, self.x, x_1, out=self.f, mode="end")
         self.x, self.v = x_1, v_1 + 0.5 * self.dt * self.f / self.mass[:, None]
 
     def conserved(self):

@@ -125,7 +125,7 @@ public:
         VectorType x = now.x, force = now.x;
         x.add(now.dt, now.v_after);
         force = 0.0;
-        const auto& step = contact->step(values(now.x), values(x), take);
+        const auto& step = contact->step(now.dt, values(now.x), values(x), take);
         step.add_force_to(std::span(force.begin(), force.locally_owned_size()));
         now.potential = step.energy + add_elastic_force(take == TakenForce::mean ? now.x : x, x, force);
         for (unsigned i = 0; i < force.size(); ++i) force[i] /= mass[i];

@@ -174,7 +174,7 @@ for step in range(first, last):
     u_0.x.array[:] = u_1.x.array
     u_1.x.array[:] += dt * v.ravel()  # v at half steps
     f[:] = 0.0
-    result = contact.step(positions(u_0), positions(u_1), out=f, mode="mean" if is_memm else "end")
+    result = contact.step(dt, positions(u_0), positions(u_1), out=f, mode="mean" if is_memm else "end")
     if not is_memm:
         u_0.x.array[:] = u_1.x.array  # forces at the end of the step
     add_elastic_force(f)

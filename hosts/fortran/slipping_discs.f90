@@ -44,7 +44,7 @@ program slipping_discs
   do while (time < 15)
     next = x + stable%dt*v
     f = 0
-    call check(abut_step(contact, abut_points(x), abut_points(next), abut_end, abut_points(f), result, error))
+    call check(abut_step(contact, stable%dt, abut_points(x), abut_points(next), abut_end, abut_points(f), result, error))
     x = next
     call add_elastic_forces()
     do i = 1, n_nodes

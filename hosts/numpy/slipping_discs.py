@@ -59,7 +59,7 @@ v[:n, 0], v[n:, 0] = 0.05, -0.05
 for step in range(int(15.0 / dt) + 1):
     new = x + dt * v
     f[:] = 0.0
-    contact.step(x, new, out=f, mode="end")
+    contact.step(dt, x, new, out=f, mode="end")
     x = new
     g = np.einsum("eia,eib->eab", (x - rest)[triangles], slope)
     stress = lam * np.trace(g, axis1=1, axis2=2)[:, None, None] * np.eye(2) + mu * (g + g.transpose(0, 2, 1))

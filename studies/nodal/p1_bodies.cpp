@@ -160,7 +160,7 @@ void P1Bodies<Dim>::follow(std::span<const double> q_0, std::span<const double> 
     place(q_0, t, x_0_);
     place(q_1, t + dt, x_1_);
     time_ = t + dt;
-    const contact::NodalStep<Dim>& step = contact_.step(x_0_, x_1_, take);
+    const contact::NodalStep<Dim>& step = contact_.step(dt, x_0_, x_1_, take);
     work_ += step.work;
     step.add_force_to(f);
     pair_steps_ += static_cast<std::int64_t>(step.pairs.size());

@@ -126,8 +126,8 @@ private:
     /// On each of its nodes, at the mean of two states [N].
     [[nodiscard]] Vector<Dim> pin_force(const Pin<Dim>& pin, std::span<const double> q_0, std::span<const double> q_1) const;
     void place(std::span<const double> q, double t, std::vector<Vector<Dim>>& x) const;
-    [[nodiscard]] std::vector<std::int32_t> element_nodes(contact::SurfaceFace face) const;
-    [[nodiscard]] Vector<Dim> obstacle_normal(contact::SurfaceFace face) const;
+    [[nodiscard]] std::vector<std::int32_t> element_nodes(contact::Face face) const;
+    [[nodiscard]] Vector<Dim> obstacle_normal(contact::Face face) const;
     void follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, contact::TakenForce take,
                 std::span<double> f);
 

@@ -8,7 +8,7 @@
 namespace abut::studies::nodal {
 /// None for a face of an obstacle.
 template <int Dim>
-std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face) const {
+std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::Face face) const {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
     const auto index = static_cast<std::size_t>(face);
     if (index >= mesh.boundary_faces.size()) return {};
@@ -19,7 +19,7 @@ std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace face
 /// In the middle of the last step. A wall holds what moves into it: that the faces on it are tilted, and push along it a
 /// little, must not let the filter change the momentum along it.
 template <int Dim>
-Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::SurfaceFace face) const {
+Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::Face face) const {
     const auto& surface = contact_.surface();
     const std::int32_t facet = surface.facet_offsets()[static_cast<std::size_t>(face)];
     std::array<Vector<Dim>, Dim> corners;
@@ -92,7 +92,7 @@ std::vector<double> P1Bodies<Dim>::contact_pressure() const {
     const mesh::Mesh<Dim>& mesh = scene_.mesh;
     std::vector<double> pressure(mesh.boundary_faces.size(), 0.0);
     for (const auto& pair : contact_.last().pairs)
-        for (const contact::SurfaceFace face : {pair.face_1, pair.face_2})
+        for (const contact::Face face : {pair.face_1, pair.face_2})
             if (const auto i = static_cast<std::size_t>(face); i < pressure.size())
                 pressure[i] += pair.normal_force / mesh.face_measure[mesh.boundary_faces[i]];
     return pressure;
@@ -115,8 +115,8 @@ void P1Bodies<Dim>::append_stiffness(std::span<const double>, double factor,
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
-    template std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::SurfaceFace) const;                        \
-    template Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::SurfaceFace) const;                                    \
+    template std::vector<std::int32_t> P1Bodies<Dim>::element_nodes(contact::Face) const;                               \
+    template Vector<Dim> P1Bodies<Dim>::obstacle_normal(contact::Face) const;                                           \
     template std::vector<dynamics::ContactPatch<Dim>> P1Bodies<Dim>::contact_patches() const;                           \
     template void P1Bodies<Dim>::end_force_on(std::span<const std::int32_t>, std::span<const double>,                   \
                                               std::span<Vector<Dim>>);                                                  \

@@ -68,8 +68,8 @@ static void presses_by_the_spring_in_series(void) {
     const double d = 0.05, k = 2.0;
     lowered(0.0, x_0);
     lowered(0.1 + d, x_1);
-    CHECK(abut_step(contact, packed(x_0), packed(x_0), ABUT_END, nothing, NULL, NULL) == ABUT_OK);
-    CHECK(abut_step(contact, packed(x_0), packed(x_1), ABUT_END, packed(force), &result, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x_0), packed(x_0), ABUT_END, nothing, NULL, NULL) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x_0), packed(x_1), ABUT_END, packed(force), &result, &error) == ABUT_OK);
     CHECK(result.active_pairs == 1 && fabs(result.energy - 0.5 * k * d * d * 0.8) < 1e-15);
     double up = 0.0, down = 0.0;
     for (int i = 0; i < 4; ++i) down += force[2 * i + 1], up += force[2 * (i + 4) + 1];
@@ -112,10 +112,10 @@ static void mean_force_is_exact_for_energy(void) {
     abut_step_result result = ABUT_STEP_RESULT_INIT;
     double x_0[2 * n_nodes], x_1[2 * n_nodes], force[2 * n_nodes] = {0.0}, work = 0.0;
     lowered(0.0, x_0);
-    CHECK(abut_step(contact, packed(x_0), packed(x_0), ABUT_MEAN, nothing, NULL, NULL) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x_0), packed(x_0), ABUT_MEAN, nothing, NULL, NULL) == ABUT_OK);
     lowered(0.17, x_1);
     x_1[9] += 0.02; /* one corner less: it turns, too */
-    CHECK(abut_step(contact, packed(x_0), packed(x_1), ABUT_MEAN, packed(force), &result, NULL) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x_0), packed(x_1), ABUT_MEAN, packed(force), &result, NULL) == ABUT_OK);
     for (int i = 0; i < 2 * n_nodes; ++i) work += force[i] * (x_1[i] - x_0[i]);
     CHECK(result.energy > 1e-4 && fabs(work + result.energy - result.energy_0) < 1e-16);
     abut_destroy(contact);
@@ -138,10 +138,10 @@ static void any_strides_and_bases(void) {
     const abut_array from_x = {columns_x, n_nodes, 1, n_nodes}, from_y = {columns_y, n_nodes, 1, n_nodes};
     const abut_array to = {columns, n_nodes, 1, n_nodes};
     CHECK(abut_create(2, from_x, &faces, NULL, &by_one, &error) == ABUT_OK);
-    CHECK(abut_step(by_one, from_x, from_x, ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
-    CHECK(abut_step(by_one, from_x, from_y, ABUT_MEAN, to, NULL, &error) == ABUT_OK);
-    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
+    CHECK(abut_step(by_one, 1.0, from_x, from_x, ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(by_one, 1.0, from_x, from_y, ABUT_MEAN, to, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
     for (int i = 0; i < n_nodes; ++i)
         for (int d = 0; d < 2; ++d) CHECK(columns[d * n_nodes + i] == force[2 * i + d]);
     abut_pair pair;
@@ -164,15 +164,15 @@ static void state_goes_on_with_the_same_bits(void) {
     lowered(0.0, x);
     lowered(0.15, y);
     lowered(0.16, z);
-    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
     int64_t n = 0;
     CHECK(abut_save(contact, NULL, 0, &n, &error) == ABUT_OK && n > 0);
     unsigned char* bytes = malloc((size_t)n);
     CHECK(abut_save(contact, bytes, n, &n, &error) == ABUT_OK);
     CHECK(abut_restore(again, bytes, n, &error) == ABUT_OK);
-    CHECK(abut_step(contact, packed(y), packed(z), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
-    CHECK(abut_step(again, packed(y), packed(z), ABUT_MEAN, packed(other), NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(y), packed(z), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
+    CHECK(abut_step(again, 1.0, packed(y), packed(z), ABUT_MEAN, packed(other), NULL, &error) == ABUT_OK);
     CHECK(memcmp(force, other, sizeof(force)) == 0 && force[9] > 0.0);
     bytes[n / 2] ^= 1;
     CHECK(abut_restore(again, bytes, n, &error) == ABUT_BAD_INPUT);
@@ -191,7 +191,7 @@ static void state_goes_on_with_the_same_bits(void) {
     faces.n_faces = m, faces.n_nodes = 2 * m;
     CHECK(abut_replace_surface(contact, packed(x), &faces, old, &error) == ABUT_OK);
     abut_step_result result = ABUT_STEP_RESULT_INIT;
-    CHECK(abut_step(contact, packed(z), packed(z), ABUT_MEAN, nothing, &result, &error) == ABUT_OK && result.active_pairs == 0);
+    CHECK(abut_step(contact, 1.0, packed(z), packed(z), ABUT_MEAN, nothing, &result, &error) == ABUT_OK && result.active_pairs == 0);
     old[0] = old[1];
     CHECK(abut_replace_surface(contact, packed(x), &faces, old, &error) == ABUT_BAD_INPUT);
     abut_destroy(contact);
@@ -226,9 +226,9 @@ static void callbacks_are_called(void) {
     lowered(0.0, x);
     lowered(0.15, y);
     abut_step_result result = ABUT_STEP_RESULT_INIT;
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, &result, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, &result, &error) == ABUT_OK);
     CHECK(host.wanted > 0 && result.active_pairs == 0);
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, &result, &error) == ABUT_CANCELLED);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, &result, &error) == ABUT_CANCELLED);
     CHECK(strstr(error.message, "cancelled") != NULL);
     abut_destroy(contact);
 
@@ -236,9 +236,9 @@ static void callbacks_are_called(void) {
     options.log = listens, options.user = &host;
     contact = made(&options);
     CHECK(host.told == 0);
-    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
     lowered(0.19, y); /* 0.09 of D = 0.2: above the warning of 0.3 */
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
     CHECK(host.told == 1 && strstr(host.text, "pressed") != NULL);
     abut_destroy(contact);
 
@@ -260,7 +260,7 @@ static int calls_back(int32_t face_1, int32_t face_2, void* user) {
     double x[2 * n_nodes];
     (void)face_1, (void)face_2;
     lowered(0.0, x);
-    looped->status = abut_step(looped->contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL);
+    looped->status = abut_step(looped->contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL);
     return 1;
 }
 
@@ -275,9 +275,9 @@ static void a_contact_in_use_is_left_alone(void) {
     abut_step_result result = ABUT_STEP_RESULT_INIT;
     lowered(0.0, x_0);
     lowered(0.15, x_1);
-    CHECK(abut_step(looped.contact, packed(x_0), packed(x_1), ABUT_MEAN, nothing, &result, NULL) == ABUT_OK);
+    CHECK(abut_step(looped.contact, 1.0, packed(x_0), packed(x_1), ABUT_MEAN, nothing, &result, NULL) == ABUT_OK);
     CHECK(looped.status == ABUT_MISUSE && result.active_pairs == 1);
-    CHECK(abut_step(looped.contact, packed(x_1), packed(x_1), ABUT_MEAN, nothing, &result, NULL) == ABUT_OK); /* free again */
+    CHECK(abut_step(looped.contact, 1.0, packed(x_1), packed(x_1), ABUT_MEAN, nothing, &result, NULL) == ABUT_OK); /* free again */
     abut_destroy(looped.contact);
 }
 
@@ -291,11 +291,11 @@ static void a_force_that_ends_too_early_is_refused_before_the_step(void) {
     int64_t n = 7;
     char before[4096], after[4096];
     int64_t n_before = 0, n_after = 0;
-    CHECK(abut_step(contact, packed(x_0), packed(x_0), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x_0), packed(x_0), ABUT_MEAN, packed(force), NULL, &error) == ABUT_OK);
     CHECK(abut_save(contact, before, sizeof(before), &n_before, &error) == ABUT_OK);
     for (int64_t count = -1; count < n_nodes; ++count) {
         const abut_array too_short = {force, count, 2, 1};
-        CHECK(abut_step(contact, packed(x_0), packed(x_1), ABUT_MEAN, too_short, NULL, &error) == ABUT_BAD_INPUT);
+        CHECK(abut_step(contact, 1.0, packed(x_0), packed(x_1), ABUT_MEAN, too_short, NULL, &error) == ABUT_BAD_INPUT);
     }
     CHECK(error.value == 7.0 && error.allowed == 8.0);
     CHECK(abut_save(contact, after, sizeof(after), &n_after, &error) == ABUT_OK);
@@ -330,27 +330,29 @@ static void what_is_wrong_is_refused_by_name(void) {
     options.skin = -1.0;
     CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "skin is -1"));
     CHECK(contact == NULL);
-    CHECK(abut_step(NULL, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_MISUSE);
-    CHECK(abut_step(NULL, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL) == ABUT_MISUSE); /* nobody asks why */
+    CHECK(abut_step(NULL, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_MISUSE);
+    CHECK(abut_step(NULL, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL) == ABUT_MISUSE); /* nobody asks why */
 
     contact = made(NULL);
-    CHECK(abut_step(contact, packed(x), packed(x), 7, nothing, NULL, &error) == ABUT_BAD_INPUT);
-    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 0.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT &&
+          strstr(error.message, "dt = 0 s"));
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), 7, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
     lowered(0.0, y);
     y[11] = (double)NAN;
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_DIVERGED && error.face_1 >= 4);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_DIVERGED && error.face_1 >= 4);
     lowered(0.8, y);
-    CHECK(abut_step(contact, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_TOO_DEEP);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_TOO_DEEP);
     CHECK(error.value > 2.0 && error.allowed == 2.0);
     abut_array fewer = packed(x);
     fewer.count = 5;
-    CHECK(abut_step(contact, fewer, fewer, ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_step(contact, 1.0, fewer, fewer, ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
     fewer.count = -1;
-    CHECK(abut_step(contact, fewer, fewer, ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(abut_step(contact, 1.0, fewer, fewer, ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
     abut_error of_another_version = ABUT_ERROR_INIT;
     of_another_version.struct_size = 8;
-    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &of_another_version) == ABUT_MISUSE);
-    CHECK(abut_step(contact, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK); /* and goes on */
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &of_another_version) == ABUT_MISUSE);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK); /* and goes on */
     abut_destroy(contact);
     abut_destroy(NULL);
 }
@@ -375,10 +377,10 @@ static void a_force_that_is_not_finite_is_an_error(void) {
     memcpy(turned, nodes, sizeof(nodes));
     turned[3] = -1.0;
     CHECK(abut_create(3, from, &faces, NULL, &contact, &error) == ABUT_OK);
-    CHECK(abut_step(contact, from, to, ABUT_MEAN, forces, NULL, &error) == ABUT_DIVERGED);
+    CHECK(abut_step(contact, 1.0, from, to, ABUT_MEAN, forces, NULL, &error) == ABUT_DIVERGED);
     CHECK(error.face_1 == 0 && error.face_2 == 1 && strstr(error.message, "not finite") != NULL);
     for (int i = 0; i < 18; ++i) CHECK(force[i] == 0.0);
-    CHECK(abut_step(contact, from, from, ABUT_MEAN, forces, NULL, &error) == ABUT_OK); /* and goes on */
+    CHECK(abut_step(contact, 1.0, from, from, ABUT_MEAN, forces, NULL, &error) == ABUT_OK); /* and goes on */
     abut_destroy(contact);
 }
 

@@ -141,7 +141,7 @@ contains
   integer(c_int) function step(contact, x_0, x_1)
     type(c_ptr), intent(in) :: contact
     real(c_double), target, intent(in) :: x_0(:, :), x_1(:, :)
-    step = abut_step(contact, abut_points(x_0), abut_points(x_1), abut_mean, abut_nothing(), result, error)
+    step = abut_step(contact, 1d0, abut_points(x_0), abut_points(x_1), abut_mean, abut_nothing(), result, error)
   end function
 
   ! Pressed in by d over a width of 0.8: W = k/2 d^2 0.8, and the force is k d 0.8.
@@ -158,7 +158,7 @@ contains
     contact = begun()
     x = lowered(0.1d0 + d)
     force = 0
-    call expect(abut_ok, abut_step(contact, abut_points(rest), abut_points(x), abut_end, abut_points(force), result, &
+    call expect(abut_ok, abut_step(contact, 1d0, abut_points(rest), abut_points(x), abut_end, abut_points(force), result, &
       error), 'a step that presses in')
     call check(result%active_pairs == 1 .and. abs(result%energy - 0.5d0*k*d**2*0.8d0) < 1d-15, 'W = k/2 d^2 0.8')
     down = sum(force(2, :4))
@@ -200,7 +200,7 @@ contains
     x = lowered(0.17d0)
     x(2, 5) = x(2, 5) + 0.02d0  ! one corner less: it turns, too
     force = 0
-    call expect(abut_ok, abut_step(contact, abut_points(rest), abut_points(x), abut_mean, abut_points(force), result, &
+    call expect(abut_ok, abut_step(contact, 1d0, abut_points(rest), abut_points(x), abut_mean, abut_points(force), result, &
       error), 'a step that turns')
     call check(result%energy > 1d-4 .and. abs(sum(force*(x - rest)) + result%energy - result%energy_0) < 1d-16, &
       'work of the mean force is what W loses')
@@ -259,7 +259,7 @@ contains
     type(abut_array), value :: x, force
     type(c_ptr) :: contact
     contact = begun()
-    call expect(abut_ok, abut_step(contact, abut_points(rest), x, abut_mean, force, result, error), 'a step that presses in')
+    call expect(abut_ok, abut_step(contact, 1d0, abut_points(rest), x, abut_mean, force, result, error), 'a step that presses in')
     call abut_destroy(contact)
   end subroutine
 
@@ -308,9 +308,9 @@ contains
     allocate (bytes(n))
     call expect(abut_ok, abut_save(contact, bytes, size(bytes, kind=c_int64_t), n, error), 'save')
     call expect(abut_ok, abut_restore(again, bytes, n, error), 'restore')
-    call expect(abut_ok, abut_step(contact, abut_points(y), abut_points(z), abut_mean, abut_points(force), result, error), &
+    call expect(abut_ok, abut_step(contact, 1d0, abut_points(y), abut_points(z), abut_mean, abut_points(force), result, error), &
       'a step after the state')
-    call expect(abut_ok, abut_step(again, abut_points(y), abut_points(z), abut_mean, abut_points(other), result, error), &
+    call expect(abut_ok, abut_step(again, 1d0, abut_points(y), abut_points(z), abut_mean, abut_points(other), result, error), &
       'the same step')
     call check(all(force == other) .and. force(2, 5) > 0, 'the same bits')
     bytes(n/2) = achar(ieor(iachar(bytes(n/2)), 1))
@@ -422,30 +422,31 @@ contains
     contact = made(c_null_ptr)
     call expect(abut_ok, abut_pairs(contact, pairs, c_sizeof(pairs(1)), one, n, error), 'pairs before the first step')
     call check(n == 0, 'there are none')
-    call expect(abut_bad_input, abut_step(contact, at_rest, at_rest, 7, abut_nothing(), result, error), 'take of 7')
+    call expect(abut_bad_input, abut_step(contact, 1d0, at_rest, at_rest, 7, abut_nothing(), result, error), 'take of 7')
+    call expect(abut_bad_input, abut_step(contact, 0d0, at_rest, at_rest, abut_mean, abut_nothing(), result, error), 'dt of 0')
     call expect(abut_ok, step(contact, rest, rest), 'a step at rest')
     x = rest
     x(2, 6) = ieee_value(0d0, ieee_quiet_nan)
     force = 0
-    call expect(abut_diverged, abut_step(contact, at_rest, abut_points(x), abut_mean, abut_points(force), result, error), &
+    call expect(abut_diverged, abut_step(contact, 1d0, at_rest, abut_points(x), abut_mean, abut_points(force), result, error), &
       'a position that is not finite')
     call check(error%face_1 >= 5, 'its face')
     x = lowered(0.8d0)
-    call expect(abut_too_deep, abut_step(contact, at_rest, abut_points(x), abut_mean, abut_points(force), result, error), &
+    call expect(abut_too_deep, abut_step(contact, 1d0, at_rest, abut_points(x), abut_mean, abut_points(force), result, error), &
       'faces too deep')
     call check(error%value > 2 .and. error%allowed == 2, 'how deep, and the limit')
     call check(all(force == 0), 'no forces of what was refused')
     fewer = at_rest
     fewer%count = 5
-    call expect(abut_bad_input, abut_step(contact, fewer, fewer, abut_mean, abut_nothing(), result, error), '5 nodes')
+    call expect(abut_bad_input, abut_step(contact, 1d0, fewer, fewer, abut_mean, abut_nothing(), result, error), '5 nodes')
     fewer%count = -1
-    call expect(abut_bad_input, abut_step(contact, fewer, fewer, abut_mean, abut_nothing(), result, error), '-1 nodes')
+    call expect(abut_bad_input, abut_step(contact, 1d0, fewer, fewer, abut_mean, abut_nothing(), result, error), '-1 nodes')
     result%struct_size = 0
     call expect(abut_misuse, step(contact, rest, rest), 'a result with struct_size of 0')
     result = abut_new_result()
     of_another_version = abut_new_error()
     of_another_version%struct_size = 8
-    call expect(abut_misuse, abut_step(contact, at_rest, at_rest, abut_mean, abut_nothing(), result, of_another_version), &
+    call expect(abut_misuse, abut_step(contact, 1d0, at_rest, at_rest, abut_mean, abut_nothing(), result, of_another_version), &
       'an error of another version')
     call check(of_another_version%status == abut_ok, 'it is not written to')
     call expect(abut_ok, step(contact, rest, rest), 'and goes on')

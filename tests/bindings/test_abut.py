@@ -28,9 +28,9 @@ def made(**options):
 class Contact(unittest.TestCase):
     def test_presses_by_the_spring_in_series(self):
         contact, d, k = made(), 0.05, 2.0
-        contact.step(REST, REST)
+        contact.step(1.0, REST, REST)
         force = np.zeros((8, 2))
-        step = contact.step(REST, lowered(0.1 + d), out=force, mode="end")
+        step = contact.step(1.0, REST, lowered(0.1 + d), out=force, mode="end")
         self.assertAlmostEqual(step["energy"], 0.5 * k * d**2 * 0.8, delta=1e-15)
         self.assertAlmostEqual(force[4:, 1].sum(), k * d * 0.8, delta=1e-14)
         np.testing.assert_allclose(force.sum(axis=0), 0.0, atol=1e-15)
@@ -47,47 +47,47 @@ class Contact(unittest.TestCase):
 
     def test_the_mean_force_is_exact_for_energy(self):
         contact = made()
-        contact.step(REST, REST)
+        contact.step(1.0, REST, REST)
         force, x = np.zeros((8, 2)), lowered(0.17)
         x[4, 1] += 0.02
-        step = contact.step(REST, x, out=force)
+        step = contact.step(1.0, REST, x, out=force)
         self.assertGreater(step["energy"], 1e-4)
         self.assertAlmostEqual((force * (x - REST)).sum(), step["energy_0"] - step["energy"], delta=1e-16)
 
     def test_any_strides_are_read_and_written_in_place(self):
         packed, x = np.zeros((8, 2)), lowered(0.14)
         plain = made()
-        plain.step(REST, REST)
-        plain.step(REST, x, out=packed)
+        plain.step(1.0, REST, REST)
+        plain.step(1.0, REST, x, out=packed)
         for view in (lambda a: np.asfortranarray(a), lambda a: np.repeat(a, 3, axis=0)[::3],
                      lambda a: np.hstack([a, a])[:, :2], lambda a: a[::-1].copy()[::-1]):
             contact, force = made(), view(np.zeros((8, 2)))
-            contact.step(view(REST), view(REST))
-            contact.step(view(REST), view(x), out=force)
+            contact.step(1.0, view(REST), view(REST))
+            contact.step(1.0, view(REST), view(x), out=force)
             np.testing.assert_array_equal(force, packed)
 
     def test_state_goes_on_with_the_same_bits(self):
         contact, again = made(), made()
-        contact.step(REST, REST)
-        contact.step(REST, lowered(0.15))
+        contact.step(1.0, REST, REST)
+        contact.step(1.0, REST, lowered(0.15))
         again.restore(contact.state())
         forces = []
         for one in (contact, again):
             forces.append(np.zeros((8, 2)))
-            one.step(lowered(0.15), lowered(0.16), out=forces[-1])
+            one.step(1.0, lowered(0.15), lowered(0.16), out=forces[-1])
         np.testing.assert_array_equal(*forces)
         with self.assertRaises(abut.BadInput):
             again.restore(contact.state()[:-1])
         keep = [0, 1, 2, 3, 5, 6, 7]
         contact.surface_replaced(REST, FACES[keep], BODY[keep], DEPTH[keep], [3.0, 6.0], keep)
-        self.assertEqual(contact.step(lowered(0.16), lowered(0.16))["active_pairs"], 0)
+        self.assertEqual(contact.step(1.0, lowered(0.16), lowered(0.16))["active_pairs"], 0)
         with self.assertRaises(abut.BadInput):
             contact.surface_replaced(REST, FACES[keep], BODY[keep], DEPTH[keep], [3.0, 6.0], [0, 0, 2, 3, 5, 6, 7])
 
     def test_callbacks(self):
         asked = []
         contact = made(wanted=lambda a, b: asked.append((a, b)) or False)
-        self.assertEqual(contact.step(REST, lowered(0.15))["active_pairs"], 0)
+        self.assertEqual(contact.step(1.0, REST, lowered(0.15))["active_pairs"], 0)
         self.assertIn((2, 4), asked)
 
         def fails(a, b):
@@ -95,11 +95,11 @@ class Contact(unittest.TestCase):
 
         contact = made(wanted=fails)
         with self.assertRaises(KeyError):
-            contact.step(REST, lowered(0.15))
+            contact.step(1.0, REST, lowered(0.15))
         told = []
         contact = made(log=lambda severity, text: told.append(text))
-        contact.step(REST, REST)
-        contact.step(REST, lowered(0.19))
+        contact.step(1.0, REST, REST)
+        contact.step(1.0, REST, lowered(0.19))
         self.assertEqual(len(told), 1)
         self.assertIn("pressed", told[0])
         abut.NodalContact(REST, FACES[:, ::-1], BODY, DEPTH, [3.0, 6.0], log=lambda severity, text: told.append(text))
@@ -110,23 +110,23 @@ class Contact(unittest.TestCase):
             raise KeyError("of the callback")
 
         contact = made(log=fails)
-        contact.step(REST, REST)
+        contact.step(1.0, REST, REST)
         with self.assertRaises(KeyError):
-            contact.step(REST, lowered(0.19))
+            contact.step(1.0, REST, lowered(0.19))
         self.assertEqual(contact.report["active_pairs"], 1)  # the step has happened
-        contact.step(lowered(0.19), REST)
+        contact.step(1.0, lowered(0.19), REST)
         with self.assertRaises(KeyError):
-            made(cancel=fails).step(REST, REST)
+            made(cancel=fails).step(1.0, REST, REST)
         with self.assertRaises(abut.Cancelled):
-            made(cancel=lambda: True).step(REST, REST)
-        self.assertEqual(made(wanted=lambda a, b: "yes").step(REST, lowered(0.15))["active_pairs"], 1)
+            made(cancel=lambda: True).step(1.0, REST, REST)
+        self.assertEqual(made(wanted=lambda a, b: "yes").step(1.0, REST, lowered(0.15))["active_pairs"], 1)
         with self.assertRaises(abut.LimitExceeded):
-            made(max_pairs=0).step(REST, lowered(0.15))
+            made(max_pairs=0).step(1.0, REST, lowered(0.15))
 
     def test_a_contact_in_use_is_left_alone(self):
-        contact = made(wanted=lambda a, b: contact.step(REST, REST) is None)
+        contact = made(wanted=lambda a, b: contact.step(1.0, REST, REST) is None)
         with self.assertRaisesRegex(abut.Misuse, "in use"):
-            contact.step(REST, lowered(0.15))
+            contact.step(1.0, REST, lowered(0.15))
         inside, go_on = threading.Event(), threading.Event()
 
         def waits(face_1, face_2):
@@ -137,7 +137,7 @@ class Contact(unittest.TestCase):
         stepping = threading.Thread(target=shared.step, args=(REST, lowered(0.15)))
         stepping.start()
         inside.wait(10.0)
-        for call in (lambda: shared.step(REST, REST), lambda: shared.pairs, shared.state, lambda: shared.evaluate(REST)):
+        for call in (lambda: shared.step(1.0, REST, REST), lambda: shared.pairs, shared.state, lambda: shared.evaluate(REST)):
             with self.assertRaisesRegex(abut.Misuse, "in use"):
                 call()
         go_on.set()
@@ -146,11 +146,11 @@ class Contact(unittest.TestCase):
 
     def test_nothing_is_written_where_it_would_be_lost(self):
         contact = made()
-        contact.step(REST, REST)
+        contact.step(1.0, REST, REST)
         with self.assertRaisesRegex(TypeError, "array of numpy"):
-            contact.step(REST, lowered(0.15), out=[[0.0, 0.0]] * 8)
+            contact.step(1.0, REST, lowered(0.15), out=[[0.0, 0.0]] * 8)
         with self.assertRaisesRegex(abut.BadInput, "forces of 7 nodes"):
-            contact.step(REST, lowered(0.15), out=np.zeros((7, 2)))
+            contact.step(1.0, REST, lowered(0.15), out=np.zeros((7, 2)))
         self.assertEqual(len(contact.pairs), 0)
 
     def test_integers_are_neither_rounded_nor_wrapped(self):
@@ -175,26 +175,28 @@ class Contact(unittest.TestCase):
 
     def test_what_is_wrong_is_refused_by_name(self):
         contact = made()
-        contact.step(REST, REST)
+        contact.step(1.0, REST, REST)
         with self.assertRaisesRegex(TypeError, "float64"):
-            contact.step(REST.astype(np.float32), REST)
+            contact.step(1.0, REST.astype(np.float32), REST)
         with self.assertRaisesRegex(ValueError, "shape"):
-            contact.step(REST[:, :1], REST)
+            contact.step(1.0, REST[:, :1], REST)
         with self.assertRaisesRegex(ValueError, "mode"):
-            contact.step(REST, REST, mode="middle")
+            contact.step(1.0, REST, REST, mode="middle")
+        with self.assertRaisesRegex(abut.BadInput, "dt = 0 s"):
+            contact.step(0.0, REST, REST)
         frozen = np.zeros((8, 2))
         frozen.flags.writeable = False
         with self.assertRaisesRegex(ValueError, "read-only"):
-            contact.step(REST, REST, out=frozen)
+            contact.step(1.0, REST, REST, out=frozen)
         with self.assertRaises(abut.BadInput):
-            contact.step(REST[:5], REST[:5])
+            contact.step(1.0, REST[:5], REST[:5])
         broken = lowered(0.0)
         broken[5, 1] = math.nan
         with self.assertRaises(abut.Diverged) as raised:
-            contact.step(REST, broken)
+            contact.step(1.0, REST, broken)
         self.assertGreaterEqual(raised.exception.face_1, 4)
         with self.assertRaises(abut.TooDeep) as raised:
-            contact.step(REST, lowered(0.8))
+            contact.step(1.0, REST, lowered(0.8))
         self.assertEqual(raised.exception.allowed, 2.0)
         self.assertGreater(raised.exception.value, 2.0)
         with self.assertRaisesRegex(abut.BadInput, "face 0 names node 8"):
@@ -230,7 +232,7 @@ class Contact(unittest.TestCase):
         turned, force = nodes.copy(), np.zeros((6, 3))
         turned[1, 0] = -1.0
         with self.assertRaisesRegex(abut.Diverged, "face 0 turns over") as raised:
-            contact.step(nodes, turned, out=force)
+            contact.step(1.0, nodes, turned, out=force)
         self.assertEqual((raised.exception.face_1, raised.exception.face_2), (0, 1))
         self.assertEqual(abs(force).max(), 0.0)
 
@@ -266,17 +268,17 @@ class Contact(unittest.TestCase):
             contact = abut.NodalContact(nodes, body=body, depth=depth, stiffness=[3.0, 6.0], **given)
             pressed = nodes.copy()
             pressed[8:, 2] -= 0.05
-            contact.step(nodes, nodes)
-            energies.append(contact.step(nodes, pressed)["energy"])
+            contact.step(1.0, nodes, nodes)
+            energies.append(contact.step(1.0, nodes, pressed)["energy"])
         self.assertAlmostEqual(energies[0], 0.5 * 2.0 * 0.03**2 * 0.9 * 0.95, delta=1e-15)
         self.assertEqual(*energies)
 
     def test_two_threads_and_any_order_of_destruction(self):
         def work(results):
             contact, force = made(), np.zeros((8, 2))
-            contact.step(REST, REST)
+            contact.step(1.0, REST, REST)
             for _ in range(200):
-                contact.step(REST, lowered(0.15), out=force)
+                contact.step(1.0, REST, lowered(0.15), out=force)
             results.append(force)
         results = []
         threads = [threading.Thread(target=work, args=(results,)) for _ in range(2)]

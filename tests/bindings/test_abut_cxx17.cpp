@@ -19,7 +19,7 @@ int main() {
     abut_error error = ABUT_ERROR_INIT;
     const abut_array x = {nodes, 4, 2, 1}, nothing = {nullptr, 0, 0, 0};
     if (abut_create(2, x, &faces, &options, &contact, &error) != ABUT_OK) return 1;
-    const int status = abut_step(contact, x, x, ABUT_MEAN, nothing, nullptr, &error);
+    const int status = abut_step(contact, 1.0, x, x, ABUT_MEAN, nothing, nullptr, &error);
     std::puts(error.message);
     abut_destroy(contact);
     return status == ABUT_CALLBACK && std::isnan(error.value) ? 0 : 1;

@@ -68,8 +68,8 @@ class Meshes(unittest.TestCase):
         contact = abut.NodalContact(mesh.points, **surface, stiffness=[1.0, 1.0])
         pressed = mesh.points
         pressed[np.unique(surface["faces"].reshape(-1, 2)[surface["body"] == 1])] -= [0.0, 0.03]
-        contact.step(mesh.points, mesh.points)
-        self.assertAlmostEqual(contact.step(mesh.points, pressed)["energy"], 0.5 * 0.5 * 0.02**2 * 0.8, delta=1e-15)
+        contact.step(1.0, mesh.points, mesh.points)
+        self.assertAlmostEqual(contact.step(1.0, mesh.points, pressed)["energy"], 0.5 * 0.5 * 0.02**2 * 0.8, delta=1e-15)
         self.assertAlmostEqual(overlap["area"].sum(), 0.8, delta=1e-14)
         np.testing.assert_allclose(overlap["gap"], 0.01, atol=1e-14)
 

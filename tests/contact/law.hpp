@@ -16,7 +16,7 @@ public:
     /// `list` numbers its faces by their places in `faces`.
     const contact::ContactStep<Dim>& operator()(const contact::SurfaceView<Dim>& surface, const contact::PairList<Dim>& list,
                                                 const std::vector<contact::PairMemory>& memory,
-                                                const std::vector<contact::SurfaceFace>& faces,
+                                                const std::vector<contact::Face>& faces,
                                                 const contact::FaceCoupling<Dim>& coupling,
                                                 const contact::FacePath<Dim>& path,
                                                 contact::Cuts cuts = contact::Cuts::coupled) {

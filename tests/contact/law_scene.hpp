@@ -88,7 +88,7 @@ struct Scene {
     Host<Dim> host;
     VectorXd u_0, u_1;
     std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
-    std::vector<contact::SurfaceFace> faces;
+    std::vector<contact::Face> faces;
 
     explicit Scene(int seed, bool with_obstacle = true, int faces_a_body = Dim == 2 ? 6 : 7)
         : Scene(std::mt19937(static_cast<unsigned>(seed)), with_obstacle, faces_a_body) {}
@@ -110,7 +110,7 @@ struct Scene {
 
     void list_pairs() {
         for (std::int32_t i = 0; i < surface.size(); ++i) {
-            faces.push_back(contact::SurfaceFace{i});
+            faces.push_back(contact::Face{i});
             for (std::int32_t j = i + 1; j < surface.size(); ++j)
                 if (surface.body[i] != surface.body[j] && surface.normal[i].dot(surface.normal[j]) < -0.5)
                     pairs.emplace_back(i, j);

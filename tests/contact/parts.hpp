@@ -94,7 +94,7 @@ public:
     void add(Integer value) {
         bits_.push_back(static_cast<std::uint64_t>(value));
     }
-    void add(contact::SurfaceFace face) { add(static_cast<std::int32_t>(face)); }
+    void add(contact::Face face) { add(static_cast<std::int32_t>(face)); }
     template <class Derived>
     void add(const Eigen::DenseBase<Derived>& value) {
         for (Eigen::Index i = 0; i < value.size(); ++i) add(value.derived().coeff(i));

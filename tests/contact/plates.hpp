@@ -34,14 +34,14 @@ std::vector<Vector<Dim>> moved(const contact::Surface<Dim>& surface, double dept
 template <int Dim>
 const contact::ContactStep<Dim>& drive(contact::Contact<Dim>& contact, const std::vector<Vector<Dim>>& u_0,
                                        const std::vector<Vector<Dim>>& u_1) {
-    return contact.step({.displacement_0 = u_0,
-                         .displacement_1 = u_1,
-                         .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size(), 2.0); },
-                         .gradients_of =
-                             [](auto listed, auto y_0, auto y_1) {
-                                 for (std::size_t i = 0; i < listed.size(); ++i)
-                                     y_0[i] = y_1[i] = 0.1 * static_cast<double>(i) * Vector<Dim>::Ones();
-                             }});
+    return contact.step(1.0, {.displacement_0 = u_0,
+                              .displacement_1 = u_1,
+                              .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size(), 2.0); },
+                              .gradients_of =
+                                  [](auto listed, auto y_0, auto y_1) {
+                                      for (std::size_t i = 0; i < listed.size(); ++i)
+                                          y_0[i] = y_1[i] = 0.1 * static_cast<double>(i) * Vector<Dim>::Ones();
+                                  }});
 }
 
 /// The path of the plates: down to deeper than D = 0.4, sliding, and up again.

@@ -159,18 +159,18 @@ public:
     void search(const std::vector<Vector<Dim>>& u) { search(u, u); }
     void search(const std::vector<Vector<Dim>>& u_0, const std::vector<Vector<Dim>>& u_1) {
         u_ = u_0;
-        contact.search(u_0, u_1, [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); });
+        contact.search(u_0, u_1, [](std::span<const contact::Face> faces) { return uncoupled<Dim>(faces.size()); });
     }
 
     /// One step from where the faces are to u; true if anything was active.
     bool move_to(const std::vector<Vector<Dim>>& u) {
         std::vector<Vector<Dim>> u_0, u_1;
-        for (const contact::SurfaceFace f : contact.faces()) {
+        for (const contact::Face f : contact.faces()) {
             u_0.push_back(u_[static_cast<std::size_t>(f)]);
             u_1.push_back(u[static_cast<std::size_t>(f)]);
         }
         const std::vector<Vector<Dim>> y(u_0.size(), Vector<Dim>::Ones());
-        contact.integrate({u_0, u_1, y, y});
+        contact.integrate(1.0, {u_0, u_1, y, y});
         u_ = u;
         return !contact.last().pairs.empty();
     }

@@ -45,14 +45,14 @@ TEMPLATE_TEST_CASE_SIG("integrating a step allocates nothing once the work array
     std::vector<std::vector<Vector<Dim>>> states;
     for (int i = 0; i < 8; ++i) states.push_back(random_displacement(random, surface, 0.4, 0.1));
     const auto rest = random_displacement(random, surface, 0.0, -1.0);
-    contact.search(rest, rest, [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); });
+    contact.search(rest, rest, [](std::span<const contact::Face> faces) { return uncoupled<Dim>(faces.size()); });
     const std::size_t n = contact.faces().size();
     REQUIRE(n == static_cast<std::size_t>(surface.size()));
     const std::vector<Vector<Dim>> y(n, Vector<Dim>::Ones());
     const auto run_through = [&] {
         std::int64_t active = 0;
         for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-            contact.integrate({states[i], states[i + 1], y, y});
+            contact.integrate(1.0, {states[i], states[i + 1], y, y});
             active += contact.report().active_pairs;
             contact.evaluate(states[i], y);
         }
@@ -81,7 +81,7 @@ TEST_CASE("nor do parts that share it", "[contact][path][sharing]") {
         contact.search(rest, rest, [](auto faces) { return uncoupled<3>(faces.size()); });
         const auto run_through = [&] {
             for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-                contact.integrate({states[i], states[i + 1], y, y});
+                contact.integrate(1.0, {states[i], states[i + 1], y, y});
                 contact.evaluate(states[i], y);
             }
         };

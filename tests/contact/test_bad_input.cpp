@@ -247,17 +247,17 @@ TEMPLATE_TEST_CASE_SIG("forces between faces that are not finite are refused wit
     const auto surface = touching_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
     const auto u = at_rest(surface);
-    contact.search(u, u, [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); });
+    contact.search(u, u, [](std::span<const contact::Face> faces) { return uncoupled<Dim>(faces.size()); });
     auto pressed = u, gradient = u;
     pressed[1] = -0.3 * up<Dim>();
-    CHECK_NOTHROW(contact.integrate({u, pressed, gradient, gradient}));
+    CHECK_NOTHROW(contact.integrate(1.0, {u, pressed, gradient, gradient}));
     gradient[0] = 1e300 * up<Dim>();
-    CHECK_THROWS_AS(contact.integrate({u, pressed, gradient, gradient}), Diverged);
-    CHECK_THROWS_WITH(contact.integrate({u, pressed, gradient, gradient}),
+    CHECK_THROWS_AS(contact.integrate(1.0, {u, pressed, gradient, gradient}), Diverged);
+    CHECK_THROWS_WITH(contact.integrate(1.0, {u, pressed, gradient, gradient}),
                       Contains("face 0 (body 0") && Contains("face 1 (body 1") && Contains("not finite"));
     CHECK_THROWS_AS(contact.evaluate(pressed, gradient), Diverged);
     gradient[0].setZero();
-    CHECK_NOTHROW(contact.integrate({u, pressed, gradient, gradient}));
+    CHECK_NOTHROW(contact.integrate(1.0, {u, pressed, gradient, gradient}));
 }
 
 TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next one makes it", "[contact][errors]",
@@ -265,21 +265,21 @@ TEMPLATE_TEST_CASE_SIG("a search that fails leaves no list behind, and the next 
     const auto surface = touching_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {.search = {.skin = 1.0}});
     const auto u = at_rest(surface);
-    CHECK_THROWS_WITH(contact.integrate({u, u, u, u}), Contains("no candidate list"));
-    const auto good = [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); };
+    CHECK_THROWS_WITH(contact.integrate(1.0, {u, u, u, u}), Contains("no candidate list"));
+    const auto good = [](std::span<const contact::Face> faces) { return uncoupled<Dim>(faces.size()); };
     contact.search(u, u, good);
     REQUIRE(contact.is_valid_for(0.0));
     CHECK_THROWS_WITH(contact.search(u, u, [](auto) -> contact::FaceCoupling<Dim> { throw std::runtime_error("host"); }),
                       "host");
     CHECK_FALSE(contact.is_valid_for(0.0));
-    CHECK_THROWS_AS(contact.integrate({u, u, u, u}), Misuse);
+    CHECK_THROWS_AS(contact.integrate(1.0, {u, u, u, u}), Misuse);
     CHECK_THROWS_AS(contact.evaluate(u, u), Misuse);
     contact.search(u, u, good);
     CHECK(contact.is_valid_for(0.0));
-    CHECK_NOTHROW(contact.integrate({u, u, u, u}));
+    CHECK_NOTHROW(contact.integrate(1.0, {u, u, u, u}));
     auto bad = u;
     bad[1][0] = not_a_number;
-    CHECK_THROWS_WITH(contact.integrate({u, bad, u, u}), Contains("face 1") && Contains("not finite"));
+    CHECK_THROWS_WITH(contact.integrate(1.0, {u, bad, u, u}), Contains("face 1") && Contains("not finite"));
     CHECK_THROWS_WITH(contact.evaluate(u, bad), Contains("face 1") && Contains("not finite"));
 }
 
@@ -298,16 +298,16 @@ TEMPLATE_TEST_CASE_SIG("a host's arrays of the wrong size are refused with both 
     const auto surface = touching_tiles<Dim>();
     contact::Contact<Dim> contact(surface.view(), {});
     auto u = at_rest(surface);
-    const auto none = [](std::span<const contact::SurfaceFace> faces) { return uncoupled<Dim>(faces.size()); };
+    const auto none = [](std::span<const contact::Face> faces) { return uncoupled<Dim>(faces.size()); };
     contact.search(u, u, none);
     REQUIRE(contact.faces().size() == 2);
     const std::vector<Vector<Dim>> two(2, Vector<Dim>::Zero()), one(1, Vector<Dim>::Zero());
-    CHECK_NOTHROW(contact.integrate({two, two, two, two}));
-    CHECK_THROWS_WITH(contact.integrate({two, one, two, two}), Contains("1 entries for 2 faces"));
+    CHECK_NOTHROW(contact.integrate(1.0, {two, two, two, two}));
+    CHECK_THROWS_WITH(contact.integrate(1.0, {two, one, two, two}), Contains("1 entries for 2 faces"));
     CHECK_THROWS_WITH(contact.evaluate(two, one), Contains("1 entries for 2 faces"));
     CHECK_THROWS_WITH(contact.search(one, u, none), Contains("1 displacements are given for 2 faces"));
     const auto with = [&](auto&& spoil) {
-        contact.search(u, u, [&](std::span<const contact::SurfaceFace> faces) {
+        contact.search(u, u, [&](std::span<const contact::Face> faces) {
             auto coupling = uncoupled<Dim>(faces.size());
             spoil(coupling);
             return coupling;

@@ -61,7 +61,7 @@ void come_down(const EndOnEnd<Dim>& boxes, NodalContact<Dim>& bodies, const Vect
     constexpr int steps = 40;
     const auto height = [&](int i) { return 0.01 - by * i / steps; };
     for (int i = 0; i < steps; ++i)
-        look(bodies.step(boxes.at(aside + height(i) * up<Dim>()), boxes.at(aside + height(i + 1) * up<Dim>())));
+        look(bodies.step(1.0, boxes.at(aside + height(i) * up<Dim>()), boxes.at(aside + height(i + 1) * up<Dim>())));
 }
 
 }  // namespace
@@ -107,14 +107,14 @@ TEST_CASE("a corner that slides over a flat side is handed over from facet to fa
         };
         NodalContact<Dim> bodies(scene.surface());
         constexpr double pressed = -0.08;  // 0.4 D
-        bodies.step(at(-0.5, 0.01), at(-0.5, pressed));
+        bodies.step(1.0, at(-0.5, 0.01), at(-0.5, pressed));
         const double energy = bodies.evaluate(at(-0.5, pressed)).energy;
         CHECK(energy > 0.0);
         // Where facets meet the tip is over two of them, and each has the normals of its own pairs: W is not quite even.
         double least = energy, largest = energy;
         for (int i = 0; i < 200; ++i) {
             const double s = -0.5 + 0.005 * i;
-            const auto& step = bodies.step(at(s, pressed), at(s + 0.005, pressed));
+            const auto& step = bodies.step(1.0, at(s, pressed), at(s + 0.005, pressed));
             least = std::min(least, step.energy);
             largest = std::max(largest, step.energy);
         }
@@ -138,10 +138,10 @@ TEST_CASE("a block that slides along an edge of another one, flush with it, is p
     append_box<3>(scene, {0.0, 0.0, 0.0}, {1.0, 0.5, 1.0}, {n, n, n}, 5.0, depth_of_faces);
     const auto at = [&](double s, double height) { return placed<3>(scene, 1, shifted<3>({s, aside, height})); };
     NodalContact<3> bodies(scene.surface());
-    bodies.step(at(0.01, 0.01), at(0.01, pressed));
+    bodies.step(1.0, at(0.01, 0.01), at(0.01, pressed));
     for (int i = 0; i < 110; ++i) {
         const double s = 0.01 + 0.0171 * i;  // it sticks out over the end at last
-        bodies.step(at(s, pressed), at(s + 0.0171, pressed));
+        bodies.step(1.0, at(s, pressed), at(s + 0.0171, pressed));
         const auto& step = bodies.evaluate(at(s + 0.0171, pressed));
         const double shared = std::min(1.0, 2.0 - (s + 0.0171)) * (0.5 - std::max(0.0, -aside));
         double pressing = 0.0;

@@ -75,7 +75,7 @@ TEMPLATE_TEST_CASE_SIG("in any unit of length contact lists the same pairs", "[c
     const auto candidates = [](double unit) {
         const auto scene = boxes_in<Dim>(unit);
         contact::NodalContact<Dim> contact(scene.surface());
-        contact.step(scene.rest, placed<Dim>(scene, 1, shifted<Dim>(-0.04 * unit * up<Dim>())));
+        contact.step(1.0, scene.rest, placed<Dim>(scene, 1, shifted<Dim>(-0.04 * unit * up<Dim>())));
         return std::array{contact.search_report().box_pairs, contact.report().candidates, contact.report().active_pairs};
     };
     const auto expected = candidates(1.0);

@@ -10,9 +10,9 @@
 
 using namespace abut;
 using namespace abut::test;
+using contact::Face;
 using contact::NodalContact;
 using contact::NodalStep;
-using contact::SurfaceFace;
 
 namespace {
 
@@ -49,10 +49,10 @@ TEMPLATE_TEST_CASE_SIG("the far side of a thin body is no contact, and no force 
     options.search.skin = 0.2;
     options.compression_limit = 5.0;  // pairs up to 0.2 deep are listed
     NodalContact<Dim> contact(scene.surface(), options);
-    CHECK_FALSE(contact.step(scene.rest, scene.rest).is_active());
+    CHECK_FALSE(contact.step(1.0, scene.rest, scene.rest).is_active());
     REQUIRE(contact.report().inadmissible_overlaps > 0);  // they are listed
     const auto closed = placed<Dim>(scene, 1, shifted<Dim>(-0.02 * up<Dim>()));
-    const NodalStep<Dim>& step = contact.step(scene.rest, closed);
+    const NodalStep<Dim>& step = contact.step(1.0, scene.rest, closed);
     REQUIRE(step.is_active());
     for (const auto& pair : step.pairs) CHECK(std::min(pair.gap_0, pair.gap_1) > -0.011);
     CHECK(contact.report().missed_contacts == 0);
@@ -66,15 +66,15 @@ TEMPLATE_TEST_CASE_SIG("a pair first seen deep inside is no contact; one that sh
     options.search.largest_motion = 10.0;
     for (const double depth : {0.05, 0.25}) {  // D = 0.2
         NodalContact<Dim> contact(scene.surface(), options);
-        contact.step(scene.rest, scene.rest);
+        contact.step(1.0, scene.rest, scene.rest);
         const auto inside = placed<Dim>(scene, 1, shifted<Dim>(-(0.5 + depth) * up<Dim>()));
-        const NodalStep<Dim>& step = contact.step(inside, inside);  // a host that jumped there
+        const NodalStep<Dim>& step = contact.step(1.0, inside, inside);  // a host that jumped there
         CHECK_FALSE(step.is_active());
         CHECK((contact.report().missed_contacts > 0) == (depth < 0.2));
         CHECK(contact.report().inadmissible_overlaps > 0);
         // At the very start of a run shallow pairs are contacts.
         NodalContact<Dim> from_there(scene.surface(), options);
-        CHECK(from_there.step(inside, inside).is_active() == (depth < 0.2));
+        CHECK(from_there.step(1.0, inside, inside).is_active() == (depth < 0.2));
     }
 }
 
@@ -82,13 +82,13 @@ TEMPLATE_TEST_CASE_SIG("restored from a state the next steps have the same bits"
                        3) {
     const auto scene = two_boxes<Dim>(3, 4, 0.02);
     NodalContact<Dim> whole(scene.surface()), again(scene.surface());
-    for (int i = 0; i < 20; ++i) whole.step(rocking<Dim>(scene, i), rocking<Dim>(scene, i + 1));
+    for (int i = 0; i < 20; ++i) whole.step(1.0, rocking<Dim>(scene, i), rocking<Dim>(scene, i + 1));
     REQUIRE(whole.last().is_active());
     again.restore(whole.state());
     for (int i = 20; i < 40; ++i) {
         const auto x_0 = rocking<Dim>(scene, i), x_1 = rocking<Dim>(scene, i + 1);
-        const auto& a = whole.step(x_0, x_1);
-        const auto& b = again.step(x_0, x_1);
+        const auto& a = whole.step(1.0, x_0, x_1);
+        const auto& b = again.step(1.0, x_0, x_1);
         REQUIRE(forces<Dim>(a, x_0.size()) == forces<Dim>(b, x_0.size()));
         REQUIRE(a.energy == b.energy);
     }
@@ -105,11 +105,11 @@ TEMPLATE_TEST_CASE_SIG("faces that erode take their pairs along, and the others 
                        ((int Dim), Dim), 2, 3) {
     const auto scene = two_boxes<Dim>(3, 4, 0.02);
     NodalContact<Dim> contact(scene.surface());
-    for (int i = 0; i < 20; ++i) contact.step(rocking<Dim>(scene, i), rocking<Dim>(scene, i + 1));
+    for (int i = 0; i < 20; ++i) contact.step(1.0, rocking<Dim>(scene, i), rocking<Dim>(scene, i + 1));
     const auto x = rocking<Dim>(scene, 20);
-    const NodalStep<Dim> before = contact.step(x, x);
+    const NodalStep<Dim> before = contact.step(1.0, x, x);
     REQUIRE(before.pairs.size() > 3);
-    const SurfaceFace gone = before.pairs[1].face_1;
+    const Face gone = before.pairs[1].face_1;
 
     NodalScene<Dim> eroded = scene;
     eroded.faces.nodes.clear();
@@ -125,7 +125,7 @@ TEMPLATE_TEST_CASE_SIG("faces that erode take their pairs along, and the others 
         old_face_of.push_back(face);
     }
     contact.surface_replaced(eroded.surface(), old_face_of);
-    const NodalStep<Dim>& after = contact.step(x, x);
+    const NodalStep<Dim>& after = contact.step(1.0, x, x);
     std::size_t expected = 0;
     for (const auto& pair : before.pairs)
         if (pair.face_1 != gone) ++expected;
@@ -135,7 +135,7 @@ TEMPLATE_TEST_CASE_SIG("faces that erode take their pairs along, and the others 
 
     old_face_of[0] = old_face_of[1];
     CHECK_THROWS_AS(contact.surface_replaced(eroded.surface(), old_face_of), BadInput);
-    CHECK(contact.step(x, x).pairs.size() == expected);  // as it was
+    CHECK(contact.step(1.0, x, x).pairs.size() == expected);  // as it was
 }
 
 TEST_CASE("a report tells of no contact where the list has become empty", "[contact][nodal]") {
@@ -144,10 +144,10 @@ TEST_CASE("a report tells of no contact where the list has become empty", "[cont
     options.search.largest_motion = 10.0;
     NodalContact<2> contact(scene.surface(), options);
     const auto closed = placed<2>(scene, 1, shifted<2>({0.0, -0.03})), away = placed<2>(scene, 1, shifted<2>({0.0, 5.0}));
-    contact.step(scene.rest, scene.rest);
-    contact.step(scene.rest, closed);
+    contact.step(1.0, scene.rest, scene.rest);
+    contact.step(1.0, scene.rest, closed);
     REQUIRE(contact.report().active_pairs > 0);
-    contact.step(away, away);
+    contact.step(1.0, away, away);
     CHECK(contact.report().candidates == 0);
     CHECK(contact.report().active_pairs == 0);
     CHECK_FALSE(contact.last().is_active());
@@ -157,15 +157,15 @@ TEST_CASE("pairs that are not wanted do not touch", "[contact][nodal]") {
     const auto scene = two_boxes<2>(3, 4, 0.02);
     contact::NodalOptions options;
     NodalContact<2> all(scene.surface());
-    all.step(scene.rest, scene.rest);
+    all.step(1.0, scene.rest, scene.rest);
     const auto closed = placed<2>(scene, 1, shifted<2>({0.0, -0.03}));
-    const auto found = all.step(scene.rest, closed).pairs;
+    const auto found = all.step(1.0, scene.rest, closed).pairs;
     REQUIRE(found.size() > 3);
-    const SurfaceFace left_out = found[0].face_1;
-    options.wanted = [&](SurfaceFace face_1, SurfaceFace face_2) { return face_1 != left_out && face_2 != left_out; };
+    const Face left_out = found[0].face_1;
+    options.wanted = [&](Face face_1, Face face_2) { return face_1 != left_out && face_2 != left_out; };
     NodalContact<2> some(scene.surface(), options);
-    some.step(scene.rest, scene.rest);
-    for (const auto& pair : some.step(scene.rest, closed).pairs) CHECK(pair.face_1 != left_out);
+    some.step(1.0, scene.rest, scene.rest);
+    for (const auto& pair : some.step(1.0, scene.rest, closed).pairs) CHECK(pair.face_1 != left_out);
     CHECK(some.last().is_active());
     CHECK(some.last().pairs.size() < found.size());
 }
@@ -180,8 +180,8 @@ TEMPLATE_TEST_CASE_SIG("forces have the same bits for any number of threads and 
             contact::NodalOptions options;
             options.search.broad_phase = method;
             NodalContact<Dim> contact(scene.surface(), options);
-            contact.step(scene.rest, scene.rest);
-            results.push_back(forces<Dim>(contact.step(scene.rest, rocking<Dim>(scene, 5)), scene.rest.size()));
+            contact.step(1.0, scene.rest, scene.rest);
+            results.push_back(forces<Dim>(contact.step(1.0, scene.rest, rocking<Dim>(scene, 5)), scene.rest.size()));
             CHECK(contact.last().is_active());
         }
     for (const auto& result : results) CHECK(result == results.front());
@@ -191,7 +191,7 @@ TEMPLATE_TEST_CASE_SIG("evaluate gives W and its gradient where a step ended, an
                        ((int Dim), Dim), 2, 3) {
     const auto scene = two_boxes<Dim>(3, 4, 0.02);
     NodalContact<Dim> contact(scene.surface());
-    for (int i = 0; i < 12; ++i) contact.step(rocking<Dim>(scene, i), rocking<Dim>(scene, i + 1));
+    for (int i = 0; i < 12; ++i) contact.step(1.0, rocking<Dim>(scene, i), rocking<Dim>(scene, i + 1));
     const auto x = rocking<Dim>(scene, 12);
     const double energy = contact.last().energy;
     const auto report = contact.report();
@@ -222,8 +222,8 @@ TEST_CASE("which way faces must look to be listed has no effect", "[contact][nod
         options.search.facing_cosine = cosine;
         options.search.skin = 1e-3;
         NodalContact<2> contact(scene.surface(), options);
-        contact.step(scene.rest, scene.rest);
-        energies.push_back(contact.step(scene.rest, closed).energy);
+        contact.step(1.0, scene.rest, scene.rest);
+        energies.push_back(contact.step(1.0, scene.rest, closed).energy);
     }
     CHECK(energies[0] > 0.0);
     CHECK(energies[0] == energies[1]);
@@ -282,27 +282,27 @@ TEST_CASE("input of a host that cannot be used is refused by name", "[contact][n
 TEST_CASE("a step that cannot be is refused, and the next one goes on", "[contact][nodal]") {
     const auto scene = two_boxes<3>(2, 3, 0.02);
     NodalContact<3> contact(scene.surface());
-    contact.step(scene.rest, scene.rest);
+    contact.step(1.0, scene.rest, scene.rest);
     auto broken = scene.rest;
     broken[5][1] = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_AS(contact.step(scene.rest, broken), Diverged);
+    CHECK_THROWS_AS(contact.step(1.0, scene.rest, broken), Diverged);
     broken = scene.rest;
     broken[5][1] = 1e6;
-    CHECK_THROWS_AS(contact.step(scene.rest, broken), Diverged);
+    CHECK_THROWS_AS(contact.step(1.0, scene.rest, broken), Diverged);
     broken.pop_back();
-    CHECK_THROWS_AS(contact.step(scene.rest, broken), BadInput);
+    CHECK_THROWS_AS(contact.step(1.0, scene.rest, broken), BadInput);
     const auto closed = placed<3>(scene, 1, shifted<3>({0.0, 0.0, -0.03}));
-    CHECK(contact.step(scene.rest, closed).is_active());
+    CHECK(contact.step(1.0, scene.rest, closed).is_active());
     const auto deep = placed<3>(scene, 1, shifted<3>({0.0, 0.0, -0.5}));  // D = 0.2, 2 D is allowed
     try {
-        contact.step(closed, deep);
+        contact.step(1.0, closed, deep);
         FAIL("not refused");
     } catch (const TooDeep& error) {
         CHECK(error.facts().value > 2.0);
         CHECK(error.facts().face_1 >= 0);
         CHECK(has(error.what(), "body 0"));
     }
-    CHECK(contact.step(scene.rest, closed).is_active());
+    CHECK(contact.step(1.0, scene.rest, closed).is_active());
 }
 
 TEST_CASE("the stable step adds the springs at the worst node of both bodies", "[contact][nodal]") {

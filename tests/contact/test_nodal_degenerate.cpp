@@ -91,7 +91,7 @@ TEST_CASE("matching squares at a gap of exactly 0 in any plane press no more tha
         auto x_0 = scene.rest;
         for (int i = 0; i < 4; ++i) {
             const auto x_1 = jittered(x_0, motion, random);
-            const auto& step = contact.step(x_0, x_1, i % 2 == 0 ? TakenForce::mean : TakenForce::end);
+            const auto& step = contact.step(1.0, x_0, x_1, i % 2 == 0 ? TakenForce::mean : TakenForce::end);
             Vector<3> sum = Vector<3>::Zero();
             double work = 0.0;
             for (std::size_t v = 0; v < step.nodes.size(); ++v) {
@@ -127,7 +127,7 @@ TEST_CASE("of matching squares that are pressed in, W is k/2 times the area time
         const Vector<3> normal =
             (scene.rest[static_cast<std::size_t>(n) + 1] - scene.rest[0]).cross(scene.rest[1] - scene.rest[0]).normalized();
         const auto pressed = placed<3>(scene, 1, shifted<3>(-0.01 * normal));
-        raise(worst, std::abs(contact.step(scene.rest, pressed).energy / (0.5 * 0.75 * 1e-4) - 1.0));
+        raise(worst, std::abs(contact.step(1.0, scene.rest, pressed).energy / (0.5 * 0.75 * 1e-4) - 1.0));
     }
     CHECK(worst < 1e-11);
 }
@@ -143,13 +143,13 @@ TEST_CASE("a face that turns over within a step is an error that names it, and t
     NodalContact<3> contact(scene.surface());
     auto turned = scene.rest;
     turned[1] = {-1, 1, 3};
-    const std::string text = text_of_divergence([&] { contact.step(scene.rest, turned); });
+    const std::string text = text_of_divergence([&] { contact.step(1.0, scene.rest, turned); });
     CHECK(tells(text, "face 0 (body 0"));
     CHECK(tells(text, "face 0 turns over"));
     CHECK(tells(text, "smaller time step"));
     auto closer = scene.rest;
     closer[3] = closer[3] + Vector<3>(0, 0, 0.1);
-    CHECK(contact.step(scene.rest, closer).is_active());
+    CHECK(contact.step(1.0, scene.rest, closer).is_active());
 }
 
 TEST_CASE("forces beyond the range of numbers are an error that names both faces", "[contact][nodal][degenerate]") {
@@ -160,7 +160,7 @@ TEST_CASE("forces beyond the range of numbers are an error that names both faces
     scene.faces.append_face(std::vector<std::int32_t>{1, 0}, 1e60, 0);
     scene.faces.append_face(std::vector<std::int32_t>{3, 2}, 1e60, 1);
     NodalContact<2> contact(scene.surface());
-    const std::string text = text_of_divergence([&] { contact.step(scene.rest, scene.rest, take); });
+    const std::string text = text_of_divergence([&] { contact.step(1.0, scene.rest, scene.rest, take); });
     CHECK(tells(text, "face 0 (body 0"));
     CHECK(tells(text, "face 1 (body 1"));
     CHECK(tells(text, "pressed 1e+60 m"));

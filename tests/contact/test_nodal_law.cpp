@@ -40,8 +40,8 @@ TEMPLATE_TEST_CASE_SIG("over a flat interface of two meshes every node gets k g 
     const auto scene = matching ? two_boxes<Dim>(6, 6, 0.002, 0.0) : two_boxes<Dim>(5, 7, 0.002);
     NodalContact<Dim> contact(scene.surface());
     const auto open = scene.rest, closed = placed<Dim>(scene, 1, shifted<Dim>(-(g + 0.002) * up<Dim>()));
-    contact.step(open, open);
-    const auto force = forces<Dim>(contact.step(closed, closed), scene.rest.size());
+    contact.step(1.0, open, open);
+    const auto force = forces<Dim>(contact.step(1.0, closed, closed), scene.rest.size());
 
     const auto area_up = areas_looking<Dim>(scene, 1.0), area_down = areas_looking<Dim>(scene, -1.0);
     double normal = 0.0, along = 0.0;
@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE_SIG("along any step the work on the nodes is the change of W,
         const auto x_1 = placed<Dim>(scene, 1,
                                      turned_about<Dim>(centre, 0.15 * std::sin(9.0 * s),
                                                        -0.1 * std::sin(3.14 * s) * up<Dim>() + 0.1 * s * axis<Dim>(0)));
-        const NodalStep<Dim>& step = contact.step(x_0, x_1);
+        const NodalStep<Dim>& step = contact.step(1.0, x_0, x_1);
         const auto force = forces<Dim>(step, x_0.size());
         double work = 0.0, size = 0.0;
         Vector<Dim> sum = Vector<Dim>::Zero();
@@ -115,7 +115,7 @@ TEMPLATE_TEST_CASE_SIG("a kept list gives the bits of a list made at each step, 
         const auto x_1 = placed<Dim>(scene, 1, turned_about<Dim>(centre, 0.6 * s, -0.04 * std::sin(2.0 * s) * up<Dim>()));
         for (const auto take : {contact::TakenForce::mean, contact::TakenForce::end}) {
             if (take == contact::TakenForce::end && i % 2 == 0) continue;
-            const NodalStep<Dim>&a = often.step(x_0, x_1, take), &b = seldom.step(x_0, x_1, take);
+            const NodalStep<Dim>&a = often.step(1.0, x_0, x_1, take), &b = seldom.step(1.0, x_0, x_1, take);
             REQUIRE(a.pairs.size() == b.pairs.size());
             REQUIRE(a.energy == b.energy);
             REQUIRE(forces<Dim>(a, x_0.size()) == forces<Dim>(b, x_0.size()));
@@ -134,10 +134,10 @@ TEST_CASE("quadrangles give the forces and energy of the triangles that they are
     CHECK(of_quadrangles.surface().n_faces() * 2 == of_triangles.surface().n_faces());
     CHECK(of_quadrangles.surface().facets().size() == of_triangles.surface().facets().size());
     const auto down = [](const NodalScene<3>& scene) { return placed<3>(scene, 1, shifted<3>({0.0, 0.0, -0.03})); };
-    of_triangles.step(cut.rest, cut.rest);
-    of_quadrangles.step(whole.rest, whole.rest);
-    const double energy = of_triangles.step(cut.rest, down(cut)).energy;
-    CHECK(of_quadrangles.step(whole.rest, down(whole)).energy == Approx(energy).epsilon(1e-12));
+    of_triangles.step(1.0, cut.rest, cut.rest);
+    of_quadrangles.step(1.0, whole.rest, whole.rest);
+    const double energy = of_triangles.step(1.0, cut.rest, down(cut)).energy;
+    CHECK(of_quadrangles.step(1.0, whole.rest, down(whole)).energy == Approx(energy).epsilon(1e-12));
     CHECK(energy == Approx(0.5 * 15.0 / 8.0 * 0.01 * 0.01 * (1.0 - 0.013) * (1.0 - 0.6 * 0.013)).epsilon(1e-3));
     // Pairs name the faces of the host.
     for (const auto& pair : of_quadrangles.last().pairs) CHECK(number_of(pair.face_2) < of_quadrangles.surface().n_faces());
@@ -150,12 +150,12 @@ TEMPLATE_TEST_CASE_SIG("tables by body and by pair of bodies add up to the pairs
     append_box<Dim>(scene, 1.02 * up<Dim>(), Vector<Dim>::Ones() + 1.02 * up<Dim>(), counts<Dim>(4), 5.0, 0.1);
     append_box<Dim>(scene, -1.02 * up<Dim>(), Vector<Dim>::Ones() - 1.02 * up<Dim>(), counts<Dim>(2), rigid, 0.0);
     NodalContact<Dim> contact(scene.surface());
-    contact.step(scene.rest, scene.rest);
+    contact.step(1.0, scene.rest, scene.rest);
     auto x_0 = placed<Dim>(scene, 1, shifted<Dim>(-0.03 * up<Dim>()));
     x_0 = placed<Dim>(scene, 2, shifted<Dim>(0.03 * up<Dim>()), x_0);
-    contact.step(scene.rest, x_0);
+    contact.step(1.0, scene.rest, x_0);
     const auto x_1 = placed<Dim>(scene, 2, turned_about<Dim>(Vector<Dim>::Zero(), 0.005, 0.032 * up<Dim>()), x_0);
-    const NodalStep<Dim>& step = contact.step(x_0, x_1);
+    const NodalStep<Dim>& step = contact.step(1.0, x_0, x_1);
 
     REQUIRE(step.bodies.size() == 3);
     REQUIRE(step.body_pairs.size() == 2);
@@ -194,9 +194,9 @@ TEST_CASE("arrays of a host are read where they lie, whatever their strides", "[
             spread[8 * i + 2 * d] = x_1[i][d];
         }
     const PointsView<3> start(by_component.data(), n, 1, n), end(spread.data(), n, 8, 2);
-    const auto expected = forces<3>(packed.step(scene.rest, x_1), scene.rest.size());
+    const auto expected = forces<3>(packed.step(1.0, scene.rest, x_1), scene.rest.size());
     std::vector<double> force(3 * scene.rest.size(), 0.0);
-    strided.step(start, end).add_force_to(PointsSpan<3>(force.data(), n, 1, n));
+    strided.step(1.0, start, end).add_force_to(PointsSpan<3>(force.data(), n, 1, n));
     CHECK(packed.last().is_active());
     for (std::int32_t i = 0; i < n; ++i)
         for (int d = 0; d < 3; ++d) REQUIRE(force[d * n + i] == expected[i][d]);

@@ -9,9 +9,9 @@
 
 using namespace abut;
 using namespace abut::test;
+using contact::Face;
 using contact::NodalContact;
 using contact::NodalStep;
-using contact::SurfaceFace;
 using contact::TakenForce;
 
 namespace {
@@ -49,7 +49,7 @@ const NodalStep<2>& go(NodalContact<2>& contact, const TwoFaces& faces, Vector<2
     const int n = static_cast<int>(std::ceil((to - from).norm() / 0.05));
     for (int i = 0; i < n; ++i) {
         const Vector<2> a = from + i * (to - from) / n, b = from + (i + 1) * (to - from) / n;
-        contact.step(faces.at(a.x(), a.y()), faces.at(b.x(), b.y()));
+        contact.step(1.0, faces.at(a.x(), a.y()), faces.at(b.x(), b.y()));
     }
     return contact.last();
 }
@@ -75,7 +75,7 @@ TEST_CASE(
     for (const double depth : {0.001, 0.0019, 0.0021, 0.1, 0.25, 0.3}) {
         NodalContact<2> contact(faces.scene.surface(), with_skin(0.05));
         const Points beside = faces.at(2.0, -depth);
-        contact.step(beside, beside);
+        contact.step(1.0, beside, beside);
         CHECK(go(contact, faces, {2.0, -depth}, {0.5, -depth}).is_active() == (depth < 0.002));
         CHECK(contact.report().missed_contacts == 0);
     }
@@ -85,7 +85,7 @@ TEST_CASE("a pair that leaves the list forgets that it was admitted", "[contact]
     const TwoFaces faces;
     NodalContact<2> contact(faces.scene.surface(), with_skin(0.05));
     const Points above = faces.at(0.0, 0.1);
-    contact.step(above, above);
+    contact.step(1.0, above, above);
     CHECK(go(contact, faces, {0.0, 0.1}, {0.0, -0.1}).is_active());  // admitted from above
     go(contact, faces, {0.0, -0.1}, {0.0, 0.1});
     go(contact, faces, {0.0, 0.1}, {4.0, 0.1});
@@ -100,8 +100,8 @@ TEST_CASE("what acts only inside a step is followed", "[contact][nodal]") {
     const TwoFaces faces;
     NodalContact<2> contact(faces.scene.surface(), with_skin(0.5));
     const Points start = faces.at(0.9, 0.001), end = faces.at(1.2, -0.019);
-    contact.step(start, start);
-    const NodalStep<2>& step = contact.step(start, end);
+    contact.step(1.0, start, start);
+    const NodalStep<2>& step = contact.step(1.0, start, end);
     const auto expected = geometry::pair_mean_gradient<2>({start[0], start[1], start[2], start[3]},
                                                           {end[0], end[1], end[2], end[3]}, {.stiffness = 1.5});
     REQUIRE(expected.active_share > 0.0);
@@ -115,8 +115,8 @@ TEST_CASE("to evaluate elsewhere changes nothing that the next steps depend on",
     NodalContact<2> contact(faces.scene.surface(), with_skin(0.05)), other(faces.scene.surface(), with_skin(0.05));
     const Points apart = faces.at(0.0, 0.02), closed = faces.at(0.1, -0.05), on = faces.at(0.1, -0.06);
     for (auto* one : {&contact, &other}) {
-        one->step(apart, apart);
-        one->step(apart, closed);
+        one->step(1.0, apart, apart);
+        one->step(1.0, apart, closed);
     }
     REQUIRE(contact.last().is_active());
     const double energy = contact.evaluate(closed).energy;
@@ -128,8 +128,8 @@ TEST_CASE("to evaluate elsewhere changes nothing that the next steps depend on",
     }
     CHECK_THROWS_AS(contact.evaluate(faces.at(std::nan(""), 0.0)), Diverged);
     CHECK(contact.state() == state);
-    const auto expected = forces<2>(other.step(closed, on), 4);
-    CHECK(forces<2>(contact.step(closed, on), 4) == expected);
+    const auto expected = forces<2>(other.step(1.0, closed, on), 4);
+    CHECK(forces<2>(contact.step(1.0, closed, on), 4) == expected);
     CHECK(contact.report().missed_contacts == 0);
 }
 
@@ -138,8 +138,8 @@ TEST_CASE("W is that of the pair at any depth, whether a list holds there or not
     for (const double skin : {0.02, 3.0}) {
         NodalContact<2> contact(faces.scene.surface(), with_skin(skin));
         const Points apart = faces.at(0.0, 0.01), closed = faces.at(0.0, -0.01);
-        contact.step(apart, apart);
-        contact.step(apart, closed);
+        contact.step(1.0, apart, apart);
+        contact.step(1.0, apart, closed);
         for (const double depth : {0.1, 0.5, 0.9})  // far more than the limit of 2 D
             CHECK(contact.evaluate(faces.at(0.0, -depth)).energy == Approx(0.5 * 1.5 * depth * depth));
     }
@@ -149,8 +149,8 @@ TEST_CASE("pairs have their gaps at both ends, whatever force is taken", "[conta
     const TwoFaces faces;
     for (const TakenForce take : {TakenForce::mean, TakenForce::end}) {
         NodalContact<2> contact(faces.scene.surface());
-        contact.step(faces.at(0.0, 0.01), faces.at(0.0, -0.08), take);
-        const auto& pair = contact.step(faces.at(0.0, -0.08), faces.at(0.0, -0.02), take).pairs.at(0);
+        contact.step(1.0, faces.at(0.0, 0.01), faces.at(0.0, -0.08), take);
+        const auto& pair = contact.step(1.0, faces.at(0.0, -0.08), faces.at(0.0, -0.02), take).pairs.at(0);
         CHECK(pair.gap_0 == Approx(-0.08));
         CHECK(pair.gap_1 == Approx(-0.02));
         CHECK(pair.compression == Approx(0.4));
@@ -165,7 +165,7 @@ TEST_CASE("errors name the faces of the host, not their halves", "[contact][noda
     auto broken = scene.rest;
     broken.back()[1] = std::nan("");
     try {
-        contact.step(scene.rest, broken);
+        contact.step(1.0, scene.rest, broken);
         FAIL("not refused");
     } catch (const Diverged& error) {
         const auto face = static_cast<std::size_t>(error.facts().face_1);
@@ -187,10 +187,10 @@ TEST_CASE("faces of bodies that have become one, or rigid, press on each other n
     rigid.faces.stiffness.assign(2, std::numeric_limits<double>::infinity());
     for (const NodalScene<2>& next : {one_body, rigid}) {
         NodalContact<2> contact(faces.scene.surface());
-        contact.step(apart, apart);
-        REQUIRE(contact.step(apart, closed).is_active());
+        contact.step(1.0, apart, apart);
+        REQUIRE(contact.step(1.0, apart, closed).is_active());
         contact.surface_replaced(next.surface(), old_face_of);
-        CHECK_FALSE(contact.step(closed, closed).is_active());
+        CHECK_FALSE(contact.step(1.0, closed, closed).is_active());
     }
     NodalContact<2> contact(faces.scene.surface());
     const auto refused = [&](std::vector<std::int32_t> old) {
@@ -214,32 +214,32 @@ TEST_CASE("the run begins for a new face: it is in contact where its nodes are p
     const auto at = [&](double y) { return faces.at(0.0, y); };
 
     NodalContact<2> contact(faces.scene.surface());
-    contact.step(at(0.01), at(0.01));
-    const double before = contact.step(at(0.01), at(-0.05)).energy;
+    contact.step(1.0, at(0.01), at(0.01));
+    const double before = contact.step(1.0, at(0.01), at(-0.05)).energy;
     CHECK(before == Approx(0.5 * 1.5 * 0.05 * 0.05));
     contact.surface_replaced(next.surface(), old_face_of);
     NodalContact<2> restarted(next.surface());
     restarted.restore(contact.state());  // before anybody has looked at the new faces
     CHECK(contact.evaluate(at(0.01)).energy == 0.0);
     CHECK(contact.evaluate(at(-0.05)).energy == Approx(before));
-    CHECK(contact.step(at(-0.05), at(-0.05)).energy == Approx(before));
+    CHECK(contact.step(1.0, at(-0.05), at(-0.05)).energy == Approx(before));
     CHECK(contact.report().missed_contacts == 0);
-    CHECK(restarted.step(at(-0.05), at(-0.05)).energy == contact.last().energy);
+    CHECK(restarted.step(1.0, at(-0.05), at(-0.05)).energy == contact.last().energy);
 
     // A second time, before a step: what was new stays new.
     NodalContact<2> twice(faces.scene.surface());
-    twice.step(at(0.01), at(0.01));
-    twice.step(at(0.01), at(-0.05));
+    twice.step(1.0, at(0.01), at(0.01));
+    twice.step(1.0, at(0.01), at(-0.05));
     twice.surface_replaced(next.surface(), old_face_of);
     twice.surface_replaced(next.surface(), std::vector<std::int32_t>{0, 1, 2});
-    CHECK(twice.step(at(-0.05), at(-0.05)).energy == Approx(before));
+    CHECK(twice.step(1.0, at(-0.05), at(-0.05)).energy == Approx(before));
     CHECK(twice.report().missed_contacts == 0);
 
     // A face that turns up deeper than D is a far side, as at a start.
     NodalContact<2> deep(faces.scene.surface());
-    deep.step(at(1.0), at(1.0));
+    deep.step(1.0, at(1.0), at(1.0));
     deep.surface_replaced(next.surface(), old_face_of);
-    CHECK_FALSE(deep.step(at(-0.25), at(-0.25)).is_active());
+    CHECK_FALSE(deep.step(1.0, at(-0.25), at(-0.25)).is_active());
 }
 
 TEST_CASE("forces on obstacles that a host has appended to its nodes are left out of its own", "[contact][nodal]") {
@@ -253,8 +253,8 @@ TEST_CASE("forces on obstacles that a host has appended to its nodes are left ou
     // The upper face, two units aside of the lower one, goes down onto the plane.
     for (auto* x : {&scene.rest, &pressed}) (*x)[2] = {2.0, -0.1}, (*x)[3] = {3.0, -0.1};
     pressed[2].y() = pressed[3].y() = -0.21;
-    contact.step(scene.rest, scene.rest);
-    const NodalStep<2>& step = contact.step(scene.rest, pressed);
+    contact.step(1.0, scene.rest, scene.rest);
+    const NodalStep<2>& step = contact.step(1.0, scene.rest, pressed);
     REQUIRE(step.is_active());
     REQUIRE(step.nodes.back() >= 4);
     std::vector<double> own(8, 0.0), guard(9, 7.0);

@@ -9,16 +9,16 @@
 using namespace abut;
 using namespace abut::test;
 using Catch::Matchers::Contains;
-using contact::FacePair;
+using contact::Facet;
+using contact::FacetPair;
 using contact::PairMemory;
 using contact::PairStore;
-using contact::SurfaceFace;
 
 namespace {
 
-FacePair faces(std::int32_t face_1, std::int32_t face_2) { return {SurfaceFace{face_1}, SurfaceFace{face_2}}; }
+FacetPair facets(std::int32_t facet_1, std::int32_t facet_2) { return {Facet{facet_1}, Facet{facet_2}}; }
 
-PairStore store_of(const std::vector<FacePair>& pairs, bool admitted) {
+PairStore store_of(const std::vector<FacetPair>& pairs, bool admitted) {
     PairStore store;
     store.follow(pairs, [&](std::size_t) { return PairMemory{admitted}; });
     return store;
@@ -27,17 +27,17 @@ PairStore store_of(const std::vector<FacePair>& pairs, bool admitted) {
 }  // namespace
 
 TEST_CASE("a store keeps what pairs remember from list to list, and forgets pairs that leave", "[contact][store]") {
-    PairStore store = store_of({faces(0, 3), faces(0, 4), faces(1, 3)}, true);
+    PairStore store = store_of({facets(0, 3), facets(0, 4), facets(1, 3)}, true);
     store.memory()[1].admitted = false;
-    store.follow(std::vector{faces(0, 2), faces(0, 4), faces(1, 3)}, [](std::size_t i) {
+    store.follow(std::vector{facets(0, 2), facets(0, 4), facets(1, 3)}, [](std::size_t i) {
         CHECK(i == 0);  // only what is new is asked for
         return PairMemory{false};
     });
     CHECK(store.size() == 3);
-    CHECK(store.find(faces(0, 3)) == nullptr);
-    CHECK_FALSE(store.find(faces(0, 2))->admitted);
-    CHECK_FALSE(store.find(faces(0, 4))->admitted);
-    CHECK(store.find(faces(1, 3))->admitted);
+    CHECK(store.find(facets(0, 3)) == nullptr);
+    CHECK_FALSE(store.find(facets(0, 2))->admitted);
+    CHECK_FALSE(store.find(facets(0, 4))->admitted);
+    CHECK(store.find(facets(1, 3))->admitted);
 }
 
 TEMPLATE_TEST_CASE_SIG("after save and restore the next steps have the same bits, also with pairs deeper than D",
@@ -103,7 +103,7 @@ TEMPLATE_TEST_CASE_SIG("a state that is damaged, of another version, dimension o
     refuses({}, "no state is so short");
     {
         StateWriter other("contact " + std::to_string(Dim) + "D", 99);
-        refuses(std::move(other).finish(), "version 99, 4 is needed");
+        refuses(std::move(other).finish(), "version 99, 5 is needed");
     }
     {
         const auto other_surface = plates<5 - Dim>();

@@ -247,7 +247,7 @@ TEMPLATE_TEST_CASE_SIG("gaps, area, share and compression of a pair are those of
     surface.append(tile<Dim>(Vector<Dim>::Zero(), -up<Dim>(), 0.5), 0.25, 1.0, 1);
     contact::PairList<Dim> list;
     list.append(surface.view(), 0, 1, InterfaceWeighting::half);
-    const std::vector<contact::SurfaceFace> faces{contact::SurfaceFace{0}, contact::SurfaceFace{1}};
+    const std::vector<contact::Face> faces{contact::Face{0}, contact::Face{1}};
     list.number_faces(faces);
     const std::vector<Vector<Dim>> u_0{Vector<Dim>::Zero(), 0.1 * up<Dim>() + 0.2 * axis<Dim>(0)};
     const std::vector<Vector<Dim>> u_1{Vector<Dim>::Zero(), -0.3 * up<Dim>() + 0.6 * axis<Dim>(0)};

@@ -42,22 +42,23 @@ PartResult run_through(const contact::Surface<Dim>& surface, const contact::Cont
     contact::Contact<Dim> contact(surface.view(), options, sharing);
     PartResult result;
     for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-        const auto& step = contact.step({.displacement_0 = states[i],
-                                         .displacement_1 = states[i + 1],
-                                         .coupling_of = [](auto listed) { return coupled_in_a_row<Dim>(listed.size()); },
-                                         .gradients_of =
-                                             [](auto listed, auto y_0, auto y_1) {
-                                                 for (std::size_t f = 0; f < listed.size(); ++f) {
-                                                     y_0[f] = std::sin(1.0 + f) * Vector<Dim>::Ones();
-                                                     y_1[f] = std::cos(2.0 * f) * Vector<Dim>::Ones();
-                                                 }
-                                             },
-                                         .take = i % 3 == 2 ? TakenForce::end : TakenForce::mean});
+        const auto& step =
+            contact.step(1.0, {.displacement_0 = states[i],
+                               .displacement_1 = states[i + 1],
+                               .coupling_of = [](auto listed) { return coupled_in_a_row<Dim>(listed.size()); },
+                               .gradients_of =
+                                   [](auto listed, auto y_0, auto y_1) {
+                                       for (std::size_t f = 0; f < listed.size(); ++f) {
+                                           y_0[f] = std::sin(1.0 + f) * Vector<Dim>::Ones();
+                                           y_1[f] = std::cos(2.0 * f) * Vector<Dim>::Ones();
+                                       }
+                                   },
+                               .take = i % 3 == 2 ? TakenForce::end : TakenForce::mean});
         result.bits.add(step);
         result.bits.add(contact.search_report());
         result.active_pairs = std::max(result.active_pairs, std::ssize(step.pairs));
         std::vector<Vector<Dim>> u, y;
-        for (const contact::SurfaceFace face : contact.faces()) {
+        for (const contact::Face face : contact.faces()) {
             u.push_back(states[i + 1][static_cast<std::size_t>(face)]);
             y.push_back(0.1 * Vector<Dim>::Ones());
         }
@@ -86,7 +87,7 @@ PartResult run_nodal(const NodalScene<Dim>& scene, const contact::NodalOptions& 
     };
     PartResult result;
     for (int i = 0; i < 12; ++i) {
-        const auto& step = contact.step(at(i), at(i + 1), i % 4 == 3 ? TakenForce::end : TakenForce::mean);
+        const auto& step = contact.step(1.0, at(i), at(i + 1), i % 4 == 3 ? TakenForce::end : TakenForce::mean);
         result.bits.add(step);
         result.bits.add(contact.search_report());
         result.active_pairs = std::max(result.active_pairs, std::ssize(step.pairs));

@@ -114,7 +114,7 @@ TEMPLATE_TEST_CASE_SIG("pairs whose normal is more than 20 degrees away from tho
         surface.steps_to_sharp_edge = {steps_0, steps_1};
         contact::PairList<Dim> list;
         list.append(surface.view(), 0, 1, contact::InterfaceWeighting::half);
-        const std::vector<contact::SurfaceFace> faces{contact::SurfaceFace{0}, contact::SurfaceFace{1}};
+        const std::vector<contact::Face> faces{contact::Face{0}, contact::Face{1}};
         list.number_faces(faces);
         const std::vector<Vector<Dim>> zero(2, Vector<Dim>::Zero());
         LawOnList<Dim> law({});

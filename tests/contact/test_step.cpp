@@ -10,7 +10,7 @@
 using namespace abut;
 using namespace abut::test;
 using Catch::Matchers::Contains;
-using contact::SurfaceFace;
+using contact::Face;
 
 namespace {
 
@@ -48,14 +48,14 @@ TEMPLATE_TEST_CASE_SIG("one call per step does what search and integrate do", "[
     Mover<Dim> expert(surface, deep(0.5));
     std::int64_t active = 0;
     for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-        const auto& step = one_call.step({.displacement_0 = states[i],
-                                          .displacement_1 = states[i + 1],
-                                          .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
-                                          .gradients_of =
-                                              [](auto, auto y_0, auto y_1) {
-                                                  std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
-                                                  std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
-                                              }});
+        const auto& step = one_call.step(1.0, {.displacement_0 = states[i],
+                                               .displacement_1 = states[i + 1],
+                                               .coupling_of = [](auto listed) { return uncoupled<Dim>(listed.size()); },
+                                               .gradients_of =
+                                                   [](auto, auto y_0, auto y_1) {
+                                                       std::ranges::fill(y_0, Vector<Dim>(Vector<Dim>::Ones()));
+                                                       std::ranges::fill(y_1, Vector<Dim>(Vector<Dim>::Ones()));
+                                                   }});
         expert.search(states[i], states[i + 1]);
         expert.move_to(states[i + 1]);
         const auto& expected = expert.contact.last();
@@ -73,7 +73,7 @@ TEMPLATE_TEST_CASE_SIG("a host that gives nothing to ask, or a motion that is no
     const auto surface = plates<Dim>();
     contact::Contact<Dim> contact(surface.view(), deep());
     const auto u = at_rest(surface);
-    CHECK_THROWS_WITH(contact.step({.displacement_0 = u, .displacement_1 = u}), Contains("coupling_of"));
+    CHECK_THROWS_WITH(contact.step(1.0, {.displacement_0 = u, .displacement_1 = u}), Contains("coupling_of"));
     auto lost = u;
     lost[2][0] = std::numeric_limits<double>::quiet_NaN();
     CHECK_NOTHROW(drive(contact, u, u));
@@ -106,24 +106,24 @@ TEMPLATE_TEST_CASE_SIG("an error of depth says which faces, how deep and what is
     }
 }
 
-TEMPLATE_TEST_CASE_SIG("the force at the end of a step is that of search and follow", "[contact][step]", ((int Dim), Dim), 2,
-                       3) {
+TEMPLATE_TEST_CASE_SIG("the force at the end of a step is that of search and integrate", "[contact][step]", ((int Dim), Dim),
+                       2, 3) {
     const auto surface = plates<Dim>();
     const auto states = path_of_plates(surface);
     contact::Contact<Dim> one_call(surface.view(), deep(0.5)), expert(surface.view(), deep(0.5)),
         mean(surface.view(), deep(0.5));
     std::int64_t active = 0, differs = 0;
     for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-        const auto& step = one_call.step(constant_host<Dim>(states[i], states[i + 1], contact::TakenForce::end));
-        const auto& of_mean = mean.step(constant_host<Dim>(states[i], states[i + 1]));
+        const auto& step = one_call.step(1.0, constant_host<Dim>(states[i], states[i + 1], contact::TakenForce::end));
+        const auto& of_mean = mean.step(1.0, constant_host<Dim>(states[i], states[i + 1]));
         expert.search(states[i], states[i + 1], [](auto listed) { return uncoupled<Dim>(listed.size(), 0.0); });
         std::vector<Vector<Dim>> u_0, u_1;
-        for (const SurfaceFace f : expert.faces()) {
+        for (const Face f : expert.faces()) {
             u_0.push_back(states[i][static_cast<std::size_t>(f)]);
             u_1.push_back(states[i + 1][static_cast<std::size_t>(f)]);
         }
         const std::vector<Vector<Dim>> y(u_0.size(), Vector<Dim>::Ones());
-        const auto& expected = expert.follow(u_0, u_1, y);
+        const auto& expected = expert.integrate(1.0, {u_0, u_1, {}, y}, contact::TakenForce::end);
         REQUIRE(step.pairs.size() == expected.pairs.size());
         for (std::size_t p = 0; p < step.pairs.size(); ++p) {
             check_same_pair(step.pairs[p], expected.pairs[p]);

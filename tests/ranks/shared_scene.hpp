@@ -156,8 +156,8 @@ struct BothContacts {
     /// Both take the step; whether they end the same on all ranks.
     [[nodiscard]] bool step(const std::vector<Vector<Dim>>& x_0, const std::vector<Vector<Dim>>& x_1,
                             contact::TakenForce take = contact::TakenForce::mean) {
-        alone.step(x_0, x_1, take);
-        shared.step(part.own(x_0), part.own(x_1), take);
+        alone.step(1.0, x_0, x_1, take);
+        shared.step(1.0, part.own(x_0), part.own(x_1), take);
         return everywhere(all, same());
     }
     [[nodiscard]] bool evaluate(const std::vector<Vector<Dim>>& x) {

@@ -10,7 +10,7 @@
 
 using namespace abut;
 using namespace abut::test;
-using contact::SurfaceFace;
+using contact::Face;
 using contact::TakenForce;
 using ranks::Communicator;
 using ranks::SharedNodalContact;
@@ -88,7 +88,7 @@ TEMPLATE_TEST_CASE_SIG("forces on first copies add up to nothing over all ranks,
     double largest_force = 0.0;
     for (int i = 1; i <= 30; ++i) {
         const auto x_0 = part.own(at_time(scene, (i - 1) / 30.0)), x_1 = part.own(at_time(scene, i / 30.0));
-        const auto force = forces<Dim>(contact.step(x_0, x_1), part.rest.size());
+        const auto force = forces<Dim>(contact.step(1.0, x_0, x_1), part.rest.size());
         Vector<6> sum = Vector<6>::Zero();
         for (std::size_t k = 0; k < force.size(); ++k) {
             sum.template head<Dim>() += force[k];
@@ -162,7 +162,7 @@ TEST_CASE("what is saved on many ranks goes on on one, two and all with the same
             again.alone.restore(state);
             again.shared.restore(state);
             for (int i = 15; i < 30; ++i)
-                same = again.step(x(i), x(i + 1)) &&
+                same = again.step(1.0, x(i), x(i + 1)) &&
                        same_bits<3>(again.part.own(later[static_cast<std::size_t>(i - 15)]),
                                     forces<3>(again.shared.last(), again.part.rest.size())) &&
                        same;
@@ -185,7 +185,7 @@ TEST_CASE("an error of one rank in a step ends it on all, and all go on together
     const bool is_guilty = all.rank() == guilty;
     bool throws = false;
     contact::NodalOptions options;
-    options.wanted = [&](SurfaceFace, SurfaceFace) {
+    options.wanted = [&](Face, Face) {
         if (throws && is_guilty) throw std::length_error("a host's own");
         return true;
     };
@@ -194,7 +194,7 @@ TEST_CASE("an error of one rank in a step ends it on all, and all go on together
     REQUIRE(both.step(x(0), x(1)));
     const std::vector<std::byte> state = both.alone.state();
     const auto type_of = [&](const Points<2>& x_0, const Points<2>& x_1) {
-        const Caught error = caught([&] { both.shared.step(x_0, x_1); });
+        const Caught error = caught([&] { both.shared.step(1.0, x_0, x_1); });
         CHECK(everywhere(all, both.shared.state() == state));
         return error.type;
     };
@@ -202,6 +202,14 @@ TEST_CASE("an error of one rank in a step ends it on all, and all go on together
     Points<2> far = x_2;
     for (auto& p : far) p[0] += 1.0;
     SECTION("an array of another size") { CHECK(type_of(x_1, is_guilty ? Points<2>() : x_2) == "bad input"); }
+    SECTION("a step of another length, or of none") {
+        for (const double dt : {2.0, 0.0, std::nan("")}) {
+            const Caught error = caught([&] { both.shared.step(is_guilty ? dt : 1.0, x_1, x_2); });
+            CHECK(error.type == (all.size() == 1 && dt == 2.0 ? "" : "bad input"));
+            if (error.type == "bad input") CHECK(everywhere(all, both.shared.state() == state));
+            if (error.type.empty()) both.shared.restore(state);
+        }
+    }
     SECTION("a callback that throws") {
         throws = true;
         CHECK(type_of(x_1, far) == "other");

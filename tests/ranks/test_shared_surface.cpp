@@ -5,7 +5,7 @@
 
 using namespace abut;
 using namespace abut::test;
-using contact::SurfaceFace;
+using contact::Face;
 using ranks::Communicator;
 using ranks::SharedNodalContact;
 
@@ -24,7 +24,7 @@ TEST_CASE("errors of contact name faces by their numbers, on all ranks", "[ranks
     for (auto& number : part.face) number = 1000 + 7 * number;
     std::vector<std::int32_t> asked;
     contact::NodalOptions options;
-    options.wanted = [&](SurfaceFace face_1, SurfaceFace face_2) {
+    options.wanted = [&](Face face_1, Face face_2) {
         asked.push_back(static_cast<std::int32_t>(face_1));
         asked.push_back(static_cast<std::int32_t>(face_2));
         return true;
@@ -34,8 +34,8 @@ TEST_CASE("errors of contact name faces by their numbers, on all ranks", "[ranks
     const Points<2> closed = placed<2>(scene, 1, shifted<2>({0.0, -0.1})),
                     deep = placed<2>(scene, 1, shifted<2>({0.0, -0.5}));
     for (const auto& [x_0, x_1] : {std::pair(scene.rest, closed), std::pair(closed, closed)}) {
-        alone.step(x_0, x_1);
-        shared.step(part.own(x_0), part.own(x_1));
+        alone.step(1.0, x_0, x_1);
+        shared.step(1.0, part.own(x_0), part.own(x_1));
     }
     REQUIRE(alone.last().pairs.size() == shared.last().pairs.size());
     REQUIRE(alone.last().is_active());
@@ -48,8 +48,8 @@ TEST_CASE("errors of contact name faces by their numbers, on all ranks", "[ranks
     CHECK(!asked.empty());
     for (const std::int32_t number : asked) CHECK((number >= 1000 && number % 7 == 1000 % 7));
 
-    const Caught of_alone = caught([&] { alone.step(closed, deep); });
-    const Caught of_shared = caught([&] { shared.step(part.own(closed), part.own(deep)); });
+    const Caught of_alone = caught([&] { alone.step(1.0, closed, deep); });
+    const Caught of_shared = caught([&] { shared.step(1.0, part.own(closed), part.own(deep)); });
     REQUIRE(of_alone.type == "too deep");
     CHECK(of_shared.type == "too deep");
     CHECK(of_shared.facts.face_1 == 1000 + 7 * of_alone.facts.face_1);
@@ -70,8 +70,8 @@ TEST_CASE("faces without numbers are numbered rank after rank", "[ranks][nodal]"
     without.face_number = {};
     SharedNodalContact<2> numbered(all, part.view()), shared(all, without);
     const auto x_0 = part.own(scene.rest), x_1 = part.own(placed<2>(scene, 1, shifted<2>({0.01, -0.1})));
-    numbered.step(x_0, x_1);
-    shared.step(x_0, x_1);
+    numbered.step(1.0, x_0, x_1);
+    shared.step(1.0, x_0, x_1);
     REQUIRE(numbered.last().is_active());
     CHECK(same_pairs<2>(numbered.last().pairs, shared.last().pairs));
     CHECK(numbered.state() == shared.state());
@@ -147,10 +147,10 @@ TEST_CASE("what does not fit together is refused on all ranks, by rank, node and
         CHECK(refused("face 1 has the depth -1"));
     }
     SECTION("pairs that are wanted here alone") {
-        options.wanted = [&](SurfaceFace, SurfaceFace) { return !is_guilty; };
+        options.wanted = [&](Face, Face) { return !is_guilty; };
         SharedNodalContact<2> contact(all, view, options);
         const auto x = part.own(scene.rest);
-        const Caught error = caught([&] { contact.step(x, x); });
+        const Caught error = caught([&] { contact.step(1.0, x, x); });
         CHECK(error.type == (is_alone ? "none" : "bad input"));
         if (!is_alone) CHECK(has(error.text, "`wanted` must give the same answers on all ranks"));
     }

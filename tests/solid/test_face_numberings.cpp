@@ -26,15 +26,15 @@ constexpr bool can_index = requires(IdVector<Id, double> values, Index i) {
 }  // namespace
 
 TEST_CASE("no number of a face can be taken for one of another numbering", "[solid]") {
-    using contact::ListedFace, contact::SurfaceFace, solid::BoundaryFace;
+    using contact::ListedFace, contact::Face, solid::BoundaryFace;
     STATIC_REQUIRE_FALSE(mix<MeshFace, BoundaryFace>);
-    STATIC_REQUIRE_FALSE(mix<MeshFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(mix<MeshFace, Face>);
     STATIC_REQUIRE_FALSE(mix<MeshFace, ListedFace>);
-    STATIC_REQUIRE_FALSE(mix<BoundaryFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(mix<BoundaryFace, Face>);
     STATIC_REQUIRE_FALSE(mix<BoundaryFace, ListedFace>);
-    STATIC_REQUIRE_FALSE(mix<SurfaceFace, ListedFace>);
+    STATIC_REQUIRE_FALSE(mix<Face, ListedFace>);
     STATIC_REQUIRE(can_index<BoundaryFace, BoundaryFace>);
-    STATIC_REQUIRE_FALSE(can_index<BoundaryFace, SurfaceFace>);
-    STATIC_REQUIRE_FALSE(can_index<ListedFace, SurfaceFace>);
+    STATIC_REQUIRE_FALSE(can_index<BoundaryFace, Face>);
+    STATIC_REQUIRE_FALSE(can_index<ListedFace, Face>);
     STATIC_REQUIRE_FALSE(can_index<ListedFace, MeshFace>);
 }

@@ -149,7 +149,7 @@ TEMPLATE_TEST_CASE_SIG(
         const contact::PairStore& store = scene.solid.contact()->pair_store();
         for (std::size_t i = 0; i < store.pairs().size(); ++i)
             if (store.memory()[i].admitted)
-                touching.erase({number_of(store.pairs()[i].face_1), number_of(store.pairs()[i].face_2)});
+                touching.erase({number_of(store.pairs()[i].facet_1), number_of(store.pairs()[i].facet_2)});
         REQUIRE(touching.empty());
     }
     CHECK(found > 50);

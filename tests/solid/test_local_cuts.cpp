@@ -56,9 +56,9 @@ TEMPLATE_TEST_CASE_SIG(
         scene.memm.step();
         if (contact.last().pairs.empty()) continue;
         // Nothing is prescribed: face i of the surface is boundary face i.
-        const std::vector<contact::SurfaceFace> faces(contact.faces().begin(), contact.faces().end());
+        const std::vector<contact::Face> faces(contact.faces().begin(), contact.faces().end());
         std::vector<solid::BoundaryFace> boundary;
-        for (const contact::SurfaceFace face : faces) boundary.push_back(solid::BoundaryFace{number_of(face)});
+        for (const contact::Face face : faces) boundary.push_back(solid::BoundaryFace{number_of(face)});
         const auto region = ccg.region_of_faces(boundary);
         std::vector<Vector<Dim>> u_0(faces.size()), u_1(u_0), y_0(u_0), y_1(u_0);
         ccg.evaluate_faces(region, vectors<Dim>(q_0), {}, u_0, y_0);

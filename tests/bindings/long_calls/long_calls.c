@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
         if (round % 1000 == 0) {
             abut_destroy(contact);
             contact = made(at[2]);
-            if (abut_step(contact, at[2], at[0], ABUT_MEAN, f, NULL, NULL) != ABUT_OK) return puts("no first step"), 1;
+            if (abut_step(contact, 1.0, at[2], at[0], ABUT_MEAN, f, NULL, NULL) != ABUT_OK) return puts("no first step"), 1;
         }
         abut_error error = ABUT_ERROR_INIT;
         abut_step_result result = ABUT_STEP_RESULT_INIT;
@@ -75,8 +75,8 @@ int main(int argc, char** argv) {
         unsigned char state[state_capacity];
         const abut_array from = at[round % 4], to = at[(round + 1) % 4];
         const int is_tenth = round % 10 == 9;
-        if (is_tenth) refused += abut_step(contact, from, not_finite, ABUT_MEAN, f, &result, &error) == ABUT_DIVERGED;
-        if (abut_step(contact, from, to, ABUT_MEAN, f, &result, &error) != ABUT_OK ||
+        if (is_tenth) refused += abut_step(contact, 1.0, from, not_finite, ABUT_MEAN, f, &result, &error) == ABUT_DIVERGED;
+        if (abut_step(contact, 1.0, from, to, ABUT_MEAN, f, &result, &error) != ABUT_OK ||
             abut_pairs(contact, pairs, sizeof(abut_pair), 4, &n, &error) != ABUT_OK ||
             abut_get_report(contact, &report, &error) != ABUT_OK || report.missed_contacts != 0) {
             printf("round %ld: %s, %" PRId64 " missed\n", round, error.message, report.missed_contacts);

@@ -22,7 +22,7 @@ def placed(by):
 def made():
     contact = abut.NodalContact(at[2], np.vstack([CORNERS, CORNERS + 4]), np.repeat([0, 1], 4), np.full(8, 0.1), [3.0, 6.0],
                                 wanted=lambda face_1, face_2: True, log=lambda severity, text: None)
-    contact.step(at[2], at[0])
+    contact.step(1.0, at[2], at[0])
     return contact
 
 
@@ -40,10 +40,10 @@ for i in range(rounds):
         contact = made()
     if i % 10 == 9:
         try:
-            contact.step(at[i % 4], broken, out=force)
+            contact.step(1.0, at[i % 4], broken, out=force)
         except abut.Diverged:
             refused += 1
-    contact.step(at[i % 4], at[(i + 1) % 4], out=force)
+    contact.step(1.0, at[i % 4], at[(i + 1) % 4], out=force)
     pairs += len(contact.pairs)
     state, missed = contact.state(), contact.report["missed_contacts"]
     if missed:

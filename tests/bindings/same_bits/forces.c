@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
         const abut_array x_1 = {read_array(in, sizeof(double), n), n_nodes, 3, 1};
         abut_step_result result = ABUT_STEP_RESULT_INIT;
         memset(force.data, 0, sizeof(double) * n);
-        check(abut_step(contact, x_0, x_1, step % 2 == 0 ? ABUT_MEAN : ABUT_END, force, &result, &error), &error);
+        check(abut_step(contact, 1.0, x_0, x_1, step % 2 == 0 ? ABUT_MEAN : ABUT_END, force, &result, &error), &error);
         int64_t n_pairs = 0;
         check(abut_pairs(contact, NULL, sizeof(abut_pair), 0, &n_pairs, &error), &error);
         abut_pair* pairs = malloc(sizeof(abut_pair) * (size_t)n_pairs + 1);

@@ -42,7 +42,7 @@ int run(const char* scene, const char* result) {
     for (std::int32_t i = 0; i < head[2]; ++i) {
         auto x_1 = read_array<double>(in, 3 * n_nodes);
         const auto& step =
-            contact.step(points(x_0), points(x_1), i % 2 == 0 ? contact::TakenForce::mean : contact::TakenForce::end);
+            contact.step(1.0, points(x_0), points(x_1), i % 2 == 0 ? contact::TakenForce::mean : contact::TakenForce::end);
         std::vector<double> figures(3 * n_nodes, 0.0);
         step.add_force_to(std::span(figures));
         figures.insert(figures.end(), {step.energy_0, step.energy, static_cast<double>(step.pairs.size())});

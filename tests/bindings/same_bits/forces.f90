@@ -38,7 +38,7 @@ program forces
   do step = 0, head(3) - 1
     read (in) x_1
     f = 0
-    call check(abut_step(contact, abut_points(x_0), abut_points(x_1), merge(abut_mean, abut_end, modulo(step, 2) == 0), &
+    call check(abut_step(contact, 1d0, abut_points(x_0), abut_points(x_1), merge(abut_mean, abut_end, modulo(step, 2) == 0), &
       abut_points(f), result, error))
     call check(abut_pairs(contact, none, storage_size(none)/8_c_size_t, 0_c_int64_t, n, error))
     if (allocated(pairs)) deallocate (pairs)

@@ -15,7 +15,7 @@ with open(sys.argv[1], "rb") as scene, open(sys.argv[2], "wb") as out:
     contact = abut.NodalContact(x[0], corners.reshape(n_faces, 4), body, depth, stiffness)
     for i in range(n_steps):
         force = np.zeros((n_nodes, 3))
-        step = contact.step(x[i], x[i + 1], out=force, mode="end" if i % 2 else "mean")
+        step = contact.step(1.0, x[i], x[i + 1], out=force, mode="end" if i % 2 else "mean")
         pairs = contact.pairs
         force.tofile(out)
         np.array([step["energy_0"], step["energy"], len(pairs)]).tofile(out)

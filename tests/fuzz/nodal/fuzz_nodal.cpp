@@ -146,7 +146,7 @@ void take_steps(const NodalCase<Dim>& scene, Dice& dice, Tally& tally) {
         const auto x_1 = moved(scene, x_0, dice);
         const bool is_mean = !dice.one_in(3);
         try {
-            const auto& step = contact.step(x_0, x_1, is_mean ? contact::TakenForce::mean : contact::TakenForce::end);
+            const auto& step = contact.step(1.0, x_0, x_1, is_mean ? contact::TakenForce::mean : contact::TakenForce::end);
             ++tally.steps;
             tally.active += step.is_active();
             require_numbers(step);

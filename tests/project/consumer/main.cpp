@@ -17,7 +17,7 @@ int main() {
     contact.search(rest, rest, [](auto) {
         return contact::FaceCoupling<2>{{0, 1, 2}, {0, 1}, {1e9 * Matrix<2>::Identity(), 1e9 * Matrix<2>::Identity()}};
     });
-    const contact::ContactStep<2>& step = contact.integrate({rest, rest, rest, rest});
+    const contact::ContactStep<2>& step = contact.integrate(1.0, {rest, rest, rest, rest});
     const auto dV = step.mean_gradient.values();
     std::printf("%zu pair, dV/du = %g and %g N, k depth / 2 = %g N\n", step.pairs.size(), dV[0].y(), dV[1].y(), 5e5);
     return std::abs(dV[0].y() - 5e5) < 1e-6 && std::abs(dV[1].y() + 5e5) < 1e-6 ? 0 : 1;

@@ -19,8 +19,8 @@ int main() {
         contact::NodalSurface<2>(x, {.nodes = nodes, .body = body, .depth = depth, .stiffness = stiffness}), {});
     std::vector<Vector<2>> pressed = x, force(8, Vector<2>::Zero());
     for (int i = 4; i < 8; ++i) pressed[i].y() -= 0.1 + d;
-    contact.step(x, x);
-    const contact::NodalStep<2>& step = contact.step(x, pressed, contact::TakenForce::end);
+    contact.step(1.0, x, x);
+    const contact::NodalStep<2>& step = contact.step(1.0, x, pressed, contact::TakenForce::end);
     step.add_force_to(force);
     double up = 0.0;
     for (int i = 4; i < 8; ++i) up += force[i].y();
@@ -30,7 +30,7 @@ int main() {
 
     pressed[5].y() = std::numeric_limits<double>::quiet_NaN();  // -ffast-math of the host does not switch the checks off
     try {
-        contact.step(x, pressed);
+        contact.step(1.0, x, pressed);
         good = false;
     } catch (const Diverged& error) {
         std::printf("%s\n", error.what());

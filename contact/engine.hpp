@@ -1,0 +1,265 @@
+#pragma once
+// Private to the layer.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/base/ids.hpp"
+#include "abut/base/parallel.hpp"
+#include "abut/base/sort_unique.hpp"
+#include "abut/contact/admission.hpp"
+#include "abut/contact/facet_store.hpp"
+#include "abut/contact/host_checks.hpp"
+#include "abut/contact/messages.hpp"
+#include "abut/contact/pair_store.hpp"
+#include "abut/contact/report_counters.hpp"
+#include "abut/contact/saved_contact.hpp"
+#include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/sharing.hpp"
+
+namespace abut::contact {
+
+/// Bounds on |g|/D [-].
+struct CompressionLimits {
+    double warning;
+    double limit;
+};
+
+/// What is the same in all contact, whatever the law: how long a candidate list is valid, the search, which pairs stay listed
+/// and what they remember, their first admission, memory of facets, limits, the report, saving and restoring, and another
+/// surface.
+///
+/// A law is a value that knows the surface and the listed pairs; FaceLaw and NodeLaw are those of Contact and NodalContact.
+/// It has
+/// - types: State, where all that moves is at one time; Path, one step; Step, the result;
+/// - `name`, `facets`, `face_name`: for messages and saved states, for the search;
+/// - `facet_memory`: numbers that it wants to keep per facet;
+/// - `n_watched`, `position`: points whose motion bounds how long a list is valid;
+/// - `search`: candidates for a step between two states;
+/// - `is_wanted`: whether a pair of facets may touch;
+/// - `list`: takes on the pairs of a new list, and may leave out those that cannot act; `list_remembered`: takes on pairs to
+///   ask about, of a list that is not valid; `drop_list`;
+/// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
+/// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
+///   without being contacts; `evaluate`: forces of one state.
+template <class Law>
+class Engine {
+public:
+    using State = typename Law::State;
+    using Path = typename Law::Path;
+    using Step = typename Law::Step;
+
+    /// `sharing` must outlive the engine; null: nobody shares the work. Throws as CandidateSearch.
+    Engine(Law law, const CandidateOptions& search, const CompressionLimits& limits, Sharing* sharing)
+        : law_(std::move(law)),
+          search_options_(search),
+          limits_(limits),
+          sharing_(sharing),
+          candidates_(law_.facets(), search, sharing),
+          facets_(law_.facets().size(), law_.facet_memory()) {
+        law_.clear(step_);
+    }
+    Engine(const Engine&) = delete;  // the search has a view of the surface
+    Engine& operator=(const Engine&) = delete;
+
+    [[nodiscard]] const Law& law() const { return law_; }
+    [[nodiscard]] const Step& last() const { return step_; }
+    [[nodiscard]] const PairStore& pairs() const { return pairs_; }
+    [[nodiscard]] const FacetStore& facets() const { return facets_; }
+    [[nodiscard]] const ContactReport& report() const { return report_; }
+    [[nodiscard]] const CandidateReport& search_report() const { return candidates_.report(); }
+    [[nodiscard]] double skin() const { return candidates_.skin(); }
+
+    // The list
+
+    [[nodiscard]] bool has_list() const { return list_is_valid_; }
+    [[nodiscard]] bool has_searched() const { return has_searched_; }
+    [[nodiscard]] bool is_valid_for(double motion) const { return list_is_valid_ && candidates_.is_valid_for(motion); }
+    /// False, too, where something is not finite: then a search says what it is.
+    [[nodiscard]] bool is_valid_at(const State& state) const {
+        return list_is_valid_ && candidates_.is_valid_for(std::sqrt(largest(law_.n_watched(), [&](std::ptrdiff_t i) {
+            return (law_.position(state, i) - searched_at_[static_cast<std::size_t>(i)]).squaredNorm();
+        })));
+    }
+    void require_list() const {
+        if (!list_is_valid_)
+            throw Misuse(law_.name() +
+                         ": there is no candidate list: call `search` first, and again after an error, a `restore` or a "
+                         "new surface.");
+    }
+
+    /// Makes a new list for a step between two states. `listed`: called with the law when its pairs
+    /// are listed.
+    template <class Listed>
+    void search(const State& start, const State& end, const Listed& listed) {
+        if (!std::exchange(list_is_valid_, false)) law_.list_remembered(pairs_.pairs());
+        law_.search(candidates_, start, end);
+        found_.clear();
+        for (const auto& [facet_1, facet_2] : candidates_.candidates())
+            if (const FacetPair pair{Facet{facet_1}, Facet{facet_2}}; law_.is_wanted(pair)) found_.push_back(pair);
+        keep_contacts(start);
+        law_.list(found_, in_contact_, start, end, 0.5 * candidates_.skin());
+        pairs_.follow(found_, [&](std::size_t i) { return PairMemory{is_admitted_at_first(i, start)}; });
+        law_.clear(step_);
+        listed(law_);
+        searched_at_.clear();
+        for (std::ptrdiff_t i = 0; i < law_.n_watched(); ++i) searched_at_.push_back(law_.position(start, i));
+        new_facets_.clear();
+        list_is_valid_ = has_searched_ = true;
+        ++report_.rebuilds;
+        report_.candidates = pairs_.size();
+        report_.candidates_max = std::max(report_.candidates_max, report_.candidates);
+    }
+
+    // Contact, with the list as it is
+
+    /// `dt`: length of the step [s].
+    const Step& step(double dt, const Path& path) {
+        check_step_length(dt);
+        require_list();
+        facets_.begin_step();
+        report_.inadmissible_overlaps = law_.step(dt, path, pairs_.memory(), facets_, step_);
+        count_step(report_, step_, limits_.warning);
+        if (step_.report.compression > limits_.limit) refuse_depth();
+        facets_.end_step();
+        return step_;
+    }
+
+    template <class At>
+    const Step& evaluate(const At& at) {
+        require_list();
+        law_.evaluate(at, pairs_.memory(), facets_, step_);
+        return step_;
+    }
+
+    /// By a list of its own, of which nothing is left but its result: a pair that is out of reach there must not lose what it
+    /// remembers.
+    const Step& evaluate_elsewhere(const State& state) {
+        const PairStore pairs = pairs_;
+        const ContactReport report = report_;
+        const double next_skin = candidates_.next_skin();
+        const std::vector<Facet> new_facets = new_facets_;
+        const auto take_back = [&] {
+            list_is_valid_ = false;
+            pairs_ = pairs;
+            new_facets_ = new_facets;
+            report_ = report;
+            candidates_.restore_skin(next_skin);
+        };
+        try {
+            search(state, state, [](Law&) {});
+            evaluate(state);
+        } catch (...) {
+            take_back();
+            throw;
+        }
+        take_back();
+        return step_;
+    }
+
+    // From one run or surface to another
+
+    [[nodiscard]] std::vector<std::byte> state() const {
+        return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_});
+    }
+
+    void restore(std::span<const std::byte> bytes) {
+        SavedContact from = read_saved(state_key(), bytes);
+        candidates_.restore_skin(from.next_skin);
+        pairs_ = std::move(from.pairs);
+        facets_ = std::move(from.facets);
+        report_ = from.report;
+        has_searched_ = from.has_searched;
+        new_facets_ = std::move(from.new_facets);
+        drop_list();
+    }
+
+    /// Goes on with a law on another surface. `old_of_new`: of each of its facets the old number, -1 for one that was not
+    /// there; for pairs of that one the run begins.
+    void replace(Law law, std::span<const std::int32_t> old_of_new) {
+        CandidateSearch<Law::dimension> candidates(law.facets(), search_options_, sharing_);
+        candidates.restore_skin(candidates_.next_skin());
+        PairStore pairs =
+            pairs_.carried_over(old_of_new, [&, facets = law.facets()](FacetPair pair) { return may_touch(facets, pair); });
+        FacetStore facets = facets_.carried_over(old_of_new);
+        std::vector<Facet> new_facets;
+        for (std::size_t i = 0; i < old_of_new.size(); ++i)
+            if (old_of_new[i] < 0 || is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
+        // The views of the new search are of arrays that stay where they are when the law is moved.
+        law_ = std::move(law);
+        candidates_ = std::move(candidates);
+        pairs_ = std::move(pairs);
+        facets_ = std::move(facets);
+        new_facets_ = std::move(new_facets);
+        drop_list();
+    }
+
+private:
+    /// Pairs in contact stay in the list however deep they are.
+    void keep_contacts(const State& start) {
+        in_contact_.clear();
+        for (std::size_t p = 0; p < pairs_.pairs().size(); ++p)
+            if (const FacetPair pair = pairs_.pairs()[p];
+                pairs_.memory()[p].admitted && law_.is_wanted(pair) && law_.is_pressed_in(p, start))
+                in_contact_.push_back(pair);
+        found_.insert(found_.end(), in_contact_.begin(), in_contact_.end());
+        sort_unique(found_);
+    }
+
+    /// Bodies may have become one, or rigid.
+    [[nodiscard]] bool may_touch(const SurfaceView<Law::dimension>& facets, FacetPair pair) const {
+        const std::int32_t facet_1 = number_of(pair.facet_1), facet_2 = number_of(pair.facet_2);
+        return (search_options_.self_contact || facets.body[facet_1] != facets.body[facet_2]) &&
+               !(facets.is_rigid(facet_1) && facets.is_rigid(facet_2));
+    }
+
+    [[nodiscard]] bool is_new(Facet facet) const { return std::ranges::binary_search(new_facets_, facet); }
+
+    [[nodiscard]] bool is_admitted_at_first(std::size_t i, const State& start) {
+        const auto [facet_1, facet_2] = found_[i];
+        const FirstAdmission first = law_.decide_first(i, start, !has_searched_ || is_new(facet_1) || is_new(facet_2));
+        if (first == FirstAdmission::missed) ++report_.missed_contacts;
+        return first == FirstAdmission::admitted;
+    }
+
+    [[nodiscard]] StateKey state_key() const {
+        const auto facets = law_.facets();
+        return {law_.name() + " " + std::to_string(Law::dimension) + "D", fingerprint(facets), facets.size(),
+                facets_.size()};
+    }
+
+    void drop_list() {
+        list_is_valid_ = false;
+        law_.drop_list();
+        law_.clear(step_);
+    }
+
+    [[noreturn]] void refuse_depth() const {
+        const auto& pair = step_.pairs[static_cast<std::size_t>(step_.report.most_compressed)];
+        throw too_deep(law_.face_name(pair.face_1), law_.face_name(pair.face_2), pair, limits_.limit);
+    }
+
+    Law law_;
+    CandidateOptions search_options_;
+    CompressionLimits limits_;
+    Sharing* sharing_;  // null: nobody shares the work
+    CandidateSearch<Law::dimension> candidates_;
+    bool has_searched_ = false;   // once at least: the run has begun
+    bool list_is_valid_ = false;  // the last search came to its end
+    PairStore pairs_;             // in the order of the list
+    FacetStore facets_;
+    std::vector<Facet> new_facets_;  // that no search has seen yet, increasing: the run begins for them
+    Step step_;
+    ContactReport report_;
+    std::vector<FacetPair> found_;  // work arrays of `search`
+    std::vector<FacetPair> in_contact_;
+    std::vector<Vector<Law::dimension>> searched_at_;  // points that are watched, where the last search began
+};
+
+}  // namespace abut::contact

@@ -1,0 +1,79 @@
+#pragma once
+// Private to the layer.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "abut/contact/admission.hpp"
+#include "abut/contact/facet_store.hpp"
+#include "abut/contact/law/pair_potential.hpp"
+#include "abut/contact/nodal_contact.hpp"
+#include "abut/contact/nodal_pairs.hpp"
+#include "abut/contact/nodal_surface.hpp"
+#include "abut/contact/pair_store.hpp"
+#include "abut/contact/search/candidate_search.hpp"
+#include "abut/contact/side_outlines.hpp"
+
+namespace abut::contact {
+
+/// The law of NodalContact as the engine wants it: facets between nodes, under the pair potential. docs/method.md, The
+/// potential of a pair.
+template <int Dim>
+class NodeLaw {
+public:
+    static constexpr int dimension = Dim;
+    using State = PointsView<Dim>;  ///< positions of all nodes (n_nodes) [m]
+    struct Path {
+        PointsView<Dim> x_0;
+        PointsView<Dim> x_1;
+        TakenForce take;
+    };
+    using Step = NodalStep<Dim>;
+
+    NodeLaw(NodalSurface<Dim> surface, const NodalOptions& options, Sharing* sharing);
+
+    [[nodiscard]] std::string name() const { return "nodal contact"; }
+    [[nodiscard]] SurfaceView<Dim> facets() const { return surface_.facets().view(); }
+    [[nodiscard]] std::string face_name(Face face) const;
+    [[nodiscard]] std::int32_t facet_memory() const { return 0; }
+    [[nodiscard]] std::ptrdiff_t n_watched() const { return std::ssize(surface_.nodes()); }
+    [[nodiscard]] Vector<Dim> position(State x, std::ptrdiff_t i) const {
+        return x[surface_.nodes()[static_cast<std::size_t>(i)]];
+    }
+
+    void search(CandidateSearch<Dim>& candidates, State x_0, State x_1) const;
+    [[nodiscard]] bool is_wanted(FacetPair pair) const {
+        return !options_.wanted || options_.wanted(surface_.face_of(pair.facet_1), surface_.face_of(pair.facet_2));
+    }
+    void list(std::vector<FacetPair>& pairs, std::span<const FacetPair> in_contact, State x_0, State x_1, double reach) {
+        pairs_.assign(surface_, pairs, in_contact, x_0, x_1, reach, options_.compression_limit);
+    }
+    void list_remembered(std::span<const FacetPair> pairs) { pairs_.assign(surface_, pairs); }
+    void drop_list() { pairs_.assign(surface_, {}); }
+    [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
+    [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const {
+        return contact::decide_first<Dim>(pairs_.pairs()[pair], x, sides_, run_begins);
+    }
+
+    void clear(NodalStep<Dim>& step) const;
+    std::int64_t step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets, NodalStep<Dim>& step);
+    void evaluate(State x, std::span<const PairMemory> memory, const FacetStore& facets, NodalStep<Dim>& step);
+
+    [[nodiscard]] const NodalSurface<Dim>& surface() const { return surface_; }
+    /// The same law on another surface, without a list.
+    [[nodiscard]] NodeLaw on(NodalSurface<Dim> surface) const { return {std::move(surface), options_, sharing_}; }
+
+private:
+    NodalSurface<Dim> surface_;
+    NodalOptions options_;
+    Sharing* sharing_;
+    SideOutlines<Dim> sides_;
+    NodalPairs<Dim> pairs_;
+    PairPotential<Dim> law_;
+    std::int32_t least_force_size_ = 0;  // nodes up to the last one of a deformable face
+};
+
+}  // namespace abut::contact
