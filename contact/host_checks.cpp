@@ -8,6 +8,8 @@
 #include "abut/base/decompositions.hpp"
 #include "abut/base/error.hpp"
 #include "abut/contact/messages.hpp"
+#include "abut/contact/nodal_contact.hpp"
+#include "abut/contact/option_table.hpp"
 
 namespace abut::contact {
 namespace {
@@ -118,41 +120,10 @@ private:
     }
 };
 
-[[noreturn]] void refuse_option(const std::string& what, double value) {
-    throw BadInput("contact options: " + what, {.value = value});
-}
-
-/// Of an enumeration whose values count from 0.
-template <class Choice>
-void check_choice(const char* option, Choice choice, Choice last, const char* words) {
-    const auto value = static_cast<int>(choice);
-    if (value < 0 || value > static_cast<int>(last))
-        refuse_option(std::string(option) + " is " + std::to_string(value) + "; " + words + " are allowed.", value);
-}
-
 }  // namespace
 
-void check_options(const ContactOptions& options) {
-    check_choice("area", options.area, geometry::AreaMethod::exact, "0 (fast) and 1 (exact)");
-    check_choice("overlap", options.overlap, OverlapMode::frozen, "0 (moving) and 1 (frozen)");
-    check_choice("weighting", options.weighting, InterfaceWeighting::stiffness, "0 (half) and 1 (stiffness)");
-    if (options.quadrature < 0 || options.quadrature > 3)
-        refuse_option("quadrature is " + std::to_string(options.quadrature) +
-                          "; it must be 1, 2 or 3 points (0: as many as exactness needs).",
-                      options.quadrature);
-    if (!(options.search.facing_cosine < 0.0))
-        refuse_option("facing_cosine is " + number(options.search.facing_cosine) +
-                          "; contact needs one between -1 and 0. -0.2 is the default.",
-                      options.search.facing_cosine);
-    check_compression(options.compression_warning, options.compression_limit);
-}
-
-void check_compression(double warning, double limit) {
-    if (!(warning > 0.0))
-        refuse_option("compression_warning is " + number(warning) + "; it must be > 0. 0.3 is the default.", warning);
-    if (!(limit > 0.0))
-        refuse_option("compression_limit is " + number(limit) + "; it must be > 0. 2 is the default.", limit);
-}
+void check_options(const ContactOptions& options) { check_options("contact options: ", contact_options(), options); }
+void check_options(const NodalOptions& options) { check_options("nodal contact: ", nodal_options(), options); }
 
 void check_step_length(double dt) {
     if (!(dt > 0.0) || !std::isfinite(dt))

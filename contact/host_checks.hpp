@@ -7,9 +7,11 @@
 
 namespace abut::contact {
 
+struct NodalOptions;
+
 /// Checks of a host's input. All throw BadInput; `check_path` throws Diverged where a value is not finite.
 void check_options(const ContactOptions& options);
-void check_compression(double warning, double limit);
+void check_options(const NodalOptions& options);
 /// `dt` [s] must be finite and > 0.
 void check_step_length(double dt);
 /// An array that should have one entry per listed face.

@@ -19,7 +19,7 @@ NodalOptions checked(NodalOptions options) {
         throw BadInput(
             "nodal contact: faces of one body do not touch each other; leave `self_contact` off, or number the "
             "parts of a body that may touch as bodies.");
-    check_compression(options.compression_warning, options.compression_limit);
+    check_options(options);
     const geometry::FacingFade& facing = options.facing;
     if (!(facing.full >= -1.0 && facing.full < facing.none && facing.none <= 0.0))
         throw BadInput("nodal contact: pairs fade out from n_1 . n_2 = " + number(facing.full) + " to " +

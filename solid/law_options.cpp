@@ -1,62 +1,50 @@
 #include "abut/solid/law_options.hpp"
 
-#include <array>
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/option_table.hpp"
+#include "abut/solid/option_words.hpp"
 
 namespace abut::solid {
 namespace {
 
-/// A choice of contact that one law alone reads, by its key. All others have a meaning under both.
-template <int Dim>
-struct Choice {
-    const char* key;
-    ContactLaw law;
-    bool (*is_made)(const SolidOptions<Dim>& given, const SolidOptions<Dim>& plain);
-    void (*take_back)(SolidOptions<Dim>& given, const SolidOptions<Dim>& plain);
-};
+bool is_of(const OptionFacts& option, ContactLaw law) {
+    return std::ranges::find(option.laws, word_of(law_words, law)) != option.laws.end();
+}
 
-template <int Dim>
-const auto& choices() {
-    using Given = const SolidOptions<Dim>&;
-    using Taken = SolidOptions<Dim>&;
-    using enum ContactLaw;
-    static constexpr auto all = std::to_array<Choice<Dim>>({
-        {"overlap", reconstruction, [](Given a, Given b) { return a.contact->overlap != b.contact->overlap; },
-         [](Taken a, Given b) { a.contact->overlap = b.contact->overlap; }},
-        {"weights", reconstruction, [](Given a, Given b) { return a.contact->weighting != b.contact->weighting; },
-         [](Taken a, Given b) { a.contact->weighting = b.contact->weighting; }},
-        {"area", reconstruction, [](Given a, Given b) { return a.contact->area != b.contact->area; },
-         [](Taken a, Given b) { a.contact->area = b.contact->area; }},
-        {"quadrature", reconstruction,
-         [](Given a, Given b) { return a.contact->quadrature != b.contact->quadrature && a.contact->quadrature != Dim; },
-         [](Taken a, Given b) { a.contact->quadrature = b.contact->quadrature; }},
-        {"facing_cosine", reconstruction,
-         [](Given a, Given b) { return a.contact->search.facing_cosine != b.contact->search.facing_cosine; },
-         [](Taken a, Given b) { a.contact->search.facing_cosine = b.contact->search.facing_cosine; }},
-        {"self", reconstruction,
-         [](Given a, Given b) { return a.contact->search.self_contact != b.contact->search.self_contact; },
-         [](Taken a, Given b) { a.contact->search.self_contact = b.contact->search.self_contact; }},
-        {"facing_full", pair_potential, [](Given a, Given b) { return a.facing.full != b.facing.full; },
-         [](Taken a, Given b) { a.facing.full = b.facing.full; }},
-        {"facing_none", pair_potential, [](Given a, Given b) { return a.facing.none != b.facing.none; },
-         [](Taken a, Given b) { a.facing.none = b.facing.none; }},
-    });
-    return all;
+/// Keys of the options with other values than both owners have that the law alone reads.
+template <class Owner>
+void append_made(std::vector<std::string>& keys, ContactLaw law, const Options<Owner>& options, const Owner& given,
+                 const Owner& plain, const Owner& also_plain) {
+    for (const Option<Owner>& option : options) {
+        const OptionValue value = option.get(given);
+        if (is_of(option, law) && value != option.get(plain) && value != option.get(also_plain))
+            keys.push_back("contact." + option.scene_key());
+    }
+}
+
+template <class Owner>
+void take_back(const Options<Owner>& options, Owner& given) {
+    const Owner plain;
+    for (const Option<Owner>& option : options)
+        if (!option.laws.empty()) option.set(given, option.get(plain));
 }
 
 /// The keys of choices made that `law` alone reads: "overlap and area", or nothing.
 template <int Dim>
 std::string made(ContactLaw law, const SolidOptions<Dim>& options) {
     if (!options.contact) return "";
-    SolidOptions<Dim> plain;
-    plain.contact.emplace();
-    std::string keys;
-    for (const Choice<Dim>& choice : choices<Dim>())
-        if (choice.law == law && choice.is_made(options, plain))
-            keys += (keys.empty() ? "contact." : " and contact.") + std::string(choice.key);
-    return keys;
+    contact::ContactOptions with_exact_number;
+    with_exact_number.quadrature = Dim;
+    std::vector<std::string> keys;
+    append_made(keys, law, contact::contact_options(), *options.contact, {}, with_exact_number);
+    append_made(keys, law, contact::facing_options(), options.facing, {}, {});
+    std::string text;
+    for (const std::string& key : keys) text += (text.empty() ? "" : " and ") + key;
+    return text;
 }
 
 }  // namespace
@@ -71,8 +59,8 @@ void refuse_choices_of_other_law(ContactLaw acting, const SolidOptions<Dim>& opt
     const bool acts_by_pairs = acting == ContactLaw::pair_potential;
     const std::string keys = made(acts_by_pairs ? ContactLaw::reconstruction : ContactLaw::pair_potential, options);
     if (keys.empty()) return;
-    const std::string one = acts_by_pairs ? "pair_potential" : "reconstruction";
-    const std::string other = acts_by_pairs ? "reconstruction" : "pair_potential";
+    const std::string one = word_of(law_words, acting);
+    const std::string other = word_of(law_words, acts_by_pairs ? ContactLaw::reconstruction : ContactLaw::pair_potential);
     throw BadInput(keys + (keys.find(" and ") == std::string::npos ? " has" : " have") + " no effect under law = \"" + one +
                    "\", which acts here. Set law = \"" + other + "\" (contact.law)" +
                    (acts_by_pairs ? ", which is for bodies of kinematics \"small\" and obstacles that do not turn" : "") +
@@ -82,9 +70,8 @@ void refuse_choices_of_other_law(ContactLaw acting, const SolidOptions<Dim>& opt
 template <int Dim>
 void take_back_choices_of_one_law(SolidOptions<Dim>& options) {
     if (!options.contact) return;
-    SolidOptions<Dim> plain;
-    plain.contact.emplace();
-    for (const Choice<Dim>& choice : choices<Dim>()) choice.take_back(options, plain);
+    take_back(contact::contact_options(), *options.contact);
+    take_back(contact::facing_options(), options.facing);
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                             \

@@ -12,6 +12,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/messages.hpp"
+#include "abut/contact/option_table.hpp"
 #include "abut/contact/search/face_boxes.hpp"
 #include "abut/contact/search/face_order.hpp"
 #include "abut/contact/search/moved_faces.hpp"
@@ -32,31 +33,13 @@ using geometry::IndexPair;
 constexpr std::int64_t searches_per_order = 50;
 
 const CandidateOptions& checked(const CandidateOptions& options) {
-    const auto refuse = [](const std::string& what, double value) {
-        throw BadInput("contact options: " + what, {.value = value});
-    };
-    if (!(options.facing_cosine > -1.0 && options.facing_cosine <= 1.0))
-        refuse("facing_cosine is " + number(options.facing_cosine) +
-                   "; it must lie above -1 and not above 1. -0.2 is the default, 1 lists faces whatever their normals.",
-               options.facing_cosine);
-    if (!(options.distance >= 0.0) || !std::isfinite(options.distance))
-        refuse("distance is " + number(options.distance) + " m; it must be finite and >= 0. Contact needs 0.",
-               options.distance);
-    if (!(options.skin >= 0.0) || !std::isfinite(options.skin))
-        refuse("skin is " + number(options.skin) + " m; it must be finite and >= 0. Give 0 to let the library choose.",
-               options.skin);
-    if (options.self_contact_rings < 0)
-        refuse(
-            "self_contact_rings is " + std::to_string(options.self_contact_rings) + "; it must be >= 0. 1 is the default.",
-            options.self_contact_rings);
-    if (!(options.largest_motion > 0.0))
-        refuse("largest_motion is " + number(options.largest_motion) + "; it must be > 0. 1 is the default.",
-               options.largest_motion);
+    abut::check_options("contact options: ", search_options(), options);
     geometry::check_options({options.broad_phase, options.limits});
     for (const auto& [body_1, body_2] : options.ignored_bodies)
         if (body_1 < 0 || body_2 < 0)
-            refuse("ignored_bodies names body " + std::to_string(std::min(body_1, body_2)) + "; bodies count from 0.",
-                   std::min(body_1, body_2));
+            throw BadInput("contact options: ignored_bodies names body " + std::to_string(std::min(body_1, body_2)) +
+                               "; bodies count from 0.",
+                           {.value = static_cast<double>(std::min(body_1, body_2))});
     return options;
 }
 

@@ -197,7 +197,7 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
     }
     SECTION("less than no pairs") {
         options.search.limits.pairs = -5;
-        says = "limits.pairs is -5; 0 and more";
+        says = "max_pairs is -5; 0 or more";
     }
     SECTION("a broad phase that there is not") {
         options.search.broad_phase = static_cast<geometry::BroadPhase>(5);
@@ -217,7 +217,7 @@ TEMPLATE_TEST_CASE_SIG("bad contact options are refused by name", "[contact][err
     }
     SECTION("a weighting that there is not") {
         options.weighting = static_cast<contact::InterfaceWeighting>(9);
-        says = "weighting is 9; 0 (half) and 1 (stiffness)";
+        says = "weights is 9; 0 (half) and 1 (stiffness)";
     }
     using contact::Contact;
     CHECK_THROWS_AS(Contact<Dim>(surface.view(), options), BadInput);

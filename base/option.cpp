@@ -1,0 +1,119 @@
+#include "abut/base/option.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+
+namespace abut {
+namespace {
+
+/// "0 (half) and 1 (stiffness)", "0 (automatic) to 4 (brute_force)"
+std::string numbered(const std::vector<std::string>& words) {
+    const auto at = [&](std::size_t i) { return std::to_string(i) + " (" + words[i] + ")"; };
+    return at(0) + (words.size() == 2 ? " and " : " to ") + at(words.size() - 1);
+}
+
+double as_number(const OptionValue& value) {
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+    return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+bool Limits::allow(double value) const {
+    if (zero && value == 0.0) return true;
+    if (endless && value == std::numeric_limits<double>::infinity()) return true;
+    return std::isfinite(value) && (value > above || (from && value == above)) &&
+           (value < below || (closed && value == below));
+}
+
+std::string with_unit_of(const Limits& limits, double value) {
+    return number(value) + (*limits.unit == '\0' ? "" : " ") + limits.unit;
+}
+
+std::string text_of(const Limits& limits) {
+    std::string text;
+    if (std::isfinite(limits.above)) {
+        const std::string least = with_unit_of(limits, limits.above);
+        text = limits.from || (limits.zero && limits.above == 0.0) ? least + " or above" : "above " + least;
+    }
+    if (std::isfinite(limits.below))
+        text += (text.empty() ? "" : ", ") + std::string(limits.closed ? "at most " : "below ") +
+                with_unit_of(limits, limits.below);
+    return text;
+}
+
+std::string OptionFacts::flag() const {
+    std::string text = "--" + name;
+    std::ranges::replace(text, '_', '-');
+    return text;
+}
+
+bool allows(const OptionFacts& option, const OptionValue& value) {
+    switch (option.kind) {
+        case OptionKind::number:
+            return option.limits.allow(std::get<double>(value));
+        case OptionKind::count:
+            return std::get<std::int64_t>(value) >= option.least && std::get<std::int64_t>(value) <= option.most;
+        case OptionKind::word:
+            return std::ranges::find(option.words, std::get<std::string>(value)) != option.words.end();
+        case OptionKind::truth:
+        case OptionKind::path:
+            return true;
+    }
+    return true;
+}
+
+std::string allowed_values(const OptionFacts& option) {
+    switch (option.kind) {
+        case OptionKind::number: {
+            const std::string limits = text_of(option.limits);
+            return limits.empty() ? "a finite number" : limits;
+        }
+        case OptionKind::count:
+            return std::to_string(option.least) +
+                   (option.most >= std::numeric_limits<int>::max() ? " or more" : " to " + std::to_string(option.most));
+        case OptionKind::word:
+            return numbered(option.words);
+        case OptionKind::truth:
+            return "true and false";
+        case OptionKind::path:
+            return "a path";
+    }
+    return "";
+}
+
+std::string text_of(const OptionValue& value) {
+    if (const auto* number_held = std::get_if<double>(&value)) return number(*number_held);
+    if (const auto* count = std::get_if<std::int64_t>(&value)) return std::to_string(*count);
+    if (const auto* truth = std::get_if<bool>(&value)) return *truth ? "on" : "off";
+    return std::get<std::string>(value);
+}
+
+std::string default_text(const OptionFacts& option, const OptionValue& by_default) {
+    const bool is_told = by_default == OptionValue(std::string()) || !allows(option, by_default);
+    if (is_told && !option.by_default.empty()) return option.by_default;
+    const auto* value = std::get_if<double>(&by_default);
+    return value && !std::isfinite(*value) ? "" : text_of(by_default);
+}
+
+bool is_same(const OptionValue& a, const OptionValue& b) {
+    const auto *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
+    return a == b || (x && y && std::isnan(*x) && std::isnan(*y));
+}
+
+void check_value(const std::string& whose, const OptionFacts& option, const OptionValue& value,
+                 const OptionValue& by_default) {
+    if (option.of_build || allows(option, value) || is_same(value, by_default)) return;
+    const std::string unit = *option.limits.unit == '\0' ? "" : " " + std::string(option.limits.unit);
+    const std::string text = whose + option.name + " is " + text_of(value) + unit + "; " + allowed_values(option);
+    if (option.kind == OptionKind::word) throw BadInput(text + " are allowed.");
+    const std::string usual = default_text(option, by_default);
+    throw BadInput(text + " is needed" + (usual.empty() ? "." : ", " + usual + " is the default."),
+                   {.value = as_number(value)});
+}
+
+}  // namespace abut

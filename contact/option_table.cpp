@@ -1,0 +1,157 @@
+#include "abut/contact/option_table.hpp"
+
+#include "abut/contact/nodal_contact.hpp"
+
+namespace abut::contact {
+namespace {
+
+const std::vector<std::string> reconstruction{"reconstruction"}, pair_potential{"pair_potential"};
+
+std::vector<Word<geometry::BroadPhase>> broad_phase_words() {
+    std::vector<Word<geometry::BroadPhase>> words;
+    for (const geometry::BroadPhase method : geometry::broad_phases())
+        words.push_back({geometry::name(method).data(), method});
+    return words;
+}
+
+/// Members that the options of both engines have.
+template <class Owner>
+Option<Owner> events() {
+    return option("events", &Owner::events,
+                  {.help = "cut steps where a pair opens, closes or changes its overlap (energy exact)", .is_switch = true});
+}
+template <class Owner>
+Option<Owner> compression_warning() {
+    return option(
+        "compression_warning", &Owner::compression_warning,
+        {.help = "depth of a pair of faces over that of its cells from which on a step counts as strongly compressed",
+         .limits = {.above = 0.0, .endless = true},
+         .named = Named::changed});
+}
+template <class Owner>
+Option<Owner> compression_limit() {
+    return option("compression_limit", &Owner::compression_limit,
+                  {.help = "depth of a pair of faces over that of its cells at which the run stops",
+                   .limits = {.above = 0.0, .endless = true}});
+}
+
+Options<CandidateOptions> make_search_options() {
+    using Of = CandidateOptions;
+    return {
+        choice("broad_phase", &Of::broad_phase, broad_phase_words(),
+               {.help = "what finds faces that are near; all give the same bits", .of_build = true}),
+        option("self_contact", &Of::self_contact,
+               {.help = "contact acts between parts of one body, too, by the modified reconstruction",
+                .key = "self",
+                .laws = reconstruction,
+                .named = Named::changed,
+                .is_switch = true}),
+        option("self_contact_rings", &Of::self_contact_rings,
+               {.help = "of contact between parts of one body: faces within so many steps over common corners do not "
+                        "touch; 0: all may",
+                .laws = reconstruction,
+                .named = Named::changed}),
+        option("facing_cosine", &Of::facing_cosine,
+               {.help = "faces look at each other where the cosine between their normals is below it; nearer to 0 sharper "
+                        "tips are seen",
+                .limits = {.above = -1.0, .below = 1.0, .closed = true},
+                .laws = reconstruction}),
+        option("candidate_distance", &Of::distance,
+               {.help = "gap up to which faces are listed; contact needs 0",
+                .limits = {.unit = "m", .above = 0.0, .zero = true},
+                .named = Named::changed,
+                .places = {.scene = false, .command_line = false, .python = false}}),
+        option("skin", &Of::skin,
+               {.help = "how far faces move before the list of near faces is rebuilt; 0: chosen from the number of faces "
+                        "and pairs and the motion",
+                .limits = {.unit = "m", .above = 0.0, .zero = true},
+                .named = Named::never}),
+        option("largest_motion", &Of::largest_motion,
+               {.help = "a face that moves farther within a step than this times the extent of all surfaces has diverged",
+                .limits = {.above = 0.0, .endless = true},
+                .named = Named::changed}),
+        within(&Of::limits, option("max_pairs", &geometry::SearchLimits::pairs,
+                                   {.help = "pairs of near faces that a search may list",
+                                    .most = std::numeric_limits<std::int64_t>::max(),
+                                    .named = Named::changed}))};
+}
+
+Options<ContactOptions> make_contact_options() {
+    using Of = ContactOptions;
+    const auto of_search = [](const char* name) { return within(&Of::search, named(search_options(), name)); };
+    Option<Of> facing_cosine = of_search("facing_cosine");
+    facing_cosine.limits = {.above = -1.0, .below = 0.0};
+    return {of_search("broad_phase"),
+            choice("overlap", &Of::overlap, overlap_words,
+                   {.help = "area that follows the motion in a step (energy exact) or is frozen (cheaper)",
+                    .laws = reconstruction}),
+            choice("weights", &Of::weighting, weighting_words,
+                   {.help = "share of a correction between two faces: halves or by their stiffness",
+                    .laws = reconstruction,
+                    .shapes_rest = true}),
+            choice("area", &Of::area, area_words,
+                   {.help = "arithmetic of overlap areas: filtered doubles or CGAL's exact numbers",
+                    .laws = reconstruction,
+                    .shapes_rest = true}),
+            events<Of>(),
+            option("quadrature", &Of::quadrature,
+                   {.help = "Gauss points on each part of a step; 0: the exact number, 2 in 2D, 3 in 3D",
+                    .most = 3,
+                    .laws = reconstruction}),
+            facing_cosine,
+            compression_limit<Of>(),
+            of_search("self_contact"),
+            of_search("self_contact_rings"),
+            of_search("candidate_distance"),
+            of_search("largest_motion"),
+            compression_warning<Of>(),
+            of_search("skin"),
+            of_search("max_pairs")};
+}
+
+Options<geometry::FacingFade> make_facing_options() {
+    using Of = geometry::FacingFade;
+    return {option("facing_full", &Of::full,
+                   {.help = "of the pair potential: cosine between the normals of two faces up to which their pair has its "
+                            "whole weight",
+                    .limits = {.above = -1.0, .below = 0.0, .from = true},
+                    .laws = pair_potential,
+                    .named = Named::changed}),
+            option("facing_none", &Of::none,
+                   {.help = "of the pair potential: cosine from which on a pair has no weight; nearer to 0 sharper tips and "
+                            "edges are seen",
+                    .limits = {.above = -1.0, .below = 0.0, .closed = true},
+                    .laws = pair_potential,
+                    .named = Named::changed})};
+}
+
+Options<NodalOptions> make_nodal_options() {
+    using Of = NodalOptions;
+    const auto of_search = [](const char* name) { return within(&Of::search, named(search_options(), name)); };
+    const Options<Of> facing = within(&Of::facing, facing_options());
+    return {of_search("skin"),       of_search("largest_motion"),
+            of_search("max_pairs"),  compression_warning<Of>(),
+            compression_limit<Of>(), facing.front(),
+            facing.back(),           events<Of>()};
+}
+
+}  // namespace
+
+const Options<CandidateOptions>& search_options() {
+    static const Options<CandidateOptions> options = make_search_options();
+    return options;
+}
+const Options<ContactOptions>& contact_options() {
+    static const Options<ContactOptions> options = make_contact_options();
+    return options;
+}
+const Options<geometry::FacingFade>& facing_options() {
+    static const Options<geometry::FacingFade> options = make_facing_options();
+    return options;
+}
+const Options<NodalOptions>& nodal_options() {
+    static const Options<NodalOptions> options = make_nodal_options();
+    return options;
+}
+
+}  // namespace abut::contact

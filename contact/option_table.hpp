@@ -1,0 +1,26 @@
+#pragma once
+#include <array>
+
+#include "abut/base/option.hpp"
+#include "abut/contact/options.hpp"
+#include "abut/geometry/pair_potential/pair_potential.hpp"
+
+namespace abut::contact {
+
+struct NodalOptions;
+
+inline constexpr std::array<Word<OverlapMode>, 2> overlap_words{
+    {{"moving", OverlapMode::moving}, {"frozen", OverlapMode::frozen}}};
+inline constexpr std::array<Word<InterfaceWeighting>, 2> weighting_words{
+    {{"half", InterfaceWeighting::half}, {"stiffness", InterfaceWeighting::stiffness}}};
+inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
+    {{"fast", geometry::AreaMethod::fast}, {"exact", geometry::AreaMethod::exact}}};
+
+/// The options of contact, as tables. A law that an option names in OptionTraits::laws is a word of solid::ContactLaw.
+/// Of a search alone `facing_cosine` may be up to 1; contact needs one below 0.
+[[nodiscard]] const Options<CandidateOptions>& search_options();
+[[nodiscard]] const Options<ContactOptions>& contact_options();
+[[nodiscard]] const Options<geometry::FacingFade>& facing_options();
+[[nodiscard]] const Options<NodalOptions>& nodal_options();
+
+}  // namespace abut::contact
