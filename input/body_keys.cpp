@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "abut/input/keys.hpp"
+#include "abut/run/option_table.hpp"
 
 namespace abut::input {
 namespace {
@@ -21,11 +22,11 @@ constexpr std::array<CellWord, 6> cell_words{{{"triangle", mesh::CellShape::tria
                                               {"hexahedron", mesh::CellShape::hexahedron},
                                               {"prism", mesh::CellShape::prism},
                                               {"pyramid", mesh::CellShape::pyramid}}};
-constexpr std::array<run::Word<mesh::NonPlanarFaces>, 2> non_planar_words{
+constexpr std::array<Word<mesh::NonPlanarFaces>, 2> non_planar_words{
     {{"fail", mesh::NonPlanarFaces::fail}, {"split", mesh::NonPlanarFaces::split}}};
 /// Those of run::kinematics_words that a body may have by itself.
-std::vector<run::Word<solid::Kinematics>> body_kinematics() {
-    std::vector<run::Word<solid::Kinematics>> words;
+std::vector<Word<solid::Kinematics>> body_kinematics() {
+    std::vector<Word<solid::Kinematics>> words;
     for (const auto& [word, choice] : run::kinematics_words)
         if (const auto kinematics = run::kinematics_of_all(choice)) words.push_back({word, *kinematics});
     return words;

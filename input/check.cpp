@@ -18,6 +18,7 @@
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"
 #include "abut/solid/body_inertia.hpp"
+#include "abut/solid/option_words.hpp"
 #include "abut/solid/solid.hpp"
 
 namespace abut::input {
@@ -110,8 +111,8 @@ public:
         estimate_ = {.bodies = scene.mesh.n_bodies(),
                      .cells = scene.mesh.n_cells(),
                      .boundary_faces = static_cast<std::int64_t>(scene.mesh.boundary_faces.size())};
-        for (const auto& [word, law] : run::law_words)
-            if (law == result.options.law && law != solid::ContactLaw::automatic) estimate_.law = word;
+        if (result.options.law != solid::ContactLaw::automatic)
+            estimate_.law = word_of(solid::law_words, result.options.law);
         estimate_.inertia = text_of_inertia(scene, result);
         estimate_.stable_dt = result.stable.dt;
         estimate_.dt = run::choose_step(options_, result.stable.dt);

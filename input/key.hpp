@@ -139,7 +139,7 @@ struct Make {
             std::move(name), std::move(value), std::move(help), access,
             [](Reader& reader, const Node& node, const std::string& path) { return reader.text(node, path); });
     }
-    /// One of some words; an array of run::Word or the like.
+    /// One of some words; an array of Word or the like.
     template <class Access, class Words>
     static K word(std::string name, Access access, const Words& words, std::string help) {
         using Choice = std::decay_t<decltype(std::begin(words)->choice)>;

@@ -46,7 +46,7 @@ std::optional<double> Reader::number(const Node& node, const std::string& key, c
     if (!value) return std::nullopt;
     if (limits.allow(value->value())) return value->value();
     const std::string allowed = text_of(limits);
-    fault(node, fmt::format("{} is {}, {} is needed.", key, with_unit(value->value(), limits),
+    fault(node, fmt::format("{} is {}, {} is needed.", key, with_unit_of(limits, value->value()),
                             allowed.empty() ? "a finite number" : allowed));
     return std::nullopt;
 }

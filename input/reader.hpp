@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/option.hpp"
 #include "abut/input/document.hpp"
 #include "abut/input/fault.hpp"
-#include "abut/input/limits.hpp"
 #include "abut/input/settings.hpp"
 
 namespace abut::input {

@@ -1,48 +1,25 @@
 #include <array>
 
-#include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/input/keys.hpp"
+#include "abut/input/option_keys.hpp"
+#include "abut/run/option_table.hpp"
 
 namespace abut::input {
 namespace {
 
 using Of = Make<Settings>;
-using run::RunOptions;
 
-/// A member of the options of the run.
-template <class Value>
-auto option(Value RunOptions::*member) {
-    return [member](Settings& settings) -> Value& { return settings.options.*member; };
-}
-template <class Value>
-auto contact(Value contact::ContactOptions::*member) {
-    return [member](Settings& settings) -> Value& { return settings.options.contact.*member; };
-}
-auto facing(double geometry::FacingFade::*member) {
-    return [member](Settings& settings) -> double& { return settings.options.facing.*member; };
-}
-template <class Value>
-auto search(Value contact::CandidateOptions::*member) {
-    return [member](Settings& settings) -> Value& { return settings.options.contact.search.*member; };
+/// The keys of a table of options, behind those that are none.
+Keys<Settings> with_options(Keys<Settings> keys, const char* table) {
+    const auto owner = [](Settings& settings) -> run::RunOptions& { return settings.options; };
+    const Keys<Settings> of_table = keys_of_options<Settings>(run::run_options(), table, owner);
+    keys.insert(keys.end(), of_table.begin(), of_table.end());
+    return keys;
 }
 
-std::vector<run::Word<geometry::BroadPhase>> broad_phase_words() {
-    std::vector<run::Word<geometry::BroadPhase>> words;
-    for (const auto method : geometry::broad_phases()) words.push_back({geometry::name(method).data(), method});
-    return words;
-}
-
-constexpr Limits any{};
-constexpr Limits a_time{.unit = "s", .above = 0.0};
-
-constexpr std::array<run::Word<solid::Constraint>, 3> constraint_words{{{"full", solid::Constraint::full},
-                                                                        {"normal", solid::Constraint::normal},
-                                                                        {"components", solid::Constraint::components}}};
-
-Key<Settings> by_default(std::string words, Key<Settings> key) {
-    key.by_default = std::move(words);
-    return key;
-}
+constexpr std::array<Word<solid::Constraint>, 3> constraint_words{{{"full", solid::Constraint::full},
+                                                                   {"normal", solid::Constraint::normal},
+                                                                   {"components", solid::Constraint::components}}};
 
 template <class Section>
 Key<Section> group() {
@@ -70,73 +47,21 @@ const Keys<Settings>& top_keys() {
 }
 
 const Keys<Settings>& run_keys() {
-    static const Keys<Settings> keys = {
-        Of::word("preset", &Settings::preset, run::preset_words,
-                 "several choices at once, which other keys overrule (trade.md): speed or accuracy"),
-        Of::number("time", option(&RunOptions::time), a_time, "end of the run"),
-        Of::count("steps", option(&RunOptions::steps), 0, Of::many, "steps of the run where no time is given"),
-        Of::number("cfl", option(&RunOptions::cfl), {.above = 0.0, .below = 1.0, .closed = true},
-                   "time step over the stable step"),
-        Of::number("dt", option(&RunOptions::dt), a_time, "time step, instead of cfl"),
-        Of::truth("allow_unstable", option(&RunOptions::allow_unstable), "take dt even above the stable step"),
-        Of::word("integrator", option(&RunOptions::integrator), run::integrator_words, "scheme in time (integrators.md)"),
-        Of::word("precision", option(&RunOptions::precision), run::precision_words,
-                 "of the bulk in steps of memm and leapfrog: single is less exact (trade.md)"),
-        Of::word("device", option(&RunOptions::device), run::device_words,
-                 "of the bulk in steps of memm and leapfrog: the host, or what Kokkos was built for (devices.md)"),
-        Of::count("levels", option(&RunOptions::levels), 0, Of::many, "of memm_async: different steps at most; 0: 8"),
-        Of::count("contact_margin", option(&RunOptions::contact_margin), 0, Of::many,
-                  "of memm_async: levels that cells in contact are finer than they need to be alone"),
-        Of::count("contact_levels", option(&RunOptions::contact_levels), 0, Of::many,
-                  "of memm_async: levels that cells in contact are finer than all others"),
-        Of::number("gauge", option(&RunOptions::gauge), {.unit = "J", .above = 0.0},
-                   "c of the Bilbao scheme; by default the energy at the start"),
-        Of::word("filter", option(&RunOptions::filter), run::filter_words, "energy-neutral filter of the parasitic mode"),
-        by_default("50 where a body is finite, else 0", Of::count("restart", option(&RunOptions::restart), 0, Of::many,
-                                                                  "of memm: steps between neutral restarts; 0: none")),
-        Of::word("kinematics", option(&RunOptions::kinematics), run::kinematics_words,
-                 "of all bodies: as each body says (scene), the same for all, or chosen by a pilot run (automatic)"),
-        Of::count("threads", option(&RunOptions::threads), 0, Of::many,
-                  "threads at most; 0: all. The results do not depend on it")};
+    static const Keys<Settings> keys =
+        with_options({Of::word("preset", &Settings::preset, run::preset_words,
+                               "several choices at once, which other keys overrule (docs/trade.md): speed or accuracy")},
+                     "run");
     return keys;
 }
 
 const Keys<Settings>& contact_keys() {
-    using contact::CandidateOptions;
-    using contact::ContactOptions;
-    static const Keys<Settings> keys = {
-        Of::truth("enabled", &Settings::contact, "false: bodies pass through each other"),
-        key_of<Settings>("ignored_pairs", "list of pairs of names",
-                         "bodies, or a body and an obstacle, that pass through each other: [[\"left\", \"floor\"]]",
-                         &Settings::ignored_pairs,
-                         [](Reader& reader, const Node& node, const std::string& key) { return reader.pairs(node, key); }),
-        Of::word("law", option(&RunOptions::law), run::law_words,
-                 "the modified reconstruction for bodies that do not turn; the pair potential for all, and by default"),
-        Of::truth("self", search(&CandidateOptions::self_contact),
-                  "also between parts of one body; of the modified reconstruction"),
-        Of::word("broad_phase", search(&CandidateOptions::broad_phase), broad_phase_words(),
-                 "what finds faces that are near"),
-        Of::word("overlap", contact(&ContactOptions::overlap), run::overlap_words,
-                 "area that follows the motion in a step or is frozen"),
-        Of::word("weights", contact(&ContactOptions::weighting), run::weighting_words,
-                 "share of a correction between two faces"),
-        Of::word("area", contact(&ContactOptions::area), run::area_words, "arithmetic of overlap areas"),
-        Of::truth("events", contact(&ContactOptions::events), "cut steps where a pair opens, closes or changes its overlap"),
-        Of::count("quadrature", contact(&ContactOptions::quadrature), 0, 3,
-                  "Gauss points on each part of a step; 0: the exact number, 2 in 2D, 3 in 3D"),
-        Of::number("facing_cosine", search(&CandidateOptions::facing_cosine), {.above = -1.0, .below = 0.0},
-                   "faces look at each other where the cosine between their normals is below it"),
-        Of::number(
-            "facing_full", facing(&geometry::FacingFade::full), {.above = -1.0, .below = 0.0},
-            "of the pair potential: cosine between the normals of two faces up to which their pair has its whole weight"),
-        Of::number("facing_none", facing(&geometry::FacingFade::none), {.above = -1.0, .below = 0.0, .closed = true},
-                   "and from which on it has none; nearer to 0 sharper tips and edges are seen"),
-        Of::number("skin", search(&CandidateOptions::skin), {.unit = "m", .above = 0.0, .zero = true},
-                   "how far faces move before the list of near faces is rebuilt; 0: chosen"),
-        Of::number("compression_limit", contact(&ContactOptions::compression_limit), {.above = 0.0},
-                   "depth over that of a cell at which the run stops"),
-        Of::word("neumann", option(&RunOptions::neumann), run::free_face_words, "displacement of free faces"),
-        Of::word("corners", option(&RunOptions::corners), run::corner_words, "free faces of a cell beside one in contact")};
+    static const Keys<Settings> keys = with_options(
+        {Of::truth("enabled", &Settings::contact, "false: bodies pass through each other"),
+         key_of<Settings>("ignored_pairs", "list of pairs of names",
+                          "bodies, or a body and an obstacle, that pass through each other: [[\"left\", \"floor\"]]",
+                          &Settings::ignored_pairs,
+                          [](Reader& reader, const Node& node, const std::string& key) { return reader.pairs(node, key); })},
+        "contact");
     return keys;
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -9,7 +8,6 @@
 #include "abut/contact/options.hpp"
 #include "abut/dynamics/scheme.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
-#include "abut/run/value.hpp"
 #include "abut/solid/boundary_conditions.hpp"
 #include "abut/solid/ccg/precision.hpp"
 #include "abut/solid/ccg/step_device.hpp"
@@ -21,7 +19,7 @@ inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline constexpr int restart_not_given = std::numeric_limits<int>::min();
 inline constexpr int restart_of_finite = 50;
 
-/// A solid with contact runs under those of integrator_words; `simulate` refuses others. docs/integrators.md says which to choose.
+/// A solid with contact runs under those of integrator_words (run/option_table.hpp); `simulate` refuses others. docs/integrators.md says which to choose.
 using SolidIntegrator = dynamics::Scheme;
 
 /// How bodies may move (solid::Kinematics): one choice for all of them, that of the scene, or `automatic`: for each body the
@@ -68,44 +66,6 @@ struct RunOptions {
     bool resume = false;       ///< goes on from the last checkpoint in `out`
 };
 
-/// A choice and its word on command lines and in summaries.
-template <class Choice>
-struct Word {
-    const char* word;
-    Choice choice;
-};
-inline constexpr std::array<Word<SolidIntegrator>, 4> integrator_words{{{"memm", SolidIntegrator::memm},
-                                                                        {"memm_async", SolidIntegrator::memm_async},
-                                                                        {"leapfrog", SolidIntegrator::leapfrog},
-                                                                        {"bilbao", SolidIntegrator::bilbao}}};
-inline constexpr std::array<Word<solid::Precision>, 2> precision_words{
-    {{"double", solid::Precision::double_precision}, {"single", solid::Precision::single_precision}}};
-inline constexpr std::array<Word<solid::StepDevice>, 2> device_words{
-    {{"host", solid::StepDevice::host}, {"kokkos", solid::StepDevice::kokkos}}};
-inline constexpr std::array<Word<BodyKinematics>, 6> kinematics_words{{{"scene", BodyKinematics::scene},
-                                                                       {"automatic", BodyKinematics::automatic},
-                                                                       {"small", BodyKinematics::small},
-                                                                       {"floating", BodyKinematics::floating},
-                                                                       {"finite", BodyKinematics::finite},
-                                                                       {"rigid", BodyKinematics::rigid}}};
-inline constexpr std::array<Word<solid::ContactLaw>, 3> law_words{{{"automatic", solid::ContactLaw::automatic},
-                                                                   {"reconstruction", solid::ContactLaw::reconstruction},
-                                                                   {"pair_potential", solid::ContactLaw::pair_potential}}};
-inline constexpr std::array<Word<contact::OverlapMode>, 2> overlap_words{
-    {{"moving", contact::OverlapMode::moving}, {"frozen", contact::OverlapMode::frozen}}};
-inline constexpr std::array<Word<contact::InterfaceWeighting>, 2> weighting_words{
-    {{"half", contact::InterfaceWeighting::half}, {"stiffness", contact::InterfaceWeighting::stiffness}}};
-inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
-    {{"fast", geometry::AreaMethod::fast}, {"exact", geometry::AreaMethod::exact}}};
-inline constexpr std::array<Word<solid::FreeFaceRule>, 3> free_face_words{
-    {{"local_equilibrium", solid::FreeFaceRule::local_equilibrium},
-     {"extrapolate", solid::FreeFaceRule::extrapolate},
-     {"adjacent", solid::FreeFaceRule::adjacent}}};
-inline constexpr std::array<Word<solid::CornerRule>, 2> corner_words{
-    {{"relaxed", solid::CornerRule::relaxed}, {"fixed", solid::CornerRule::fixed}}};
-inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neutral", true}}};
-inline constexpr std::array<Word<bool>, 2> event_words{{{"on", true}, {"off", false}}};
-
 using dynamics::name_of;  ///< "memm"
 /// "floating"
 [[nodiscard]] std::string name_of(solid::Kinematics kinematics);
@@ -132,11 +92,5 @@ template <int Dim>
 /// a number of steps, a bound or a fade that there cannot be. Choices that the law of contact does not read are refused where a
 /// Solid is made: the bodies decide which law acts.
 void check(const RunOptions& options);
-
-/// The options by name, as given; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are
-/// in RunResult.
-[[nodiscard]] NamedValues named_values(const RunOptions& options);
-/// Those on which bodies at rest depend as well: "weights", "area", "neumann", "corners".
-[[nodiscard]] NamedValues model_values(const RunOptions& options);
 
 }  // namespace abut::run

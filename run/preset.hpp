@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 
+#include "abut/base/option.hpp"
 #include "abut/run/options.hpp"
 
 namespace abut::run {

@@ -2,21 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 #include "abut/base/error.hpp"
 #include "abut/base/state_bytes.hpp"
 #include "abut/run/json.hpp"
+#include "abut/run/option_table.hpp"
 
 namespace abut::run {
 namespace {
-
-// What the bits of a run do not depend on: threads, the device, and where files are.
-constexpr std::array<std::string_view, 4> free_choices{"out", "scene", "threads", "device"};
 
 template <int Dim>
 std::string checksum(const mesh::Mesh<Dim>& mesh) {
@@ -38,7 +33,9 @@ std::string identity(const Scene<Dim>& scene, const RunResult<Dim>& result) {
                    {"steps", result.steps}};
     of_run.update(to_json(scene.options));
     of_run.update(to_json(named_values(result.options)));
-    for (const std::string_view name : free_choices) of_run.erase(std::string(name));
+    for (const Option<RunOptions>& option : run_options())
+        if (option.free_on_resume) of_run.erase(option.name);
+    of_run.erase("scene");  // where its file is
     return text_of(of_run);
 }
 

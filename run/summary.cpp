@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "abut/run/json.hpp"
+#include "abut/run/option_table.hpp"
 #include "abut/run/table_line.hpp"
 #include "abut/run/verdict.hpp"
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "abut/run/option_table.hpp"
+
 namespace abut::run {
 namespace {
 
@@ -20,7 +22,7 @@ struct Name {
 constexpr std::array names_of_cpp = std::to_array<Name>({
     {"BodyKinematics::scene", "run.kinematics = \"scene\""},
     {"Bond::fixed", "fixed"},
-    {"CandidateOptions::largest_motion", "the allowed motion, which no key sets"},
+    {"CandidateOptions::largest_motion", "contact.largest_motion"},
     {"CandidateOptions::skin", "contact.skin"},
     {"Constraint::full", "constraint = \"full\""},
     {"Contact::faces", "the faces of contact"},
@@ -44,7 +46,7 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"Scene::solid", "the scene"},
     {"Scene::spin", "spin"},
     {"SearchLimits::bytes", "the limit on memory (abut detect: --max-memory)"},
-    {"SearchLimits::pairs", "the limit on pairs (abut detect: --max-pairs)"},
+    {"SearchLimits::pairs", "contact.max_pairs (--max-pairs)"},
     {"Solid::own_cells", "own_cells"},
     {"SolidOptions::acceleration", "gravity"},
     {"SolidOptions::body_load", "the load on its cells"},
@@ -57,12 +59,6 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"TractionCondition::value", "value"},
     {"UnusableFaces::skip", "--unusable skip"},
 });
-
-/// Values that may stand behind an option in a message.
-constexpr std::array<std::string_view, 25> words{
-    "none",       "neutral", "scene",    "automatic", "small",  "floating",       "finite",        "rigid",  "memm",
-    "memm_async", "bilbao",  "leapfrog", "double",    "single", "host",           "kokkos",        "moving", "frozen",
-    "on",         "off",     "half",     "stiffness", "exact",  "pair_potential", "reconstruction"};
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
     for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
@@ -91,58 +87,35 @@ std::string_view head_of(std::string_view text, bool (*belongs)(char)) {
     return text.substr(0, static_cast<std::size_t>(std::ranges::find_if_not(text, belongs) - text.begin()));
 }
 
-const OptionKey* key_of(std::string_view option) {
-    std::string key(option);
-    std::ranges::replace(key, '-', '_');
-    const auto found = std::ranges::find_if(option_keys(), [&](const OptionKey& one) { return one.key == key; });
-    return found == option_keys().end() ? nullptr : &*found;
+/// The option of a command line that a scene has a key for; nullptr: there is none. `flag`: "--facing-cosine".
+const OptionFacts* option_of(std::string_view flag) {
+    for (const Option<RunOptions>& option : run_options())
+        if (option.places.scene && option.kind != OptionKind::path && option.flag() == flag) return &option;
+    return nullptr;
 }
 
 /// What stands behind an option as its value; empty: nothing.
-std::string_view value_in(std::string_view rest) {
+std::string_view value_in(const OptionFacts& option, std::string_view rest) {
     if (!rest.starts_with(' ')) return {};
     const auto is_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     const std::string_view word = head_of(rest.substr(1), is_of_word);
-    const bool is_number = !word.empty() && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
-    return is_number || std::ranges::find(words, word) != words.end() ? word : std::string_view{};
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool is_number = !word.empty() && std::ranges::all_of(word, is_digit);
+    const bool is_truth = option.is_switch && (word == "on" || word == "off");
+    const bool is_word = std::ranges::find(option.words, word) != option.words.end();
+    return is_number || is_truth || is_word ? word : std::string_view{};
+}
+
+/// `run.restart = 50`, `run.filter = "neutral"`, `contact.events = false`
+std::string setting(const OptionFacts& option, std::string_view value) {
+    const std::string key = option.table + "." + option.scene_key();
+    if (value.empty()) return key;
+    if (option.kind == OptionKind::truth) return key + (value == "on" ? " = true" : " = false");
+    const std::string quote = option.kind == OptionKind::word ? "\"" : "";
+    return key + " = " + quote + std::string(value) + quote;
 }
 
 }  // namespace
-
-const std::vector<OptionKey>& option_keys() {
-    static const std::vector<OptionKey> keys = {{"run", "time"},
-                                                {"run", "steps"},
-                                                {"run", "cfl"},
-                                                {"run", "dt"},
-                                                {"run", "allow_unstable"},
-                                                {"run", "integrator"},
-                                                {"run", "precision"},
-                                                {"run", "device"},
-                                                {"run", "levels"},
-                                                {"run", "contact_margin"},
-                                                {"run", "contact_levels"},
-                                                {"run", "gauge"},
-                                                {"run", "filter"},
-                                                {"run", "restart"},
-                                                {"run", "kinematics"},
-                                                {"contact", "law"},
-                                                {"contact", "overlap"},
-                                                {"contact", "weights"},
-                                                {"contact", "area"},
-                                                {"contact", "quadrature"},
-                                                {"contact", "facing_cosine"},
-                                                {"contact", "facing_full"},
-                                                {"contact", "facing_none"},
-                                                {"contact", "skin"},
-                                                {"contact", "compression_limit"},
-                                                {"contact", "neumann"},
-                                                {"contact", "corners"},
-                                                {"output", "interval"},
-                                                {"output", "frames"},
-                                                {"output", "checkpoint"},
-                                                {"output", "checkpoint_steps"}};
-    return keys;
-}
 
 std::string in_user_words(std::string text, const SceneNames& names) {
     for (const Name& name : names_of_cpp) replace_all(text, name.of_cpp, name.word);
@@ -161,16 +134,14 @@ std::string with_keys(const std::string& text) {
         rest.remove_prefix(at);
         const std::string_view option = head_of(rest, is_of_option);
         rest.remove_prefix(option.size());
-        const OptionKey* key = begins_word && option.size() > 2 ? key_of(option.substr(2)) : nullptr;
-        if (!key) {
+        const OptionFacts* known = begins_word && option.size() > 2 ? option_of(option) : nullptr;
+        if (!known) {
             result += option;
             continue;
         }
-        const std::string_view value = value_in(rest);
-        const std::string quote = !value.empty() && std::isalpha(static_cast<unsigned char>(value.front())) != 0 ? "\"" : "";
-        result += std::string(key->table) + "." + key->key;
-        if (!value.empty()) result += " = " + quote + std::string(value) + quote;
-        result += " (" + std::string(option) + (value.empty() ? "" : " " + std::string(value)) + ")";
+        const std::string_view value = value_in(*known, rest);
+        result +=
+            setting(*known, value) + " (" + std::string(option) + (value.empty() ? "" : " " + std::string(value)) + ")";
         rest.remove_prefix(value.empty() ? 0 : value.size() + 1);
     }
     return result + std::string(rest);

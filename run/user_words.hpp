@@ -19,11 +19,4 @@ struct SceneNames {
 /// `run.filter = "neutral" (--filter neutral)`. Options that are in parentheses already stay as they are.
 [[nodiscard]] std::string with_keys(const std::string& text);
 
-/// The options that are keys of a table in a scene: "contact", "facing_cosine".
-struct OptionKey {
-    const char* table;
-    const char* key;
-};
-[[nodiscard]] const std::vector<OptionKey>& option_keys();
-
 }  // namespace abut::run

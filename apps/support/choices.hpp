@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "abut/base/option.hpp"
 #include "abut/run/options.hpp"
 
 namespace abut::apps {
@@ -16,7 +17,7 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 /// A table of words as choices.
 template <class Value, std::size_t N>
-[[nodiscard]] Choices<Value> choices_of(const std::array<run::Word<Value>, N>& words) {
+[[nodiscard]] Choices<Value> choices_of(const std::array<Word<Value>, N>& words) {
     Choices<Value> choices;
     for (const auto& [word, value] : words) choices.emplace_back(word, value);
     return choices;

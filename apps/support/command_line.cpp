@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <string_view>
 
 #include "apps/support/terminal.hpp"
@@ -23,19 +25,13 @@ std::string allowed(const Limits& limits) {
     std::string text = "it must be a finite number";
     const char* joint = ", ";
     if (std::isfinite(limits.above)) {
-        text += fmt::format("{}{} {}", joint, limits.zero && limits.above == 0.0 ? "not below" : "above",
+        text += fmt::format("{}{} {}", joint, limits.from || (limits.zero && limits.above == 0.0) ? "not below" : "above",
                             with_unit(limits.above, limits));
         joint = " and ";
     }
     if (std::isfinite(limits.below))
         text += fmt::format("{}{} {}", joint, limits.closed ? "not above" : "below", with_unit(limits.below, limits));
     return text;
-}
-
-bool allows(const Limits& limits, double value) {
-    if (!std::isfinite(value)) return false;
-    if (limits.zero && value == 0.0) return true;
-    return value > limits.above && (limits.closed ? value <= limits.below : value < limits.below);
 }
 
 [[noreturn]] void refuse(const std::string& option, const std::string& what, const Limits& limits) {
@@ -56,13 +52,19 @@ BodyValues parse_body_values(const std::string& text, const std::string& option,
     return {parse_number(text.substr(0, comma), option, limits), parse_number(text.substr(comma + 1), option, limits)};
 }
 
-int parse_count(std::string_view text, const std::string& option, int least) {
-    int value = 0;
+constexpr std::int64_t many = std::numeric_limits<int>::max();
+
+std::int64_t parse_count(std::string_view text, const std::string& option, std::int64_t least, std::int64_t most = many) {
+    std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < least)
-        throw CLI::ValidationError(
-            option, fmt::format("'{}' is not allowed; it must be a whole number of at least {}.", text, least));
+    if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
+        throw CLI::ValidationError(option, fmt::format("'{}' is not allowed; it must be a whole number {}.", text,
+                                                       most >= many ? fmt::format("of at least {}", least)
+                                                                    : fmt::format("from {} to {}", least, most)));
     return value;
+}
+int parse_int(std::string_view text, const std::string& option, int least) {
+    return static_cast<int>(parse_count(text, option, least));
 }
 
 std::string unit_after(const std::string& help, const Limits& limits) {
@@ -114,7 +116,7 @@ double parse_number(const std::string& text, const std::string& option, const Li
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || end != text.c_str() + text.size()) refuse(option, fmt::format("'{}' is no number", text), limits);
-    if (!allows(limits, value)) refuse(option, with_unit(value, limits) + " is not allowed", limits);
+    if (!limits.allow(value)) refuse(option, with_unit(value, limits) + " is not allowed", limits);
     return value;
 }
 
@@ -135,10 +137,53 @@ CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValue
 }
 
 CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least) {
-    const auto read = [&value, option, least](const std::string& text) { value = parse_count(text, option, least); };
+    const auto read = [&value, option, least](const std::string& text) { value = parse_int(text, option, least); };
     return app.add_option_function<std::string>(option, read, unit_after(help, {}))
         ->type_name("N")
         ->default_str(fmt::format("{}", value));
+}
+
+CLI::Option* add_option(CLI::App& app, const BoundOption& option) {
+    const OptionFacts& facts = *option.facts;
+    const OptionValue present = option.get();
+    const std::string flag = facts.flag();
+    CLI::Option* added = nullptr;
+    const auto add = [&](const std::string& help, const std::string& takes, auto value_of) {
+        added = app.add_option_function<std::string>(
+                       flag, [set = option.set, value_of](const std::string& text) { set(value_of(text)); }, help)
+                    ->type_name(takes);
+    };
+    switch (facts.kind) {
+        case OptionKind::number:
+            add(unit_after(facts.help, facts.limits), "X", [flag, limits = facts.limits](const std::string& text) {
+                return OptionValue(parse_number(text, flag, limits));
+            });
+            break;
+        case OptionKind::count:
+            add(unit_after(facts.help, {}), "N", [flag, least = facts.least, most = facts.most](const std::string& text) {
+                return OptionValue(parse_count(text, flag, least, most));
+            });
+            break;
+        case OptionKind::path:
+            add(facts.help, "DIR", [](const std::string& text) { return OptionValue(text); });
+            break;
+        case OptionKind::word:
+            add(facts.help, joined(facts.words), [](const std::string& text) { return OptionValue(text); });
+            added->check(one_of(facts.words));
+            break;
+        case OptionKind::truth: {
+            if (!facts.is_switch) {
+                added = app.add_flag_callback(
+                    flag, [set = option.set] { set(true); }, facts.help);
+                break;
+            }
+            const std::vector<std::string> words = {"on", "off"};
+            add(facts.help, joined(words), [](const std::string& text) { return OptionValue(text == "on"); });
+            added->check(one_of(words));
+            break;
+        }
+    }
+    return added->default_str(default_text(facts, present))->group(facts.group);
 }
 
 CLI::Option* add_numbers(CLI::App& app, const std::string& option, std::vector<double>& values, const std::string& help,
@@ -156,7 +201,7 @@ CLI::Option* add_counts(CLI::App& app, const std::string& option, std::vector<in
                         int least) {
     const auto read = [&values, option, least](const std::string& text) {
         values.clear();
-        for (const std::string_view part : parts_of(text)) values.push_back(parse_count(part, option, least));
+        for (const std::string_view part : parts_of(text)) values.push_back(parse_int(part, option, least));
     };
     return app.add_option_function<std::string>(option, read, unit_after(help, {}))
         ->type_name("N[,N...]")

@@ -1,25 +1,17 @@
 #pragma once
 #include <CLI/CLI.hpp>
 
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "abut/base/option.hpp"
 #include "apps/support/choices.hpp"
 
 /// Options that say by themselves what they take: unit, default and limits in --help, and one clear message for a value
 /// that will not do. All throw CLI::ValidationError from App::parse.
 namespace abut::apps {
 
-/// The values that a number may take.
-struct Limits {
-    const char* unit = "";
-    double above = -std::numeric_limits<double>::infinity();  ///< open
-    double below = std::numeric_limits<double>::infinity();   ///< open, unless `closed`
-    bool closed = false;                                      ///< `below` itself is allowed
-    bool zero = false;                                        ///< 0 is allowed as well
-    const char* remedy = "";                                  ///< ends the message
-};
+using abut::Limits;
 
 /// A finite number, without surplus characters, within the limits; `option` is what the message names.
 [[nodiscard]] double parse_number(const std::string& text, const std::string& option, const Limits& limits);
@@ -29,6 +21,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& option, double& value,
 CLI::Option* add_body_values(CLI::App& app, const std::string& option, BodyValues& values, const std::string& help,
                              const Limits& limits);
 CLI::Option* add_count(CLI::App& app, const std::string& option, int& value, const std::string& help, int least);
+/// An option of a table as its flag; its default is the present value.
+CLI::Option* add_option(CLI::App& app, const BoundOption& option);
 /// Numbers separated by commas; no default is shown of an empty list.
 CLI::Option* add_numbers(CLI::App& app, const std::string& option, std::vector<double>& values, const std::string& help,
                          const Limits& limits);

@@ -1,4 +1,5 @@
 #pragma once
+#include "abut/contact/option_table.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "apps/support/choices.hpp"
 
@@ -10,6 +11,6 @@ inline const Choices<geometry::BroadPhase> broad_phases = [] {
     for (const geometry::BroadPhase method : geometry::broad_phases()) choices.emplace_back(geometry::name(method), method);
     return choices;
 }();
-inline const Choices<geometry::AreaMethod> areas = choices_of(run::area_words);
+inline const Choices<geometry::AreaMethod> areas = choices_of(contact::area_words);
 
 }  // namespace abut::apps

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "abut/base/error.hpp"
+#include "abut/run/option_table.hpp"
 
 namespace abut::apps {
 namespace {

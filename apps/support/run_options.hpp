@@ -11,7 +11,7 @@ namespace abut::apps {
 /// --ranks, --rebalance, --rebalance-above.
 void add_ranks_options(CLI::App& app, run::RunOptions& options);
 
-/// Groups of options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of
+/// Groups of options, from run::run_options; their defaults are the present values of `options`. `default_of_time` says in --help what the end of
 /// the run is by default.
 void add_time_options(CLI::App& app, run::RunOptions& options, const std::string& default_of_time);
 void add_contact_options(CLI::App& app, run::RunOptions& options);

@@ -14,6 +14,7 @@
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/frames.hpp"
+#include "abut/run/option_table.hpp"
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/verdict.hpp"
@@ -153,7 +154,9 @@ py::dict simulate(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material
         } else {
             run::ResultFiles<Dim> files(options, "python", "bodies");
             run::Observers<Dim> both{files, python};
-            result.emplace(run::simulate<Dim>(scene, options, both));
+            std::optional<run::Checkpoint> from;
+            if (options.resume) from = std::move(files.last_checkpoint().checkpoint);
+            result.emplace(run::simulate<Dim>(scene, options, both, from ? &*from : nullptr));
             files.finish(scene, *result);
         }
     }
@@ -295,6 +298,15 @@ private:
     mutable std::atomic_flag in_use_{};
 };
 
+/// Whether an option has a meaning for steps that Python asks for one by one.
+bool is_of_memm(const OptionFacts& option) {
+    const auto is_among = [&](const std::vector<std::string>& words, const std::string& word) {
+        return std::ranges::find(words, word) != words.end();
+    };
+    return option.table != "output" && !is_among({"time", "steps", "threads", "integrator"}, option.name) &&
+           (option.schemes.empty() || is_among(option.schemes, "memm"));
+}
+
 template <int Dim>
 std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vector<solid::Material>& materials,
                                      const py::object& velocity, const py::object& acceleration,
@@ -305,9 +317,9 @@ std::unique_ptr<Memm<Dim>> make_memm(const mesh::Mesh<Dim>& mesh, const std::vec
     run::Scene<Dim> scene = scene_of<Dim>(
         {mesh, materials, velocity, acceleration, held, rollers, traction, displacement, added_velocity, contact, {}});
     for (const std::string& group : outside) scene.solid.boundary.traction.push_back({.group = group, .from_outside = true});
-    for (const char* name : {"time", "steps", "interval", "frames", "out", "threads", "integrator", "levels",
-                             "contact_margin", "contact_levels", "gauge"})
-        if (given.contains(name)) throw py::type_error("memm takes no '" + std::string(name) + "', which is for simulate");
+    for (const auto& option : run::run_options())
+        if (given.contains(option.name.c_str()) && !is_of_memm(option))
+            throw py::type_error("memm takes no '" + option.name + "', which is for simulate");
     const run::RunOptions options = options_of(given);
     const py::gil_scoped_release release;
     return std::make_unique<Memm<Dim>>(std::move(scene), options);
@@ -319,8 +331,7 @@ constexpr const char* scene_text =
     "same shape; held: {group: displacement [m]}; rollers: groups held along their normals; traction: {group: traction "
     "[Pa]}; "
     "displacement(x), added_velocity(x): at the start, by position; contact: False lets bodies pass through each other. "
-    "Options are those of the programs' command lines, with _ for -: time, steps, cfl, dt, integrator, filter, restart, "
-    "kinematics ('floating' lets all bodies turn), law (of contact), ...";
+    "Options, those of the command line of abut run with _ for -:\n";
 
 template <int Dim>
 void add_dimension(py::module_& module, const std::string& suffix) {
@@ -365,14 +376,14 @@ void add_dimension(py::module_& module, const std::string& suffix) {
              "(counters), verdict (a text), good (whether it is), warnings (texts), seconds. "
              "look(state): called at the start and after each step; True makes the next one the last. energy_scale: [J], "
              "by default the largest energy in play so far. out: a folder for energy.csv, pictures and the VTU series. ") +
-         scene_text)
+         scene_text + option_text())
             .c_str());
     module.def("memm", &make_memm<Dim>, "mesh"_a, "materials"_a, "velocity"_a, py::kw_only(), "acceleration"_a = py::none(),
                "held"_a = none, "rollers"_a = std::vector<std::string>(), "traction"_a = none, "displacement"_a = py::none(),
                "added_velocity"_a = py::none(), "contact"_a = true, "outside"_a = std::vector<std::string>(),
                (std::string("The same under MEMM, to be taken step by step; options of steps and files are for simulate. "
                             "outside: groups that set_traction loads. ") +
-                scene_text)
+                scene_text + option_text())
                    .c_str());
 }
 

@@ -70,5 +70,7 @@ run::Scene<Dim> scene_of(const SceneArguments<Dim>& given) {
 
 /// Options of a run by the names of the command line, - written as _. Throws for a name or a word that is not known.
 run::RunOptions options_of(const py::dict& given);
+/// All of them, one per line, with words or unit and default.
+std::string option_text();
 
 }  // namespace abut::python

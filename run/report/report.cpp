@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "abut/run/option_table.hpp"
 #include "abut/run/report/curves.hpp"
 #include "abut/run/report/figures.hpp"
 #include "abut/run/report/style.hpp"

@@ -284,6 +284,26 @@ class Runs(unittest.TestCase):
         exact = -0.5 * g * (h**2 - (h - mesh.centroids[:, 2])**2)
         self.assertLess(np.abs(result["displacement"][:, 2] - exact).max(), 0.1 * 0.5 * g)  # it begins at its rest, and stays there
 
+    def test_presets_stand_below_other_options_and_switches_take_words_and_truths(self):
+        mesh = two_boxes()
+        of = lambda **options: solid.simulate(mesh, **falling(), steps=3, **options)["ledger"]["pseudo_energy"].tolist()
+        self.assertEqual(of(preset="fast"), of(cfl=0.99, events=False))
+        self.assertEqual(of(preset="exact", cfl=0.9), of(filter="neutral"))
+        self.assertEqual(of(events="off"), of(events=False))
+        self.assertEqual(of(broad_phase="brute_force", self_contact="off"), of())
+
+    def test_a_run_in_python_goes_on_from_its_checkpoint(self):
+        mesh = two_boxes()
+        with tempfile.TemporaryDirectory() as folder:
+            run = lambda name, **more: solid.simulate(mesh, **falling(), steps=40, out=f"{folder}/{name}", frames=0,
+                                                      interval=1, checkpoint_steps=10, **more)
+            whole = run("whole")
+            seen = []
+            run("part", look=lambda state: seen.append(state.steps) or state.steps == 25)
+            rest = run("part", resume=True)
+            self.assertEqual(rest["ledger"]["pseudo_energy"][-1], whole["ledger"]["pseudo_energy"][-1])
+            np.testing.assert_array_equal(rest["displacement"], whole["displacement"])
+
     def test_errors_carry_their_facts(self):
         mesh = two_boxes()
         with self.assertRaises(abut.BadInput) as raised:
@@ -294,6 +314,9 @@ class Runs(unittest.TestCase):
         for error, text, options in ((TypeError, "no option 'tim'; there are .*time", dict(tim=1.0)),
                                      (ValueError, "integrator: 'euler' is not known; there are 'memm'", dict(integrator="euler")),
                                      (TypeError, "steps cannot be 'many'", dict(steps="many")),
+                                     (ValueError, "frames: -1; 0 or more is allowed", dict(frames=-1)),
+                                     (ValueError, "events: 'maybe' is not known; there are 'on', 'off'", dict(events="maybe")),
+                                     (ValueError, "preset: 'best' is not known; there are 'fast'", dict(preset="best")),
                                      (abut.BadInput, "1 materials", dict(materials=[solid.Material()]))):
             with self.assertRaisesRegex(error, text):
                 solid.simulate(mesh, **{**falling(), **options})
@@ -302,7 +325,7 @@ class Runs(unittest.TestCase):
         for name in ("out", "time", "steps", "threads", "integrator", "levels"):
             with self.assertRaisesRegex(TypeError, f"memm takes no '{name}'"):
                 solid.memm(mesh, **falling(), **{name: 1})
-        with self.assertRaisesRegex(abut.BadInput, "restart.*: -5 steps"):
+        with self.assertRaisesRegex(ValueError, "restart: -5; 0 or more is allowed"):
             solid.memm(mesh, **falling(), restart=-5)
         with self.assertRaisesRegex(abut.BadInput, r"^run\.time \(time\), run\.dt \(dt\): "):  # keys, and the words of Python
             solid.simulate(mesh, **falling())

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "abut/input/grammar.hpp"
+#include "abut/run/option_table.hpp"
 #include "abut/run/user_words.hpp"
 
 TEST_CASE("the document shows the grammar that scenes are read by", "[input][grammar]") {
@@ -12,13 +13,17 @@ TEST_CASE("the document shows the grammar that scenes are read by", "[input][gra
     CHECK(text.find(abut::input::grammar()) != std::string::npos);
 }
 
-TEST_CASE("what messages call an option by is a key of that table", "[input][grammar]") {
+TEST_CASE("every option that scenes have is a key of its table, and messages call it so", "[input][grammar]") {
     const std::string grammar = abut::input::grammar();
-    for (const auto& [table, key] : abut::run::option_keys()) {
-        CAPTURE(table, key);
-        const auto begin = grammar.find("### [" + std::string(table) + "]\n");
+    for (const auto& option : abut::run::run_options()) {
+        if (!option.places.scene) continue;
+        const std::string& table = option.table;
+        CAPTURE(table, option.name);
+        const auto begin = grammar.find("### [" + table + "]\n");
         REQUIRE(begin != std::string::npos);
-        const auto found = grammar.find("| `" + std::string(key) + "` |", begin);
+        const auto found = grammar.find("| `" + option.scene_key() + "` |", begin);
         CHECK(found < grammar.find("### [", begin + 1));
+        if (option.kind != abut::OptionKind::path)
+            CHECK(abut::run::with_keys(option.flag()) == table + "." + option.scene_key() + " (" + option.flag() + ")");
     }
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "abut/run/option_table.hpp"
 #include "apps/support/terminal.hpp"
 #include "programs/program.hpp"
 
@@ -305,4 +306,23 @@ TEST_CASE("the manual page has all commands, options and topics, and troff finds
                                   errors.string())
                           .c_str()) == 0);
     CHECK(read_text(errors).empty());
+}
+
+TEST_CASE("every option of a run is in help, manual page and completions, and in keys where scenes have it",
+          "[programs][asked][options]") {
+    const std::string help = answer("run --help"), page = answer("man"), keys = answer("keys");
+    const std::string bash = answer("completion bash"), zsh = answer("completion zsh"), fish = answer("completion fish");
+    for (const auto& option : run::run_options()) {
+        CAPTURE(option.name);
+        if (option.places.scene) CHECK_THAT(keys, Contains("| `" + option.scene_key() + "` |"));
+        if (!option.places.command_line) continue;
+        const std::string flag = option.flag();
+        std::string in_troff;
+        for (const char c : flag) in_troff += c == '-' ? "\\-" : std::string(1, c);
+        CHECK(options_of(help).contains(flag));
+        CHECK_THAT(page, Contains(".TP\n\\fB" + in_troff + "\\fR"));
+        CHECK_THAT(bash, Contains(" " + flag));
+        CHECK_THAT(zsh, Contains("*" + flag + "["));
+        CHECK_THAT(fish, Contains(" -l " + flag.substr(2)));
+    }
 }

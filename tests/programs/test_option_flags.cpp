@@ -1,0 +1,65 @@
+// Options of a table on a command line.
+#include <CLI/CLI.hpp>
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "apps/support/command_line.hpp"
+#include "support/dummy_options.hpp"
+
+namespace {
+
+using namespace abut;
+using Catch::Contains;
+
+void add_soil(CLI::App& app, test::Soil& soil) {
+    for (const Option<test::Soil>& option : test::soil_options()) apps::add_option(app, bound(option, soil));
+}
+
+test::Soil parsed(const std::string& line) {
+    CLI::App app;
+    test::Soil soil;
+    add_soil(app, soil);
+    app.parse(line, false);
+    return soil;
+}
+
+}  // namespace
+
+TEST_CASE("every option of a table is a flag that help explains with unit, words and default", "[programs][options]") {
+    CLI::App app;
+    test::Soil soil;
+    soil.layers = 4;
+    add_soil(app, soil);
+    const auto check = [&](const char* flag, const char* takes, const char* text, const char* by_default) {
+        CAPTURE(flag);
+        const CLI::Option* option = app.get_option(flag);
+        if (*takes != '\0') CHECK(option->get_type_name() == takes);
+        CHECK(option->get_description() == text);
+        CHECK(option->get_default_str() == by_default);
+        CHECK(option->get_group() == "Soil");
+    };
+    check("--soil-stiffness", "X", "of the soil [Pa]", "2.5");
+    check("--soil-layers", "N", "layers of the soil [-]", "4");  // the present value
+    check("--is-wet", "", "it has rained", "off");
+    check("--drains", "on|off", "water leaves", "on");
+    check("--grain", "fine|coarse", "size of the grains", "coarse");
+    check("--map", "DIR", "where it lies", "nowhere");
+}
+
+TEST_CASE("flags of options reach their members", "[programs][options]") {
+    const test::Soil soil = parsed("--soil-stiffness 1.5 --soil-layers 9 --is-wet --drains off --grain fine --map here");
+    CHECK(soil.stiffness == 1.5);
+    CHECK(soil.layers == 9);
+    CHECK(soil.is_wet);
+    CHECK_FALSE(soil.drains);
+    CHECK(soil.grain == test::Grain::fine);
+    CHECK(soil.map == "here");
+}
+
+TEST_CASE("a flag refuses what the table does not allow", "[programs][options]") {
+    CHECK_THROWS_WITH(parsed("--soil-stiffness 0"), Contains("0 Pa is not allowed") && Contains("above 0 Pa"));
+    CHECK_THROWS_WITH(parsed("--soil-layers 10"), Contains("from 1 to 9"));
+    CHECK_THROWS_WITH(parsed("--grain fien"), Contains("fine, coarse"));
+    CHECK_THROWS_WITH(parsed("--drains maybe"), Contains("on, off"));
+}
