@@ -13,27 +13,50 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/contact/nodal_contact.hpp"
+#include "abut/contact/option_table.hpp"
 #include "arguments.hpp"
 #include "handle.hpp"
+#include "option_fields.hpp"
 
 using namespace abut;
 using namespace abut::c_layer;
 
 namespace {
 
-/// What else is wrong with the options is left to NodalContact, which knows them by the same names.
+OptionValue value_of(const abut_options& options, const OptionField& field) {
+    return std::visit(
+        [&](auto member) {
+            if constexpr (std::is_same_v<decltype(member), std::int32_t abut_options::*>)
+                return OptionValue(options.*member != 0);
+            else
+                return OptionValue(options.*member);
+        },
+        field.field);
+}
+
+void set_value(abut_options& options, const OptionField& field, const OptionValue& value) {
+    std::visit(
+        [&](auto member) {
+            using Field = std::remove_reference_t<decltype(options.*member)>;
+            std::visit(
+                [&](const auto& held) {
+                    if constexpr (std::is_arithmetic_v<std::decay_t<decltype(held)>>)
+                        options.*member = static_cast<Field>(held);
+                },
+                value);
+        },
+        field.field);
+}
+
 contact::NodalOptions nodal_options(const abut_options& given, std::int32_t index_base) {
-    if (given.max_pairs < 0)
-        throw BadInput("abut_options: max_pairs is " + std::to_string(given.max_pairs) + "; 0 and more are allowed.",
-                       {.value = static_cast<double>(given.max_pairs), .allowed = 0.0});
     contact::NodalOptions options;
-    options.search.skin = given.skin;
-    options.search.largest_motion = given.largest_motion;
-    options.search.limits.pairs = given.max_pairs;
-    options.compression_warning = given.compression_warning;
-    options.compression_limit = given.compression_limit;
-    options.facing = {.full = given.facing_full, .none = given.facing_none};
-    options.events = given.events != 0;
+    const contact::NodalOptions plain;
+    for (const OptionField& field : option_fields) {
+        const Option<contact::NodalOptions>& option = named(contact::nodal_options(), field.name);
+        const OptionValue value = value_of(given, field);
+        check_value("abut_options: ", option, value, option.get(plain));
+        option.set(options, value);
+    }
     if (given.wanted != nullptr)
         options.wanted = [given, index_base](contact::Face face_1, contact::Face face_2) {
             return call_host([&] {
@@ -101,19 +124,10 @@ std::optional<PointsSpan<Dim>> force_of(const abut_array& force, const contact::
 void abut_options_init(abut_options* options) {
     if (options == nullptr) return;
     const contact::NodalOptions defaults;
-    *options = {.struct_size = sizeof(abut_options),
-                .skin = defaults.search.skin,
-                .largest_motion = defaults.search.largest_motion,
-                .max_pairs = defaults.search.limits.pairs,
-                .compression_warning = defaults.compression_warning,
-                .compression_limit = defaults.compression_limit,
-                .facing_full = defaults.facing.full,
-                .facing_none = defaults.facing.none,
-                .events = defaults.events ? 1 : 0,
-                .wanted = nullptr,
-                .cancel = nullptr,
-                .log = nullptr,
-                .user = nullptr};
+    *options = {};
+    options->struct_size = sizeof(abut_options);
+    for (const OptionField& field : option_fields)
+        set_value(*options, field, named(contact::nodal_options(), field.name).get(defaults));
 }
 
 const char* abut_version(void) { return ABUT_VERSION; }

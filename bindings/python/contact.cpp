@@ -7,10 +7,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "abut.h"
 #include "contact_arguments.hpp"
+#include "option_fields.hpp"
 
 using namespace abut::python;
 
@@ -32,25 +35,63 @@ py::array_t<Entry> entries_of(const Ask& ask, std::int64_t expected = 0) {
     }
 }
 
+using abut::c_layer::option_fields;
+using abut::c_layer::OptionField;
+
+void take_option(abut_options& options, const std::string& name, const py::handle& value) {
+    std::string names;
+    for (const OptionField& field : option_fields) {
+        names += (names.empty() ? "" : ", ") + std::string(field.name);
+        if (name != field.name) continue;
+        try {
+            std::visit(
+                [&](auto member) {
+                    using Field = std::remove_reference_t<decltype(options.*member)>;
+                    if constexpr (std::is_same_v<Field, std::int32_t>)
+                        options.*member = py::cast<bool>(value) ? 1 : 0;
+                    else
+                        options.*member = py::cast<Field>(value);
+                },
+                field.field);
+        } catch (const py::cast_error&) {
+            throw py::type_error(name + " cannot be " + std::string(py::str(py::repr(value))));
+        }
+        return;
+    }
+    throw py::type_error("there is no option '" + name + "'; there are " + names + ", wanted, cancel, log");
+}
+
+/// "skin=0.0, largest_motion=1.0, ..."
+std::string defaults_of_options() {
+    abut_options defaults;
+    abut_options_init(&defaults);
+    std::string text;
+    for (const OptionField& field : option_fields) {
+        const py::object value = std::visit(
+            [&](auto member) {
+                using Field = std::remove_reference_t<decltype(defaults.*member)>;
+                if constexpr (std::is_same_v<Field, std::int32_t>)
+                    return py::object(py::bool_(defaults.*member != 0));
+                else
+                    return py::object(py::cast(defaults.*member));
+            },
+            field.field);
+        text += (text.empty() ? "" : ", ") + std::string(field.name) + "=" + std::string(py::str(py::repr(value)));
+    }
+    return text;
+}
+
 class NodalContact {
 public:
     NodalContact(const py::array& nodes, const py::object& faces, const py::object& body, const Packed<double>& depth,
-                 const Packed<double>& stiffness, const py::object& offsets, double skin, double largest_motion,
-                 std::int64_t max_pairs, double compression_warning, double compression_limit,
-                 std::pair<double, double> facing, bool events, py::object wanted, py::object cancel, py::object log)
+                 const Packed<double>& stiffness, const py::object& offsets, py::object wanted, py::object cancel,
+                 py::object log, const py::kwargs& given)
         : dim_(dimension_of(nodes)),
           callbacks_(new Callbacks{std::move(wanted), std::move(cancel), std::move(log), std::nullopt, {}}) {
         const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
         abut_options options;
         abut_options_init(&options);
-        options.skin = skin;
-        options.largest_motion = largest_motion;
-        options.compression_warning = compression_warning;
-        options.compression_limit = compression_limit;
-        options.facing_full = facing.first;
-        options.facing_none = facing.second;
-        options.events = events ? 1 : 0;
-        options.max_pairs = max_pairs;
+        for (const auto& [name, value] : given) take_option(options, py::cast<std::string>(name), value);
         callbacks_->put_into(options);
         const abut_array rest = view_of(nodes, dim_, "nodes");
         abut_contact* handle = nullptr;
@@ -213,10 +254,7 @@ PYBIND11_MODULE(_contact, module) {
     exceptions->internal = exception(module, "InternalError", base, "A fault of Abut, or of a callback.");
 
     using namespace py::literals;
-    abut_options defaults;
-    abut_options_init(&defaults);
-    py::class_<NodalContact>(
-        module, "NodalContact",
+    const std::string contact_text =
         "Contact of bodies whose surfaces are made of nodes, and whose faces may turn.\n\n"
         "nodes: (n_nodes, dim) at rest; faces: (n_faces, corners), two, three or four of them, or flat with "
         "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
@@ -224,14 +262,12 @@ PYBIND11_MODULE(_contact, module) {
         "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
         "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is "
         "ever freed while they refer to "
-        "it.")
+        "it. Options are those of abut_options in C: " +
+        defaults_of_options();
+    py::class_<NodalContact>(module, "NodalContact", contact_text.c_str())
         .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
-                      const py::object&, double, double, std::int64_t, double, double, std::pair<double, double>, bool,
-                      py::object, py::object, py::object>(),
+                      const py::object&, py::object, py::object, py::object, const py::kwargs&>(),
              "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a, "offsets"_a = py::none(), py::kw_only(),
-             "skin"_a = defaults.skin, "largest_motion"_a = defaults.largest_motion, "max_pairs"_a = defaults.max_pairs,
-             "compression_warning"_a = defaults.compression_warning, "compression_limit"_a = defaults.compression_limit,
-             "facing"_a = std::pair(defaults.facing_full, defaults.facing_none), "events"_a = defaults.events != 0,
              "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none())
         .def("step", &NodalContact::step, "dt"_a, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
              "From x_0 to x_1 within dt [s], > 0 (without friction nothing depends on it); adds the forces to out, which "

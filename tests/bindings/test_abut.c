@@ -325,7 +325,7 @@ static void what_is_wrong_is_refused_by_name(void) {
     abut_options_init(&options);
     options.max_pairs = -5;
     CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT &&
-          strstr(error.message, "max_pairs is -5; 0 and more"));
+          strstr(error.message, "max_pairs is -5; 0 or more"));
     abut_options_init(&options);
     options.skin = -1.0;
     CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "skin is -1"));

@@ -210,8 +210,15 @@ class Contact(unittest.TestCase):
                                   compression_limit=-2.0).items():
             with self.assertRaisesRegex(abut.BadInput, f"{option} is "):
                 made(**{option: value})
-        with self.assertRaisesRegex(abut.BadInput, "facing"):
-            made(facing=(0.5, -0.5))
+        for option, value in dict(facing_full=0.5, facing_none=0.5).items():
+            with self.assertRaisesRegex(abut.BadInput, f"{option} is "):
+                made(**{option: value})
+        with self.assertRaisesRegex(abut.BadInput, "facing.full < facing.none"):
+            made(facing_full=-0.2, facing_none=-0.5)
+        with self.assertRaisesRegex(TypeError, "no option 'facing'; there are skin, .*facing_full"):
+            made(facing=(-0.6, -0.2))
+        with self.assertRaisesRegex(TypeError, "skin cannot be 'thick'"):
+            made(skin="thick")
 
     def test_surfaces_that_look_inwards_warn_where_there_is_no_log(self):
         with self.assertWarnsRegex(RuntimeWarning, "body 1 close a volume and all look into it"):

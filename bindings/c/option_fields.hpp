@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+#include "abut.h"
+
+/// The fields of abut_options that are options of contact::nodal_options, by the names that they have there. That none is
+/// missing, their order and their defaults are tested.
+namespace abut::c_layer {
+
+struct OptionField {
+    const char* name;
+    std::variant<double abut_options::*, std::int64_t abut_options::*, std::int32_t abut_options::*> field;
+};
+
+inline constexpr OptionField option_fields[] = {{"skin", &abut_options::skin},
+                                                {"largest_motion", &abut_options::largest_motion},
+                                                {"max_pairs", &abut_options::max_pairs},
+                                                {"compression_warning", &abut_options::compression_warning},
+                                                {"compression_limit", &abut_options::compression_limit},
+                                                {"facing_full", &abut_options::facing_full},
+                                                {"facing_none", &abut_options::facing_none},
+                                                {"events", &abut_options::events}};
+
+}  // namespace abut::c_layer
