@@ -95,7 +95,7 @@ struct Run {
     solid::Solid<3> solid;
     dynamics::Memm<solid::Solid<3>> scheme;
 
-    Run(const mesh::Mesh<3>& mesh, const Choices& choices, double dt, const dynamics::Ranks* ranks)
+    Run(const mesh::Mesh<3>& mesh, const Choices& choices, double dt, const dynamics::Ranks& ranks)
         : solid(mesh, options_of(choices), ranks),
           scheme(solid, std::vector<double>(solid.size(), 0.0), momentum_of(solid, choices), dt) {}
 
@@ -146,9 +146,9 @@ void in_turn(const ranks::Communicator& all, const Work& work) {
 /// On rank 0, the same run without other ranks: it must have the same bits.
 void check_bits(const Shared& shared, const Choices& choices, double dt, const Run& run) {
     const std::vector<double> q = shared.points.collect(run.scheme.q(), 3);
-    dynamics::agreed(&shared.points, [&] {
+    dynamics::agreed(shared.points, [&] {
         if (shared.all.rank() != 0) return;
-        Run alone(shared.whole, choices, dt, nullptr);
+        Run alone(shared.whole, choices, dt, dynamics::one_rank());
         alone.go(choices.steps);
         const auto expected = alone.scheme.q();
         if (q.size() != expected.size() || std::memcmp(q.data(), expected.data(), q.size() * sizeof(double)) != 0)
@@ -212,12 +212,13 @@ Times measure(const Shared& shared, const Choices& choices, double dt, Run& run,
         times.product = time_operator(run.solid, shared.part.mesh.n_cells(), choices.repetitions);
         times.steps = time_steps(choices, [&] {
             recorded.replay();
-            return std::make_unique<Run>(shared.part.mesh, choices, dt, &recorded);
+            return std::make_unique<Run>(shared.part.mesh, choices, dt, recorded);
         });
         if (shared.all.rank() != 0) return;
         solid::Solid<3> alone(shared.whole, options_of(choices));
         times.product_alone = time_operator(alone, shared.whole.n_cells(), choices.repetitions);
-        times.steps_alone = time_steps(choices, [&] { return std::make_unique<Run>(shared.whole, choices, dt, nullptr); });
+        times.steps_alone =
+            time_steps(choices, [&] { return std::make_unique<Run>(shared.whole, choices, dt, dynamics::one_rank()); });
     });
     return times;
 }
@@ -313,7 +314,7 @@ int run(int argc, char** argv) {
         dt = 0.9 * dynamics::stable_step(of_part).dt;
     }
     benchmark::RecordedRanks recorded(shared.points, static_cast<std::size_t>(shared.part.mesh.n_cells()));
-    Run shared_run(shared.part.mesh, choices, dt, &recorded);
+    Run shared_run(shared.part.mesh, choices, dt, recorded);
     const ranks::Traffic before = shared.points.traffic();
     shared_run.go(choices.steps);
     const ranks::Traffic after = shared.points.traffic();

@@ -27,6 +27,7 @@ public:
     static constexpr bool takes_after_step = false;
     static constexpr bool takes_constraints = false;
     static constexpr bool takes_node_restart = false;
+    static constexpr const char* for_one_rank = "an implicit scheme";
 
     /// Starts from q and p at the same time. The system must outlive the integrator. Throws BadInput if dt is
     /// not > 0 and finite, the sizes disagree, a value is not finite, or the system does not allow this mean. `step` throws
@@ -35,7 +36,6 @@ public:
         : Integrator<EnergyMomentum, S>(system, std::move(q), dt),
           mean_force_(system, mean),
           matrix_(system.size(), mass_entries(system.inverse_mass())) {
-        refuse_ranks(ranks_of(system), "an implicit scheme");
         for (auto* array : {&residual_, &change_, &q_on_path_}) array->resize(system.size());
         this->begin(p);
     }

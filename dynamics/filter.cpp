@@ -137,6 +137,7 @@ std::vector<Vector<Dim>> detail::parasitic_part(const ContactPatch<Dim>& patch, 
 
 template <int Dim>
 void detail::gather_points(const Ranks& ranks, std::span<const std::size_t> own, std::span<PatchPoint<Dim>> points) {
+    if (ranks.is_one()) return;
     constexpr std::size_t n_values = 2 + 3 * Dim;  // place among the points, mass, vectors
     std::vector<double> mine;
     for (const std::size_t i : own) {

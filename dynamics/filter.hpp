@@ -95,7 +95,7 @@ public:
                                          .momentum = before[i],
                                          .parasitic = after[i] - before[i] - dt * force_[k]};
         }
-        if (const Ranks* ranks = ranks_of(system_)) detail::gather_points<Dim>(*ranks, own_position_, points_);
+        detail::gather_points<Dim>(ranks_of(system_), own_position_, points_);
         for (const ContactPatch<Dim>& patch : patches) {
             const auto removed = detail::parasitic_part<Dim>(patch, numbers_, points_, kappa_);
             for (std::size_t k = 0, own = 0; k < patch.points.size(); ++k) {
@@ -116,15 +116,10 @@ private:
         std::sort(numbers_.begin(), numbers_.end());
         own_.clear();
         own_position_.clear();
-        const Ranks* ranks = ranks_of(system_);
+        const Ranks& ranks = ranks_of(system_);
         for (std::size_t k = 0; k < numbers_.size(); ++k) {
-            std::int32_t point = numbers_[k];
-            if (ranks) {
-                const auto here = ranks->numbers();
-                const auto found = std::lower_bound(here.begin(), here.end(), numbers_[k]);
-                if (found == here.end() || *found != numbers_[k]) continue;
-                point = static_cast<std::int32_t>(found - here.begin());
-            }
+            const std::int32_t point = ranks.point_with(numbers_[k]);
+            if (point < 0) continue;
             own_.push_back(point);
             own_position_.push_back(k);
         }

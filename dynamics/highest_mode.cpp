@@ -16,17 +16,13 @@ inline constexpr int least_iterations = 16, most_iterations = 1000;
 inline constexpr double exhausted = 1e-12;
 
 /// The same numbers for any number of ranks: each takes those of its points.
-void start(std::span<double> x, const Ranks* ranks) {
+void start(std::span<double> x, const Ranks& ranks) {
     std::minstd_rand random(1);
     const auto next = [&] { return static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5; };
-    if (!ranks) {
-        for (double& value : x) value = next();
-        return;
-    }
-    const auto dimension = static_cast<std::size_t>(ranks->dimension());
+    const auto dimension = static_cast<std::size_t>(ranks.dimension());
     std::int32_t point = 0;
     for (std::size_t i = 0; i < x.size(); i += dimension) {
-        const std::int32_t number = ranks->numbers()[i / dimension];
+        const std::int32_t number = ranks.number_of(i / dimension);
         random.discard(dimension * static_cast<std::size_t>(number - point));
         for (std::size_t j = 0; j < dimension; ++j) x[i + j] = next();
         point = number + 1;
@@ -39,15 +35,12 @@ void start(std::span<double> x, const Ranks* ranks) {
 /// M is in units of its least mass, so that another unit of mass, a power of two of this one, changes no bit of a root.
 HighestMode highest_mode(std::span<const double> inverse_mass,
                          const std::function<void(std::span<const double> x, std::span<double> product)>& stiffness,
-                         const Ranks* ranks) {
-    const auto product = [&](std::span<const double> a, std::span<const double> b) {
-        return ranks ? dot_product_over(*ranks, a, b) : dot_product(a, b);
-    };
+                         const Ranks& ranks) {
+    const auto product = [&](std::span<const double> a, std::span<const double> b) { return dot_product_over(ranks, a, b); };
     const auto each = [n = static_cast<std::ptrdiff_t>(inverse_mass.size())](const auto& body) { parallel_each(n, body); };
     // `other` holds v_{k-1}, then side_k v_{k+1}.
     std::vector<double> root(inverse_mass.size()), v(root.size()), other(root.size(), 0.0), x(root.size()), k_x(root.size());
-    double unit = largest(std::ssize(inverse_mass), [&](std::ptrdiff_t i) { return inverse_mass[i]; });
-    if (ranks) unit = ranks->largest(unit);
+    const double unit = ranks.largest(largest(std::ssize(inverse_mass), [&](std::ptrdiff_t i) { return inverse_mass[i]; }));
     if (unit == 0.0) return {.quotient = 0.0, .change = 0.0, .iterations = 0};  // nothing is free
     each([&](std::ptrdiff_t i) { root[i] = std::sqrt(inverse_mass[i] / unit); });
     start(v, ranks);

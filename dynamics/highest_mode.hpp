@@ -32,12 +32,12 @@ inline constexpr double lower_bound_margin = 1.02;  ///< of omega: a Rayleigh qu
 
 /// The iteration of Lanczos from a fixed start, without reorthogonalization: at least 16 products and until the quotient has
 /// settled, fewer where they span nothing new before, at most 1,000. `stiffness` sets product = K x; M is diagonal, 1/m in
-/// `inverse_mass` (n) [1/kg], 0 for a degree of freedom that is held. `ranks`: whose values these are a part of; null: all
-/// are here. C. Lanczos, J. Res. Natl. Bur. Stand. 45 (1950) 255-282; docs/method.md, Space, says how near it comes.
+/// `inverse_mass` (n) [1/kg], 0 for a degree of freedom that is held. `ranks`: whose values these are a part of.
+/// C. Lanczos, J. Res. Natl. Bur. Stand. 45 (1950) 255-282; docs/method.md, Space, says how near it comes.
 [[nodiscard]] HighestMode highest_mode(
     std::span<const double> inverse_mass,
     const std::function<void(std::span<const double> x, std::span<double> product)>& stiffness,
-    const Ranks* ranks = nullptr);
+    const Ranks& ranks = one_rank());
 
 /// The same of a system.
 template <StiffnessProductSystem S>

@@ -49,6 +49,7 @@ void check_start(std::size_t size, std::span<const double> q, std::span<const do
 ///     has_half_steps                      whether its momenta are at half steps
 ///     takes_constraints                whether it runs a ConstrainedSystem that has constraints
 ///     takes_after_step, takes_node_restart    whether `set_after_step` and `set_node_restart` are offered
+///     for_one_rank (optional)     where it is made for one rank alone: its name in the message that refuses others
 /// and, if it keeps numbers beside those of this class, `of_scheme()` that returns them and `set_of_scheme(span)`; if it keeps
 /// what follows from the momenta, `momenta_changed()`.
 /// Static polymorphism: no virtual calls. After an exception from `step`, except for a bad dt, the run is over unless the
@@ -129,8 +130,7 @@ public:
         if constexpr (requires(Scheme & s) { s.momenta_changed(); }) scheme().momenta_changed();
     }
 
-    /// Those of the system; null where it runs on one rank.
-    [[nodiscard]] const Ranks* ranks() const { return ranks_of(system_); }
+    [[nodiscard]] const Ranks& ranks() const { return ranks_of(system_); }  ///< of the system
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] double dt() const { return dt_; }
     [[nodiscard]] std::int64_t steps() const { return steps_; }
@@ -173,6 +173,7 @@ protected:
         detail::check_step(dt_);
         if constexpr (ConstrainedSystem<S> && !Scheme::takes_constraints)
             if (system_.has_constraints()) detail::refuse_constraints();
+        if constexpr (requires { Scheme::for_one_rank; }) refuse_ranks(ranks(), {{Scheme::for_one_rank}});
         agreed(ranks(), [&] { detail::check_start(system_.size(), q_, p); });
         for (auto* array : {&p_before_, &p_after_, &q_next_, &force_, &scratch_}) array->resize(q_.size());
         scheme().start(p);
@@ -195,8 +196,9 @@ protected:
     /// a . M^-1 b
     [[nodiscard]] double mass_product(std::span<const double> a, std::span<const double> b) const {
         if constexpr (requires { system_.ranks(); })
-            if (const Ranks* ranks = system_.ranks()) return mass_product_over(*ranks, a, system_.inverse_mass(), b);
-        return dynamics::mass_product(a, system_.inverse_mass(), b);
+            return mass_product_over(system_.ranks(), a, system_.inverse_mass(), b);
+        else
+            return dynamics::mass_product(a, system_.inverse_mass(), b);
     }
 
     S& system_;

@@ -6,6 +6,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/dynamics/sum_over.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -39,7 +40,7 @@ void for_each_value(Entry& entry, const Visit& visit) {
 template <int Dim, class Value, class Term>
 Value sum_of_points(const RunView<Dim>& run, const Value& zero, const Term& term) {
     const auto n = static_cast<std::ptrdiff_t>(run.q.size()) / Dim;
-    return run.ranks ? sum_over(*run.ranks, {}, n, zero, term) : ordered_sum(n, zero, term);
+    return sum_over(run.ranks, {}, n, zero, term);
 }
 
 }  // namespace
@@ -100,8 +101,7 @@ void detail::add_motion(LedgerEntry<Dim>& entry, const RunView<Dim>& run, std::s
     entry.rest_angular_momentum =
         sum_of_points(run, zero, [&](std::ptrdiff_t i) { return moment<Dim>(rest_position[i], run.momentum(i)); });
     const auto e_i = as_vectors<Dim>(e);
-    entry.parasitic = largest(std::ssize(u), [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; });
-    if (run.ranks) entry.parasitic = run.ranks->largest(entry.parasitic);
+    entry.parasitic = run.ranks.largest(largest(std::ssize(u), [&](std::ptrdiff_t i) { return e_i[i].norm() / mass[i]; }));
 }
 
 double detail::largest_angle(std::span<const double> angles) {

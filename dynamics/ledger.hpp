@@ -78,14 +78,14 @@ public:
           q(state.q),
           p_before(state.p_before),
           p_after(state.p_after),
-          ranks(nullptr) {}
+          ranks(one_rank()) {}
 
     std::int64_t steps;
     double time;                       ///< [s]
     std::span<const double> q;         ///< (n, Dim) [m]
     std::span<const double> p_before;  ///< p^{n-1/2} [kg m/s]
     std::span<const double> p_after;   ///< p^{n+1/2}
-    const Ranks* ranks;                ///< whose points these are a part of; null: all points are here
+    const Ranks& ranks;                ///< whose points these are a part of
     /// p^n = (p^{n-1/2} + p^{n+1/2})/2 of a point [kg m/s]
     [[nodiscard]] Vector<Dim> momentum(std::ptrdiff_t i) const {
         return 0.5 * (as_vectors<Dim>(p_before)[i] + as_vectors<Dim>(p_after)[i]);

@@ -7,8 +7,8 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
-#include "abut/dynamics/ranks.hpp"
 #include "abut/dynamics/sparse.hpp"
+#include "abut/dynamics/sum_over.hpp"
 
 namespace abut::dynamics {
 namespace {

@@ -38,13 +38,13 @@ public:
     static constexpr bool takes_after_step = false;
     static constexpr bool takes_constraints = false;
     static constexpr bool takes_node_restart = false;
+    static constexpr const char* for_one_rank = "a scheme with local steps";
 
     /// Starts from q and p at the same time, p^{-+1/2} = p -+ dt_i/2 F(q). The system must outlive the integrator.
     /// Throws BadInput if dt is not > 0 and finite, the sizes disagree, a value is not finite or the local
     /// steps do not fit. After an error in `step` q and p are of different times: the run is over.
     MemmAsync(S& system, std::vector<double> q, std::span<const double> p, double dt, LocalSteps steps)
         : Integrator<MemmAsync, S>(system, std::move(q), dt), steps_(std::move(steps)) {
-        refuse_ranks(ranks_of(system), "a scheme with local steps");
         detail::check_local_steps(steps_, system.size());
         dofs_.resize(steps_.parts.size());
         for (std::size_t i = 0; i < steps_.level.size(); ++i) dofs_[steps_.level[i]].push_back(i);

@@ -8,6 +8,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/parallel.hpp"
 #include "abut/dynamics/angular_velocity.hpp"
+#include "abut/dynamics/sum_over.hpp"
 
 namespace abut::dynamics {
 namespace {
@@ -86,8 +87,7 @@ private:
     template <class Value, class Term>
     Value sum(const Value& zero, const Term& term) const {
         const auto of_point = [&](std::ptrdiff_t at) -> Value { return term(points_[at]); };
-        return node_.ranks ? sum_over(*node_.ranks, among_all_, std::ssize(points_), zero, of_point)
-                           : ordered_sum(std::ssize(points_), zero, of_point);
+        return sum_over(node_.ranks, among_all_, std::ssize(points_), zero, of_point);
     }
     template <class A, class B>
     double product(const A& a, const B& b) const {
@@ -125,7 +125,7 @@ private:
 
 }  // namespace
 
-detail::PointsOfBodies::PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks* ranks) {
+detail::PointsOfBodies::PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks& ranks) {
     double last = -1.0;  // body that has points here
     agreed(ranks, [&] {
         const auto [lowest, highest] = std::ranges::minmax_element(body_of_points);
@@ -136,7 +136,7 @@ detail::PointsOfBodies::PointsOfBodies(std::span<const std::int32_t> body_of_poi
                            std::to_string(n) + " points. Give the body of each, counted from 0.");
         if (n > 0) last = *highest;
     });
-    const auto n_bodies = static_cast<std::size_t>((ranks ? ranks->largest(last) : last) + 1.0);
+    const auto n_bodies = static_cast<std::size_t>(ranks.largest(last) + 1.0);
     const auto body_of = [&](std::int32_t i) {
         return static_cast<std::size_t>(body_of_points[static_cast<std::size_t>(i)]);
     };
@@ -145,7 +145,7 @@ detail::PointsOfBodies::PointsOfBodies(std::span<const std::int32_t> body_of_poi
     std::ranges::stable_sort(points_, {}, body_of);
     for (std::size_t body = 0; body <= n_bodies; ++body)
         offset_.push_back(static_cast<std::size_t>(std::ranges::lower_bound(points_, body, {}, body_of) - points_.begin()));
-    if (ranks) find_among_all(*ranks);
+    if (!ranks.is_one()) find_among_all(ranks);
 }
 
 void detail::PointsOfBodies::find_among_all(const Ranks& ranks) {
@@ -165,7 +165,7 @@ void detail::PointsOfBodies::find_among_all(const Ranks& ranks) {
         of_body.first = before == 0 ? least : std::min(of_body.first, least);
         of_body.last = of_body.first + before + count;
     }
-    agreed(&ranks, [&] {
+    agreed(ranks, [&] {
         for (std::size_t body = 0; body < n_bodies(); ++body)
             for (const std::int32_t point : (*this)[body].points) {
                 const std::int32_t number = ranks.numbers()[static_cast<std::size_t>(point)];

@@ -34,7 +34,7 @@ class PointsOfBodies {
 public:
     /// Throws BadInput unless there are n bodies' numbers, none below 0; on several ranks, of which it is a call of all,
     /// also where the points of a body do not follow each other.
-    PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks* ranks);
+    PointsOfBodies(std::span<const std::int32_t> body_of_points, std::size_t n, const Ranks& ranks);
 
     /// Of all ranks.
     [[nodiscard]] std::size_t n_bodies() const { return offset_.size() - 1; }
@@ -66,7 +66,7 @@ struct NodeView {
     std::span<Vector<Dim>> p_after;              ///< (n)
     MomentArms arms;
     double dt;
-    const Ranks* ranks;  ///< null: the system is on one
+    const Ranks& ranks;  ///< of the system
 };
 
 /// Restarts one body. A call of all ranks.
@@ -131,11 +131,10 @@ public:
 private:
     /// A rank may have no points of a body.
     void find_rigid() {
-        const Ranks* ranks = ranks_of(system_);
         for (std::size_t body = 0; body < bodies_.n_bodies(); ++body) {
             const auto points = bodies_[body].points;
             const bool here = !points.empty() && system_.is_constrained(points.front());
-            is_rigid_[body] = ranks ? ranks->largest(here ? 1.0 : 0.0) > 0.0 : here;
+            is_rigid_[body] = ranks_of(system_).largest(here ? 1.0 : 0.0) > 0.0;
         }
     }
 

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
@@ -22,14 +23,16 @@ struct Summands {
 /// A choice among the copies that a rank has of others.
 enum class CopySet : std::int32_t { all = 0 };
 
-/// The ranks that the points of a system are shared out to, as one of them sees them; a system on one rank has none of this
-/// (a null pointer). The points of a rank are numbered in the order of their numbers among all points.
+/// The ranks that the points of a system are shared out to, as one of them sees them; where there is one alone, OneRank. The
+/// points of a rank are numbered in the order of their numbers among all points.
 ///
-/// Every function but the first six is a call of all ranks together: each waits until the others call the same.
+/// Every function from `copy_set` on is a call of all ranks together: each waits until the others call the same.
 class Ranks {
 public:
     virtual ~Ranks() = default;
 
+    /// Whether all points are here, each where its number says: then no value has to be looked up, copied or brought.
+    [[nodiscard]] virtual bool is_one() const { return false; }
     [[nodiscard]] virtual int rank() const = 0;     ///< this one, from 0
     [[nodiscard]] virtual int n_ranks() const = 0;  ///< with this one
     /// Of this rank's points among all, increasing (n_owned).
@@ -39,6 +42,10 @@ public:
     [[nodiscard]] virtual std::span<const std::int32_t> positions() const = 0;
     [[nodiscard]] virtual std::int32_t n_points() const = 0;  ///< of all ranks
     [[nodiscard]] virtual int dimension() const = 0;          ///< values per point
+    /// Of one of this rank's points, among all.
+    [[nodiscard]] virtual std::int32_t number_of(std::size_t point) const { return numbers()[point]; }
+    /// This rank's point with that number among all; -1: it is on another rank.
+    [[nodiscard]] virtual std::int32_t point_with(std::int32_t number) const;
 
     /// Chooses those at these positions, as long as the ranks last.
     [[nodiscard]] virtual CopySet copy_set(std::span<const std::int32_t> positions) const = 0;
@@ -63,11 +70,50 @@ public:
     virtual void agree(const std::exception_ptr& error) const = 0;
 };
 
+/// The one rank that has all points. Without their number it serves a system that does not know of ranks: then only `numbers`,
+/// `positions` and `n_points` know none of them.
+class OneRank final : public Ranks {
+public:
+    OneRank() = default;
+    OneRank(std::int32_t n_points, int dimension);
+
+    [[nodiscard]] bool is_one() const override { return true; }
+    [[nodiscard]] int rank() const override { return 0; }
+    [[nodiscard]] int n_ranks() const override { return 1; }
+    [[nodiscard]] std::span<const std::int32_t> numbers() const override { return numbers_; }
+    [[nodiscard]] std::span<const std::int32_t> positions() const override { return numbers_; }
+    [[nodiscard]] std::int32_t n_points() const override { return static_cast<std::int32_t>(numbers_.size()); }
+    [[nodiscard]] int dimension() const override { return dimension_; }
+    [[nodiscard]] std::int32_t number_of(std::size_t point) const override { return static_cast<std::int32_t>(point); }
+    [[nodiscard]] std::int32_t point_with(std::int32_t number) const override { return number; }
+    [[nodiscard]] CopySet copy_set(std::span<const std::int32_t>) const override { return CopySet::all; }
+    void fill(std::span<double>, int, CopySet) const override {}
+    void sum(const Summands& summands, std::span<const double> terms, std::span<double> total) const override;
+    [[nodiscard]] double fold(double start, std::span<const std::int64_t> numbers,
+                              std::span<const double> terms) const override;
+    [[nodiscard]] std::vector<double> collect(std::span<const double> values, int) const override { return gather(values); }
+    [[nodiscard]] std::vector<double> gather(std::span<const double> values) const override {
+        return {values.begin(), values.end()};
+    }
+    [[nodiscard]] std::span<const std::byte> gather_bytes(std::span<const std::byte> mine) const override { return mine; }
+    [[nodiscard]] double largest(double value) const override { return value; }
+    void agree(const std::exception_ptr& error) const override {
+        if (error) std::rethrow_exception(error);
+    }
+
+private:
+    std::vector<std::int32_t> numbers_;
+    int dimension_ = 1;
+};
+
+/// That of all systems that do not know of ranks.
+[[nodiscard]] const Ranks& one_rank();
+
 /// The result of body(), once all ranks have agreed that it ended well on each. `body` must not call what all ranks call
-/// together. Null: it is called.
+/// together.
 template <class Body>
-auto agreed(const Ranks* ranks, const Body& body) {
-    if (!ranks) return body();
+auto agreed(const Ranks& ranks, const Body& body) {
+    if (ranks.is_one()) return body();
     using Result = decltype(body());
     std::exception_ptr error;
     if constexpr (std::is_void_v<Result>) {
@@ -76,7 +122,7 @@ auto agreed(const Ranks* ranks, const Body& body) {
         } catch (...) {
             error = std::current_exception();
         }
-        ranks->agree(error);
+        ranks.agree(error);
     } else {
         std::optional<Result> result;
         try {
@@ -84,44 +130,26 @@ auto agreed(const Ranks* ranks, const Body& body) {
         } catch (...) {
             error = std::current_exception();
         }
-        ranks->agree(error);
+        ranks.agree(error);
         return *std::move(result);
     }
 }
 
-/// Sum of term(i) over the values of a system, i being numbered on this rank: `ordered_sum` over those of all ranks.
-/// `Value` is a double or a vector.
-template <class Value, class Term>
-[[nodiscard]] Value sum_over(const Ranks& ranks, Summands summands, std::ptrdiff_t n, const Value& zero, const Term& term) {
-    const auto as_numbers = [](auto& value) {
-        if constexpr (std::is_same_v<Value, double>)
-            return std::span(&value, 1);
-        else
-            return std::span(value.data(), static_cast<std::size_t>(value.size()));
-    };
-    Value total = zero;
-    summands.width = static_cast<std::int32_t>(as_numbers(total).size());
-    std::vector<double> terms;
-    terms.reserve(static_cast<std::size_t>(n * summands.width));
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-        const Value value = term(i);
-        const auto numbers = as_numbers(value);
-        terms.insert(terms.end(), numbers.begin(), numbers.end());
-    }
-    ranks.sum(summands, terms, as_numbers(total));
-    return total;
-}
-
-/// The ranks of a system that says so; null for all others.
+/// The ranks of a system that says so; one for all others.
 template <class S>
-[[nodiscard]] const Ranks* ranks_of(const S& system) {
+[[nodiscard]] const Ranks& ranks_of(const S& system) {
     if constexpr (requires { system.ranks(); })
         return system.ranks();
     else
-        return nullptr;
+        return one_rank();
 }
 
-/// Throws BadInput, saying that `what` is not made for several ranks, where there are ranks.
-void refuse_ranks(const Ranks* ranks, const char* what);
+/// A feature that is made for one rank alone.
+struct ForOneRank {
+    const char* name;  ///< in the user's words
+    bool is_used = true;
+};
+/// Refuses what several ranks cannot do: throws BadInput naming the first of these that is used, unless there is one rank.
+void refuse_ranks(const Ranks& ranks, std::initializer_list<ForOneRank> features);
 
 }  // namespace abut::dynamics

@@ -23,10 +23,8 @@ public:
         solid::OwnCells own = solid.own_cells();
         piece.cells = std::move(own.number);
         positions_ = std::move(own.position);
-        if (const dynamics::Ranks* ranks = solid.ranks()) {
-            piece.number = ranks->rank();
-            piece.n_pieces = ranks->n_ranks();
-        }
+        piece.number = solid.ranks().rank();
+        piece.n_pieces = solid.ranks().n_ranks();
         for (const std::int32_t cell : piece.cells) is_own_[static_cast<std::size_t>(cell)] = 1;
     }
 
@@ -90,14 +88,12 @@ private:
             of_cells[static_cast<std::size_t>(piece_.cells[i])] = piece_.displacement[i];
             if (any_turns_) gradients[static_cast<std::size_t>(piece_.cells[i])] = own_gradients_[i];
         }
-        if (const dynamics::Ranks* ranks = solid_.ranks()) {
-            const std::vector<double> shared = ranks->gather(values_at_seams());
-            const std::size_t width = 1 + Dim + (any_turns_ ? Dim * Dim : 0);
-            for (std::size_t i = 0; i < shared.size(); i += width) {
-                const auto cell = static_cast<std::size_t>(shared[i]);
-                of_cells[cell] = Vector<Dim>(&shared[i + 1]);
-                if (any_turns_) gradients[cell] = Eigen::Map<const Matrix<Dim>>(&shared[i + 1 + Dim]);
-            }
+        const std::vector<double> shared = solid_.ranks().gather(values_at_seams());
+        const std::size_t width = 1 + Dim + (any_turns_ ? Dim * Dim : 0);
+        for (std::size_t i = 0; i < shared.size(); i += width) {
+            const auto cell = static_cast<std::size_t>(shared[i]);
+            of_cells[cell] = Vector<Dim>(&shared[i + 1]);
+            if (any_turns_) gradients[cell] = Eigen::Map<const Matrix<Dim>>(&shared[i + 1 + Dim]);
         }
         std::vector<Vector<Dim>> mean(mesh_.vertices.size(), Vector<Dim>::Zero());
         std::vector<int> count(mesh_.vertices.size(), 0);

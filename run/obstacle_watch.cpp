@@ -154,11 +154,9 @@ std::vector<Vector<Dim>> ObstacleWatch<Dim>::centres(const solid::Solid<Dim>& so
         sums[first] += solid.masses()[i];
         for (int d = 0; d < Dim; ++d) sums[first + 1 + d] += solid.masses()[i] * (solid.rest_positions()[i][d] + u[i][d]);
     }
-    if (solid.ranks()) {
-        const std::vector<double> all = solid.ranks()->gather(sums);
-        std::ranges::fill(sums, 0.0);
-        for (std::size_t k = 0; k < all.size(); ++k) sums[k % sums.size()] += all[k];
-    }
+    const std::vector<double> all = solid.ranks().gather(sums);
+    std::ranges::fill(sums, 0.0);
+    for (std::size_t k = 0; k < all.size(); ++k) sums[k % sums.size()] += all[k];
     std::vector<Vector<Dim>> centres;
     for (std::size_t first = 0; first < sums.size(); first += Dim + 1)
         centres.push_back(Eigen::Map<const Vector<Dim>>(sums.data() + first + 1) / sums[first]);

@@ -181,7 +181,7 @@ SelfWatch<Dim>::SelfWatch(const Scene<Dim>& scene, const solid::Solid<Dim>& soli
     for (std::int32_t body = 0; body < scene.mesh.n_bodies(); ++body) {
         if (!kinematics.empty() && kinematics[static_cast<std::size_t>(body)] == solid::Kinematics::rigid) continue;
         is_on_ = true;
-        if (!solid.ranks()) bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));
+        if (solid.ranks().is_one()) bodies_.push_back(std::make_unique<Body>(scene.mesh, body, solid.body_of_points()));
     }
 }
 

@@ -7,7 +7,7 @@
 
 namespace abut::run {
 
-/// What one of several ranks has of a scene that they run together. The scene itself is the same on all of them.
+/// Part of a scene that one of several ranks has, which run it together. The scene itself is the same on all of them.
 template <int Dim>
 struct Share {
     const mesh::Mesh<Dim>& part;   ///< of Scene::mesh (solid::part_of); an error may name cells by their labels

@@ -18,6 +18,7 @@
 #include "abut/base/throw_again.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
+#include "abut/dynamics/sum_over.hpp"
 #include "abut/dynamics/with_scheme.hpp"
 #include "abut/mesh/interpenetration.hpp"
 #include "abut/run/divergence.hpp"
@@ -66,7 +67,7 @@ public:
           make_(std::move(make)),
           integrator_(make_(start)),
           times_of_setup_(solid_.times()),
-          balance_(start.first_share && start.first_share->again ? options_.rebalance : 0, options_.rebalance_above),
+          balance_(start.first_share.again ? options_.rebalance : 0, options_.rebalance_above),
           watch_(start.scene) {
         set_filter();
         make_restart({.period = options_.restart, .report_before = {}});
@@ -103,7 +104,7 @@ public:
         result_.skin = solid_.skin();
         result_.evaluations = solid_.evaluations();
         result_.times = added(times_before_, solid_.times(), times_of_setup_);
-        if (balance_.is_on()) balance_.end(*solid_.ranks(), own_seconds());
+        if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
         result_.rebalancing = balance_.report();
         on_first([&] {
             if (scene_.findings) result_.findings = scene_.findings(result_);
@@ -153,7 +154,7 @@ private:
     /// Calls see(run, solid) with the present state of the whole, on rank 0.
     template <class See>
     void show(const See& see) {
-        if (!solid_.ranks()) return see(dynamics::RunView<Dim>(*integrator_), solid_);
+        if (solid_.ranks().is_one()) return see(dynamics::RunView<Dim>(*integrator_), solid_);
         const dynamics::IntegratorState state = whole_of(integrator_->state());
         const std::vector<std::byte> memory = solid_.state();
         on_first([&] {
@@ -165,7 +166,7 @@ private:
     /// Faces stand where contact has moved them in the last evaluation. On one rank that was at the record before; the whole that
     /// rank 0 sees was only restored.
     void evaluate_whole(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
-        if (solid_.ranks()) static_cast<void>(solid.potential(run.q));
+        if (!solid_.ranks().is_one()) static_cast<void>(solid.potential(run.q));
     }
 
     /// What rank 0 wants now, in one message; progress is told of with it.
@@ -212,7 +213,7 @@ private:
 
     /// Where that is worth it. The run goes on as from a checkpoint.
     void rebalance() {
-        const dynamics::Ranks& ranks = *solid_.ranks();
+        const dynamics::Ranks& ranks = solid_.ranks();
         const std::vector<double> weights = balance_.weights(ranks, own_seconds());
         if (weights.empty()) return;
         double seconds = 0.0;
@@ -223,7 +224,7 @@ private:
             const dynamics::IntegratorState sound = gathered<Dim>(ranks, sound_);
             const std::vector<std::byte> memory = solid_.state();
             times_before_ = added(times_before_, solid_.times(), times_of_setup_);
-            start_.take_part(start_.first_share->again(weights));
+            start_.take_part(start_.first_share.again(weights));
             integrator_.emplace(make_(start_));
             go_on_from(motion, memory);
             set_filter();
@@ -234,7 +235,7 @@ private:
             times_of_setup_ = solid_.times();
             own_seconds_before_ = times_of_setup_.own_cells;
         }
-        balance_.shared_out(integrator_->steps(), before, *solid_.ranks(), seconds);
+        balance_.shared_out(integrator_->steps(), before, solid_.ranks(), seconds);
     }
 
     /// From a state of the whole.
@@ -333,8 +334,10 @@ private:
     void fail_at(const Error& error) {
         ErrorFacts facts = error.facts();
         // A rank numbers cells and faces of its own; those of contact are the same on all.
-        if (solid_.ranks()) facts.cell = ErrorFacts::none;
-        if (solid_.ranks() && error.kind() != ErrorKind::too_deep) facts = {};
+        if (!solid_.ranks().is_one()) {
+            facts.cell = ErrorFacts::none;
+            if (error.kind() != ErrorKind::too_deep) facts = {};
+        }
         const dynamics::IntegratorState sound = whole_of(sound_);
         Failure failure{.sound = sound, .lost = nullptr, .cells = {}};
         for (const std::int64_t cell : {facts.cell, std::int64_t{seen().cell_of_contact_face(facts.face_1)},
@@ -418,8 +421,8 @@ private:
     [[nodiscard]] double largest_speed() const {
         const dynamics::RunView<Dim> run(*integrator_);
         const auto mass = solid_.masses();
-        const double own = largest(std::ssize(mass), [&](std::ptrdiff_t i) { return run.momentum(i).norm() / mass[i]; });
-        return solid_.ranks() ? solid_.ranks()->largest(own) : own;
+        return solid_.ranks().largest(
+            largest(std::ssize(mass), [&](std::ptrdiff_t i) { return run.momentum(i).norm() / mass[i]; }));
     }
 
     /// Momentum by gravity and by contact with obstacles so far [kg m/s].
@@ -436,9 +439,7 @@ private:
             return mass[i] * acceleration[static_cast<std::size_t>(body[i])];
         };
         const Vector<Dim> zero = Vector<Dim>::Zero();
-        const Vector<Dim> weight = solid_.ranks()
-                                       ? dynamics::sum_over(*solid_.ranks(), {}, std::ssize(mass), zero, weight_of)
-                                       : ordered_sum(std::ssize(mass), zero, weight_of);
+        const Vector<Dim> weight = dynamics::sum_over(solid_.ranks(), {}, std::ssize(mass), zero, weight_of);
         return given + integrator_->time() * weight;
     }
 
@@ -488,7 +489,7 @@ void simulate(Start<Dim>& start, Observer<Dim>& observer, const Checkpoint* from
 /// As `simulate`, with the messages of all layers as they are.
 template <int Dim>
 RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Observer<Dim>& observer, const Checkpoint* from,
-                         const Share<Dim>* share) {
+                         const Share<Dim>& share) {
     check(given);
     RunOptions options = with_defaults<Dim>(with_restart(given, scene));
     std::optional<global_control> threads;
@@ -500,10 +501,9 @@ RunResult<Dim> simulated(const Scene<Dim>& scene, const RunOptions& given, Obser
         const Stopwatch whole(seconds.total);
         {
             const Stopwatch watch(seconds.setup);
-            const dynamics::Ranks* ranks = share ? &share->ranks : nullptr;
-            if (ranks) check_for_ranks(ranks, scene, options);
-            dynamics::agreed(ranks, [&] {
-                if (scene.contact && (!ranks || ranks->rank() == 0))
+            check_for_ranks(share.ranks, scene, options);
+            on_first(share.ranks, [&] {
+                if (scene.contact)
                     mesh::check_apart(scene.mesh, scene.remedy_if_overlapping, options.contact.search.broad_phase,
                                       scene.solid.ignored_pairs);
             });
@@ -532,7 +532,7 @@ template <int Dim>
 RunResult<Dim> simulate(const Scene<Dim>& scene, const RunOptions& options, Observer<Dim>& observer, const Checkpoint* from,
                         const Share<Dim>* share) {
     try {
-        return simulated(scene, options, observer, from, share);
+        return simulated(scene, options, observer, from, share ? *share : Share<Dim>{scene.mesh, dynamics::one_rank()});
     } catch (const Error& error) {
         const std::string text = with_keys(in_user_words(error.what(), {scene.mesh.body_names, scene.outputs.obstacles}));
         if (text == error.what()) throw;

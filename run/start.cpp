@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/mass.hpp"
 #include "abut/dynamics/ranks.hpp"
+#include "abut/run/of_all_ranks.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -63,22 +64,18 @@ solid::SolidTimes added(const solid::SolidTimes& sum, const solid::SolidTimes& a
 }
 
 template <int Dim>
-void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, const RunOptions& options) {
-    if (options.kinematics == BodyKinematics::automatic)
-        dynamics::refuse_ranks(ranks, "a pilot run (--kinematics automatic)");
-    if (options.integrator == SolidIntegrator::memm_async) dynamics::refuse_ranks(ranks, "local steps (memm_async)");
-    if (scene.after_step) dynamics::refuse_ranks(ranks, "a scene that looks at each step (Scene::after_step)");
+void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options) {
+    dynamics::refuse_ranks(ranks, {{"a pilot run (--kinematics automatic)", options.kinematics == BodyKinematics::automatic},
+                                   {"local steps (memm_async)", options.integrator == SolidIntegrator::memm_async},
+                                   {"a scene that looks at each step (Scene::after_step)", bool(scene.after_step)}});
 }
 
 template <int Dim>
-Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<PilotReport> pilot, const Share<Dim>* share)
+Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<PilotReport> pilot, const Share<Dim>& share)
     : scene(of), options(given), first_share(share) {
-    solid.emplace(share ? share->part : scene.mesh, solid_options<Dim>(scene, options, pilot),
-                  share ? &share->ranks : nullptr);
+    solid.emplace(share.part, solid_options<Dim>(scene, options, pilot), share.ranks);
     result.pilot = std::move(pilot);
-    dynamics::agreed(solid->ranks(), [&] {
-        if (share && share->ranks.rank() == 0) whole.emplace(scene.mesh, run::solid_options(scene, options));
-    });
+    if (!share.ranks.is_one()) on_first(share.ranks, [&] { whole.emplace(scene.mesh, run::solid_options(scene, options)); });
     result.stable = dynamics::stable_step(*solid);
     result.finest_dt = result.dt = choose_step(options, result.stable.dt);
     if (options.integrator == SolidIntegrator::memm_async) set_local_steps();
@@ -88,7 +85,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.boundary_stencils = seen.ccg().boundary().report;
     const auto& kinematics = solid->options().kinematics;
     result.all_may_turn = !kinematics.empty() && std::ranges::find(kinematics, solid::Kinematics::small) == kinematics.end();
-    if (whole || !share) result.inertia = solid::inertia_of_bodies(seen);
+    if (share.ranks.rank() == 0) result.inertia = solid::inertia_of_bodies(seen);
     result.blind_corners = solid->blind_corners();
     result.unseen_edges = solid->unseen_edges();
     set_outside();
@@ -139,7 +136,7 @@ void Start<Dim>::set_state() {
 /// The solid before goes first: there is never more than one of them, and references to it stay good.
 template <int Dim>
 void Start<Dim>::take_part(const Share<Dim>& share) {
-    solid.emplace(share.part, run::solid_options(scene, options), &share.ranks);
+    solid.emplace(share.part, run::solid_options(scene, options), share.ranks);
     set_state();
 }
 
@@ -162,14 +159,12 @@ double gauge(const Start<Dim>& start) {
     if (start.scene.energy_scale.value > 0.0) return 2.0 * start.scene.energy_scale.value;  // V may sink by that scale
     const std::vector<double>& p = start.momentum;
     const auto inverse_mass = start.solid->inverse_mass();
-    if (const dynamics::Ranks* ranks = start.solid->ranks())
-        return required_gauge(0.5 * dynamics::mass_product_over(*ranks, p, inverse_mass, p));
-    return required_gauge(0.5 * dynamics::mass_product(p, inverse_mass, p));
+    return required_gauge(0.5 * dynamics::mass_product_over(start.solid->ranks(), p, inverse_mass, p));
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                         \
     template EnergyScale known_scale<Dim>(EnergyScale, const RunResult<Dim>&);                        \
-    template void check_for_ranks<Dim>(const dynamics::Ranks*, const Scene<Dim>&, const RunOptions&); \
+    template void check_for_ranks<Dim>(const dynamics::Ranks&, const Scene<Dim>&, const RunOptions&); \
     template struct Start<Dim>;                                                                       \
     template double gauge<Dim>(const Start<Dim>&);
 ABUT_INSTANTIATE(2)

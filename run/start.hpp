@@ -10,9 +10,9 @@
 
 namespace abut::run {
 
-/// What is not made for several ranks, before anything is set up. Throws BadInput; null: there is one.
+/// Refuses what is not made for several ranks, before anything is set up. Throws BadInput.
 template <int Dim>
-void check_for_ranks(const dynamics::Ranks* ranks, const Scene<Dim>& scene, const RunOptions& options);
+void check_for_ranks(const dynamics::Ranks& ranks, const Scene<Dim>& scene, const RunOptions& options);
 
 /// With the value that it has so far where the scene gives none, and then with the name E unless that is K0. Throws BadInput
 /// for one without a name.
@@ -24,8 +24,8 @@ template <int Dim>
 /// What a run begins from, whatever its integrator.
 template <int Dim>
 struct Start {
-    /// All arguments but `pilot` must outlive it. `share` is null on one rank.
-    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>* share);
+    /// All arguments but `pilot` must outlive it.
+    Start(const Scene<Dim>& scene, const RunOptions& options, std::optional<PilotReport> pilot, const Share<Dim>& share);
 
     /// The solid, q and momentum of another part, at the start of the run again: everything that refers to the solid now refers
     /// to this one.
@@ -33,7 +33,7 @@ struct Start {
 
     const Scene<Dim>& scene;
     const RunOptions& options;
-    const Share<Dim>* first_share;           // null on one rank
+    const Share<Dim>& first_share;
     std::optional<solid::Solid<Dim>> solid;  // always there
     std::optional<solid::Solid<Dim>> whole;  // on rank 0 of several, for observers
     RunResult<Dim> result;

@@ -77,7 +77,7 @@ Bodies<Dim>::Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& option
 }
 
 template <int Dim>
-void Bodies<Dim>::place_cell_points(const RankPart<Dim>* part) {
+void Bodies<Dim>::place_cell_points(const RankPart<Dim>& part) {
     cell_points_.resize(deformable_bodies_.size());
     for (std::size_t i = 0; i < deformable_bodies_.size(); ++i) {
         if (kinematics(deformable_bodies_[i]) != Kinematics::floating) continue;
@@ -98,11 +98,9 @@ template <int Dim>
 template <class PositionOf>
 Matrix<Dim> Bodies<Dim>::mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
                                     const PositionOf& x_of) const {
-    return sum_over_body(rank_part_, static_cast<std::ptrdiff_t>(body),
-                         cells_of_body(deformable(), static_cast<std::int32_t>(body)), Matrix<Dim>(Matrix<Dim>::Zero()),
-                         [&](std::int32_t c) -> Matrix<Dim> {
-                             return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
-                         });
+    return rank_part_->sum_of_body(body, Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
+        return masses_[c] * of_mesh_cells[c + on] * (x_of(c) - cell_points_[body]->centre).transpose();
+    });
 }
 
 /// Takes values at the points of the cells to their centroids, in the order of the whole mesh.
@@ -247,7 +245,7 @@ bool Bodies<Dim>::any_finite() const {
 }
 
 template <int Dim>
-BodyFrames<Dim> Bodies<Dim>::frames(const RankPart<Dim>* part) const {
+BodyFrames<Dim> Bodies<Dim>::frames(const RankPart<Dim>& part) const {
     std::vector<std::int32_t> begin{0};
     std::vector<bool> floating;
     for (const std::int32_t body : deformable_bodies_) {

@@ -28,11 +28,11 @@ public:
     Bodies(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::vector<TractionHold> holds);
 
     /// From now on the masses of cells of floating bodies are where these have their moments of inertia (CellPoints), which
-    /// `deformable` takes as their centroids; to be called before anything is made of it. `part`: null on one rank, else a part
-    /// of these bodies; a call of all ranks.
-    void place_cell_points(const RankPart<Dim>* part);
-    /// Who brings ranks together from then on, in what is said to be a call of all.
-    void take_part(const RankPart<Dim>* part) { rank_part_ = part; }
+    /// `deformable` takes as their centroids; to be called before anything is made of it. `part`: of these bodies; a call of all
+    /// ranks.
+    void place_cell_points(const RankPart<Dim>& part);
+    /// Who brings ranks together from then on, in what is said to be a call of all; to be called before any of that.
+    void take_part(const RankPart<Dim>& part) { rank_part_ = &part; }
 
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
     /// Of the bodies that deform: `mesh` itself where all do, and none is floating.
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return body_; }      ///< in the mesh
 
     /// Frames of the bodies that deform; `part` as BodyFrames takes it. Throws BadInput for one that has no width to turn about.
-    [[nodiscard]] BodyFrames<Dim> frames(const RankPart<Dim>* part) const;
+    [[nodiscard]] BodyFrames<Dim> frames(const RankPart<Dim>& part) const;
     /// The law of contact, `automatic` resolved. Throws BadInput for one that does not know bodies or obstacles that turn.
     [[nodiscard]] ContactLaw law() const;
 
@@ -126,7 +126,7 @@ private:
     [[nodiscard]] Matrix<Dim> mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
                                          const PositionOf& x_of) const;
     std::vector<std::optional<CellPoints<Dim>>> cell_points_;  // by body that deforms; none: at the centroids
-    const RankPart<Dim>* rank_part_ = nullptr;
+    const RankPart<Dim>* rank_part_ = nullptr;  // null until `take_part`
     SolidOptions<Dim> part_options_;
     std::vector<std::int32_t> deformable_bodies_;
     std::optional<RigidBodies<Dim>> rigid_;

@@ -2,10 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <utility>
 
 #include "abut/base/decompositions.hpp"
-#include "abut/base/parallel.hpp"
+#include "abut/dynamics/sum_over.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
 
 namespace abut::solid {
@@ -17,8 +16,8 @@ constexpr double no_extent = 1e-12;  // second moment over the largest: the cell
 
 template <int Dim>
 BodyRotation<Dim>::BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses,
-                                std::vector<std::int32_t> begin, const dynamics::Ranks* ranks)
-    : rest_(rest), masses_(masses), begin_(std::move(begin)), ranks_(ranks) {
+                                std::span<const std::int32_t> begin, const dynamics::Ranks& ranks)
+    : rest_(rest), masses_(masses), begin_(begin), ranks_(ranks) {
     const Vector<Dim> zero = Vector<Dim>::Zero();
     const Matrix<Dim> zeros = Matrix<Dim>::Zero();
     for (std::size_t body = 0; body + 1 < begin_.size(); ++body) {
@@ -38,12 +37,10 @@ template <int Dim>
 template <class Value, class Term>
 Value BodyRotation<Dim>::sum_of(std::size_t body, const Value& zero, const Term& term) const {
     const std::int32_t begin = begin_[body], end = begin_[body + 1];
-    if (!ranks_)
-        return ordered_sum(end - begin, zero, [&](std::ptrdiff_t i) { return term(static_cast<std::size_t>(begin + i)); });
-    const auto numbers = ranks_->numbers();
+    const auto numbers = ranks_.numbers();
     const auto first = std::ranges::lower_bound(numbers, begin) - numbers.begin();
     const auto last = std::ranges::lower_bound(numbers, end) - numbers.begin();
-    return dynamics::sum_over(*ranks_, {.first = begin, .last = end}, last - first, zero,
+    return dynamics::sum_over(ranks_, {.first = begin, .last = end}, last - first, zero,
                               [&](std::ptrdiff_t i) { return term(static_cast<std::size_t>(first + i)); });
 }
 

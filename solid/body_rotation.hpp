@@ -14,10 +14,10 @@ namespace abut::solid {
 template <int Dim>
 class BodyRotation {
 public:
-    /// Cells of body b are [begin[b], begin[b + 1]) of all; `rest` and `masses` are those of the cells here, which are all
-    /// of them unless there are ranks. Both, and the ranks, must outlive it. A call of all ranks.
-    BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
-                 const dynamics::Ranks* ranks);
+    /// Cells of body b are [begin[b], begin[b + 1]) of those of all ranks; `rest` and `masses` are those of the cells here. All
+    /// must outlive it. A call of all ranks.
+    BodyRotation(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::span<const std::int32_t> begin,
+                 const dynamics::Ranks& ranks);
 
     /// Of each body (n_bodies) [rad], 0 to pi, for the displacements u of the cells here [m]. A call of all ranks.
     [[nodiscard]] std::vector<double> angles(std::span<const Vector<Dim>> u) const;
@@ -32,8 +32,8 @@ private:
 
     std::span<const Vector<Dim>> rest_;
     std::span<const double> masses_;
-    std::vector<std::int32_t> begin_;
-    const dynamics::Ranks* ranks_;
+    std::span<const std::int32_t> begin_;
+    const dynamics::Ranks& ranks_;
     std::vector<Body> bodies_;
 };
 

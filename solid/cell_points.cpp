@@ -88,11 +88,13 @@ Vector<Dim> CellPoints<Dim>::place(const mesh::Mesh<Dim>& mesh, std::int32_t cel
 template <int Dim>
 std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std::int32_t body,
                                                 std::pair<std::int32_t, std::int32_t> cells, double density,
-                                                const RankPart<Dim>* part) {
+                                                const RankPart<Dim>& part) {
     constexpr int n = n_pairs<Dim> + Dim;
     using Unknowns = Eigen::Matrix<double, n, 1, Eigen::DontAlign>;
     using Sums = Eigen::Matrix<double, n, n + 2, Eigen::DontAlign>;
-    const auto sum = [&](const auto& zero, const auto& term) { return sum_over_body(part, body, cells, zero, term); };
+    const auto sum = [&](const auto& zero, const auto& term) {
+        return part.sum_of_body(static_cast<std::size_t>(body), zero, term);
+    };
     const Vector<Dim> zero = Vector<Dim>::Zero();
 
     const double measure = sum(0.0, [&](std::int32_t c) { return mesh.cell_measure[c]; });
@@ -143,7 +145,7 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
     bool stays = found;
     for (std::int32_t c = cells.first; stays && c < cells.second; ++c)
         stays = is_inside<Dim>(mesh, c, points.place(mesh, c));
-    if (part ? part->any(!stays) : !stays) return std::nullopt;
+    if (part.any(!stays)) return std::nullopt;
     points.inverse_x = (density * moment).inverse();
     points.inverse_y = sum(Matrix<Dim>(Matrix<Dim>::Zero()), [&](std::int32_t c) -> Matrix<Dim> {
         const Vector<Dim> arm = points.place(mesh, c) - points.centre;
@@ -157,7 +159,7 @@ std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std
     template Matrix<Dim> own_second_moment(const mesh::Mesh<Dim>&, std::int32_t);            \
     template Vector<Dim> CellPoints<Dim>::place(const mesh::Mesh<Dim>&, std::int32_t) const; \
     template std::optional<CellPoints<Dim>> find_cell_points(                                \
-        const mesh::Mesh<Dim>&, std::int32_t, std::pair<std::int32_t, std::int32_t>, double, const RankPart<Dim>*);
+        const mesh::Mesh<Dim>&, std::int32_t, std::pair<std::int32_t, std::int32_t>, double, const RankPart<Dim>&);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

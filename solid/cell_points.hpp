@@ -35,10 +35,10 @@ struct CellPoints {
 };
 
 /// Of the cells [first, second) of a body that deforms, all of this density; nothing where they span no space, or a point would
-/// leave its cell. `part` as BodyFrames takes it, with `body` numbered as it does; a call of all ranks then.
+/// leave its cell. `part` and `body` as BodyFrames takes and numbers them; a call of all ranks.
 template <int Dim>
 [[nodiscard]] std::optional<CellPoints<Dim>> find_cell_points(const mesh::Mesh<Dim>& mesh, std::int32_t body,
                                                               std::pair<std::int32_t, std::int32_t> cells, double density,
-                                                              const RankPart<Dim>* part);
+                                                              const RankPart<Dim>& part);
 
 }  // namespace abut::solid

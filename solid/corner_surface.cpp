@@ -14,14 +14,14 @@ namespace abut::solid {
 
 template <int Dim>
 CornerSurface<Dim>::CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames,
-                                  const Obstacles<Dim>& obstacles, const RankPart<Dim>* part)
+                                  const Obstacles<Dim>& obstacles, const RankPart<Dim>& part)
     : bodies_(bodies),
       mesh_(bodies.deformable()),
       ccg_(ccg),
       frames_(frames),
       obstacles_(obstacles),
       part_(part),
-      ranks_(part ? std::make_unique<RankFaces<Dim>>(*part, mesh_, ccg) : nullptr),
+      ranks_(part.is_whole() ? nullptr : std::make_unique<RankFaces<Dim>>(part, mesh_, ccg)),
       places_(bodies.rigid().size()),
       u_(static_cast<std::size_t>(bodies.n_cells())) {
     faces_.stiffness.assign(static_cast<std::size_t>(mesh_.n_bodies()) + bodies.rigid().size(), 0.0);
@@ -111,7 +111,7 @@ template <int Dim>
 void CornerSurface<Dim>::append_rigid() {
     const mesh::Mesh<Dim>& mesh = bodies_.mesh();
     const RigidBodies<Dim>& rigid = bodies_.rigid();
-    const std::int32_t others = part_ ? part_->n_all_cells() - bodies_.n_cells() : 0;  // from here to all points
+    const std::int32_t others = part_.n_all_cells() - bodies_.n_cells();  // from here to all points
     for (std::size_t i = 0; i < rigid.size(); ++i) {
         rigid_points_.emplace_back(RigidBodies<Dim>::points_per_body);
         std::iota(rigid_points_.back().begin(), rigid_points_.back().end(), rigid.first_point(i) + others);
@@ -263,7 +263,7 @@ void CornerSurface<Dim>::gather_nodes(const Listed& listed, Points& x) {
     for (const std::int32_t face : listed.own)
         for (std::int32_t n = corner_offsets_[face]; n < corner_offsets_[face + 1]; ++n)
             own_nodes_.insert(own_nodes_.end(), x[n].begin(), x[n].end());
-    const std::vector<double> all = part_->ranks().gather(own_nodes_);
+    const std::vector<double> all = part_.ranks().gather(own_nodes_);
     const auto positions = as_vectors<Dim>(std::span<const double>(all));
     for (std::size_t i = 0; i < positions.size(); ++i) x[listed.gathered[i]] = positions[i];
 }

@@ -40,9 +40,9 @@ public:
         Region<Dim> region;
     };
 
-    /// All must outlive it. `part` is null on one rank; on several each has all faces, and `place` is a call of all ranks.
+    /// All must outlive it. Each rank has all faces, and `place` is a call of all.
     CornerSurface(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const BodyFrames<Dim>& frames, const Obstacles<Dim>& obstacles,
-                  const RankPart<Dim>* part);
+                  const RankPart<Dim>& part);
 
     [[nodiscard]] contact::NodalSurface<Dim> for_contact() const;
     /// How far a corner of these faces moves in its frame at most when no cell does by more than 1.
@@ -108,7 +108,7 @@ private:
     Ccg<Dim>& ccg_;
     const BodyFrames<Dim>& frames_;
     const Obstacles<Dim>& obstacles_;
-    const RankPart<Dim>* part_;
+    const RankPart<Dim>& part_;
     std::unique_ptr<RankFaces<Dim>> ranks_;  // null on one rank
     contact::NodalFaceArrays<Dim> faces_;
     std::vector<double> stiffness_;  // of each face

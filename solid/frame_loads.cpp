@@ -7,7 +7,7 @@
 namespace abut::solid {
 
 template <int Dim>
-FrameLoads<Dim>::FrameLoads(const Bodies<Dim>& bodies, const BodyFrames<Dim>& frames, const RankPart<Dim>* part)
+FrameLoads<Dim>::FrameLoads(const Bodies<Dim>& bodies, const BodyFrames<Dim>& frames, const RankPart<Dim>& part)
     : bodies_(bodies), frames_(frames), part_(part), faces_(frames.n_bodies()), loads_(frames.n_bodies()) {
     const mesh::Mesh<Dim>& mesh = bodies.deformable();
     const auto& conditions = bodies.options().boundary.traction;
@@ -29,19 +29,14 @@ void FrameLoads<Dim>::take(const BoundaryLoad<Dim>& load) {
     for (std::size_t body = 0; body < loads_.size(); ++body) {
         const std::vector<BoundaryFace>& faces = faces_[body];
         const auto sum = [&](const auto& component_of) {
-            const auto term = [&](BoundaryFace b) {
+            return part_.fold_faces(0.0, [&](BoundaryFace b) {
+                if (!std::ranges::binary_search(faces, b)) return 0.0;
                 const auto i = static_cast<std::size_t>(b);
                 const Vector<Dim> arm = mesh.face_centroid[mesh_face(mesh, b)] - frames_.rest_centre(body);
                 return component_of(load.traction[i], moment<Dim>(arm, load.traction[i]));
-            };
-            if (part_)
-                return part_->fold_faces(
-                    0.0, [&](BoundaryFace b) { return std::ranges::binary_search(faces, b) ? term(b) : 0.0; });
-            double total = 0.0;
-            for (const BoundaryFace b : faces) total += term(b);
-            return total;
+            });
         };
-        if (!(part_ ? part_->any(!faces.empty()) : !faces.empty())) continue;
+        if (!part_.any(!faces.empty())) continue;
         Load& of_body = loads_[body];
         for (int k = 0; k < Dim; ++k)
             of_body.force[k] = sum([&](const Vector<Dim>& force, const AxialVector<Dim>&) { return force[k]; });

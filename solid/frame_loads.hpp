@@ -16,8 +16,8 @@ namespace abut::solid {
 template <int Dim>
 class FrameLoads {
 public:
-    /// All must outlive it; `part` is null on one rank.
-    FrameLoads(const Bodies<Dim>& bodies, const BodyFrames<Dim>& frames, const RankPart<Dim>* part);
+    /// All must outlive it.
+    FrameLoads(const Bodies<Dim>& bodies, const BodyFrames<Dim>& frames, const RankPart<Dim>& part);
 
     [[nodiscard]] bool any() const { return any_; }
     /// Takes the tractions of the boundary faces. A call of all ranks.
@@ -39,7 +39,7 @@ private:
 
     const Bodies<Dim>& bodies_;
     const BodyFrames<Dim>& frames_;
-    const RankPart<Dim>* part_;
+    const RankPart<Dim>& part_;
     bool any_ = false;                              // on any rank
     std::vector<std::vector<BoundaryFace>> faces_;  // here that such a traction acts on, by body
     std::vector<Load> loads_;                       // by body

@@ -123,8 +123,8 @@ auto HeldPlaces<Dim>::gathered_points_of(std::int32_t body) const -> Points {
     const auto [begin, end] = bodies_.points_of(body);
     const std::int32_t deformable = bodies_.deformable_body(body);
     Points points;
-    if (!part_ || deformable < 0) {
-        const std::int32_t others = part_ ? part_->n_all_cells() - bodies_.n_cells() : 0;  // from here to all points
+    if (deformable < 0) {
+        const std::int32_t others = part_.n_all_cells() - bodies_.n_cells();  // from here to all points
         for (std::int32_t i = begin; i < end; ++i) {
             points.number.push_back(i + others);
             points.rest.push_back(bodies_.rest()[i]);
@@ -133,14 +133,14 @@ auto HeldPlaces<Dim>::gathered_points_of(std::int32_t body) const -> Points {
         return points;
     }
     std::vector<double> numbers, rest, masses;
-    for (const std::int32_t c : part_->own_cells_of(static_cast<std::size_t>(deformable))) {
-        numbers.push_back(part_->cell_numbers()[c]);
+    for (const std::int32_t c : part_.own_cells_of(static_cast<std::size_t>(deformable))) {
+        numbers.push_back(part_.cell_numbers()[c]);
         rest.insert(rest.end(), bodies_.rest()[c].begin(), bodies_.rest()[c].end());
         masses.push_back(bodies_.masses()[c]);
     }
-    numbers = part_->ranks().gather(numbers);
-    rest = part_->ranks().gather(rest);
-    masses = part_->ranks().gather(masses);
+    numbers = part_.ranks().gather(numbers);
+    rest = part_.ranks().gather(rest);
+    masses = part_.ranks().gather(masses);
     std::vector<std::size_t> order(numbers.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::sort(order, {}, [&](std::size_t i) { return numbers[i]; });
@@ -165,35 +165,33 @@ auto HeldPlaces<Dim>::faces_of(const std::string& group) const -> std::vector<Fa
         Face face{in_group[i], body, i, mesh.face_measure[f], mesh.face_centroid[f], mesh.face_normal[f], {}};
         for (const std::int32_t vertex : mesh.face_vertices[in_group[i]]) face.corners.push_back(mesh.vertices[vertex]);
         if (area_vector<Dim>(face.corners).dot(face.normal) < 0.0) std::ranges::reverse(face.corners);
-        if (!part_ || bodies_.is_rigid(body)) {
+        if (part_.is_whole() || bodies_.is_rigid(body)) {
             faces.push_back(std::move(face));
             continue;
         }
         const std::int32_t deformable = bodies_.deformable_cell(cell).first;
-        if (!std::ranges::binary_search(part_->own_cells(), deformable)) continue;
+        if (!std::ranges::binary_search(part_.own_cells(), deformable)) continue;
         const auto position = std::ranges::find(mesh.cell_faces[cell], in_group[i]) - mesh.cell_faces[cell].begin();
         mine.insert(mine.end(),
-                    {static_cast<double>(part_->key_of(deformable, position)), static_cast<double>(body), face.area});
+                    {static_cast<double>(part_.key_of(deformable, position)), static_cast<double>(body), face.area});
         mine.push_back(static_cast<double>(face.corners.size()));
         for (const Vector<Dim>* vector : {&face.centroid, &face.normal})
             mine.insert(mine.end(), vector->begin(), vector->end());
         for (const Vector<Dim>& corner : face.corners) mine.insert(mine.end(), corner.begin(), corner.end());
     }
-    if (part_) {
-        const std::vector<double> all = part_->ranks().gather(mine);
-        for (auto next = all.begin(); next != all.end();) {
-            Face face{static_cast<std::int64_t>(next[0]), static_cast<std::int32_t>(next[1]), 0, next[2], {}, {}, {}};
-            face.corners.resize(static_cast<std::size_t>(next[3]));
-            next += 4;
-            const auto take = [&](Vector<Dim>& vector) {
-                std::copy_n(next, Dim, vector.begin());
-                next += Dim;
-            };
-            take(face.centroid);
-            take(face.normal);
-            for (Vector<Dim>& corner : face.corners) take(corner);
-            faces.push_back(std::move(face));
-        }
+    const std::vector<double> all = part_.ranks().gather(mine);
+    for (auto next = all.begin(); next != all.end();) {
+        Face face{static_cast<std::int64_t>(next[0]), static_cast<std::int32_t>(next[1]), 0, next[2], {}, {}, {}};
+        face.corners.resize(static_cast<std::size_t>(next[3]));
+        next += 4;
+        const auto take = [&](Vector<Dim>& vector) {
+            std::copy_n(next, Dim, vector.begin());
+            next += Dim;
+        };
+        take(face.centroid);
+        take(face.normal);
+        for (Vector<Dim>& corner : face.corners) take(corner);
+        faces.push_back(std::move(face));
     }
     std::ranges::sort(faces, {}, [](const Face& face) { return std::pair(face.body, face.key); });
     return faces;

@@ -46,15 +46,15 @@ public:
     struct Face {
         std::int64_t key;  // orders the faces of a body
         std::int32_t body;
-        std::size_t in_group;  // its position in the group; on one rank only
+        std::size_t in_group;  // its position in the group; on one rank alone
         double area;
         Vector<Dim> centroid;
         Vector<Dim> normal;                // out of the body
         std::vector<Vector<Dim>> corners;  // in the order in which the normal sees them run to the left
     };
 
-    /// All must outlive it; `part` is null on one rank.
-    HeldPlaces(const Bodies<Dim>& bodies, const RankPart<Dim>* part) : bodies_(bodies), part_(part) {}
+    /// All must outlive it.
+    HeldPlaces(const Bodies<Dim>& bodies, const RankPart<Dim>& part) : bodies_(bodies), part_(part) {}
 
     /// Throws BadInput for a body that does not exist, and for one whose cells span nothing to hold a place beside.
     [[nodiscard]] HeldPlace<Dim> of(const Anchor<Dim>& anchor);
@@ -77,7 +77,7 @@ private:
                                          const Vector<Dim>& position) const;
 
     const Bodies<Dim>& bodies_;
-    const RankPart<Dim>* part_;
+    const RankPart<Dim>& part_;
     std::map<std::int32_t, Points> points_;  // of the bodies that were asked for
 };
 

@@ -1,23 +1,21 @@
 #include "abut/solid/held_points.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace abut::solid {
 
 template <int Dim>
-HeldPoints<Dim>::HeldPoints(std::vector<std::int32_t> numbers, const RankPart<Dim>* part)
-    : numbers_(std::move(numbers)), position_(numbers_), part_(part) {
-    if (!part_ || numbers_.empty()) return;
-    const auto own = part_->ranks().numbers();
+HeldPoints<Dim>::HeldPoints(std::vector<std::int32_t> numbers, const RankPart<Dim>& part)
+    : numbers_(std::move(numbers)), part_(&part) {
+    if (numbers_.empty()) return;
+    const dynamics::Ranks& ranks = part.ranks();
     std::vector<double> mine;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
-        const auto found = std::ranges::lower_bound(own, numbers_[i]);
-        const bool is_own = found != own.end() && *found == numbers_[i];
-        position_[i] = is_own ? part_->ranks().positions()[static_cast<std::size_t>(found - own.begin())] : -1;
-        if (is_own) mine.push_back(static_cast<double>(i));
+        const std::int32_t own = ranks.point_with(numbers_[i]);
+        position_.push_back(own < 0 ? own : ranks.positions()[static_cast<std::size_t>(own)]);
+        if (own >= 0) mine.push_back(static_cast<double>(i));
     }
-    for (const double held : part_->ranks().gather(mine)) gathered_.push_back(static_cast<std::size_t>(held));
+    for (const double held : ranks.gather(mine)) gathered_.push_back(static_cast<std::size_t>(held));
 }
 
 template <int Dim>
@@ -27,7 +25,7 @@ std::vector<std::vector<Vector<Dim>>> HeldPoints<Dim>::take(
     for (std::size_t array = 0; array < arrays.size(); ++array)
         for (std::size_t i = 0; i < numbers_.size(); ++i)
             if (position_[i] >= 0) taken[array][i] = arrays.begin()[array][static_cast<std::size_t>(position_[i])];
-    if (!part_ || numbers_.empty()) return taken;
+    if (numbers_.empty() || part_->is_whole()) return taken;
     std::vector<double> mine;  // point after point
     for (std::size_t i = 0; i < numbers_.size(); ++i)
         for (const auto& values : taken)

@@ -17,8 +17,8 @@ template <int Dim>
 class HeldPoints {
 public:
     HeldPoints() = default;
-    /// By their numbers among all points, increasing. `part`, which must outlive it, is null on one rank.
-    HeldPoints(std::vector<std::int32_t> numbers, const RankPart<Dim>* part);
+    /// By their numbers among all points, increasing. `part` must outlive it.
+    HeldPoints(std::vector<std::int32_t> numbers, const RankPart<Dim>& part);
 
     [[nodiscard]] std::span<const std::int32_t> numbers() const { return numbers_; }
     /// Of some arrays by point here, the values of these points, array after array (n each).
@@ -34,7 +34,7 @@ public:
 private:
     std::vector<std::int32_t> numbers_;
     std::vector<std::int32_t> position_;  // of each among the points here; -1: it is on another rank
-    const RankPart<Dim>* part_ = nullptr;
+    const RankPart<Dim>* part_ = nullptr;  // null: there are no such points
     std::vector<std::size_t> gathered_;  // as `gather` brings those of all ranks
 };
 

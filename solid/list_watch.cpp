@@ -19,13 +19,13 @@ void ListWatch<Dim>::set_searched(std::span<const Vector<Dim>> q_0, const Bounda
 
 template <int Dim>
 bool ListWatch<Dim>::is_end_of_search(std::span<const Vector<Dim>> q) const {
-    return largest(std::ranges::equal(q, swept_end_) ? 0.0 : 1.0) == 0.0;
+    return ranks_.largest(std::ranges::equal(q, swept_end_) ? 0.0 : 1.0) == 0.0;
 }
 
 template <int Dim>
 double ListWatch<Dim>::motion_until(std::span<const Vector<Dim>> q, const BoundaryLoad<Dim>& load) {
     if (!has_searched_) return std::numeric_limits<double>::infinity();
-    return largest(ccg_.motion_bound(u_, load_, q, load));
+    return ranks_.largest(ccg_.motion_bound(u_, load_, q, load));
 }
 
 template <int Dim>

@@ -14,10 +14,9 @@ namespace abut::solid {
 template <int Dim>
 class ListWatch {
 public:
-    /// The operators and the ranks (null: there is one) must outlive the watch. With ranks `set_searched`, `measure` and the like are
-    /// calls of all of them, and say the same on each.
-    explicit ListWatch(Ccg<Dim>& ccg, const dynamics::Ranks* ranks = nullptr)
-        : ccg_(ccg), ranks_(ranks), amplification_(largest(ccg.motion_amplification())) {}
+    /// Both must outlive the watch. `set_searched`, `measure` and the like are calls of all ranks, and say the same on each.
+    ListWatch(Ccg<Dim>& ccg, const dynamics::Ranks& ranks)
+        : ccg_(ccg), ranks_(ranks), amplification_(ranks.largest(ccg.motion_amplification())) {}
 
     /// Candidates have been searched at `time` for a step from q_0 to q_1, with the loads of both ends.
     void set_searched(std::span<const Vector<Dim>> q_0, const BoundaryLoad<Dim>& load_0, double time,
@@ -39,10 +38,8 @@ public:
     void end_step() { is_at_last_end_ = true; }
 
 private:
-    [[nodiscard]] double largest(double value) const { return ranks_ ? ranks_->largest(value) : value; }
-
     Ccg<Dim>& ccg_;
-    const dynamics::Ranks* ranks_;
+    const dynamics::Ranks& ranks_;
     double amplification_;  // of all ranks
     bool has_searched_ = false;
     std::vector<Vector<Dim>> u_;          // at the last search,

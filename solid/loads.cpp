@@ -31,7 +31,7 @@ std::vector<Vector<Dim>> body_forces(const mesh::Mesh<Dim>& mesh, const SolidOpt
 
 template <int Dim>
 Loads<Dim>::Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::span<const double> masses,
-                  const Ccg<Dim>& ccg, const RankPart<Dim>* part)
+                  const Ccg<Dim>& ccg, const RankPart<Dim>& part)
     : mesh_(mesh),
       ccg_(ccg),
       part_(part),
@@ -52,13 +52,11 @@ BoundaryLoad<Dim> Loads<Dim>::mean() const {
 template <int Dim>
 bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()>& potential,
                             const std::function<void()>& follow_jump, double& work) {
-    auto [changed, next] = dynamics::agreed(part_ ? &part_->ranks() : nullptr, [&] {
-        return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time));
-    });
+    auto [changed, next] = dynamics::agreed(
+        part_.ranks(), [&] { return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time)); });
     is_half_done_ = true;
     start_ = end_;
-    const bool changes_here = changed.traction != end_.traction;
-    const bool jumps = part_ ? part_->any(changes_here) : changes_here;
+    const bool jumps = part_.any(changed.traction != end_.traction);
     if (jumps) {
         const double before = potential();
         end_ = std::move(changed);
@@ -73,21 +71,16 @@ bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()
 template <int Dim>
 void Loads<Dim>::add_work(double share, double& work) const {
     if (!vary()) return;
-    const auto term = [&](BoundaryFace face) {
+    work = part_.fold_faces(work, [&](BoundaryFace face) {
         const auto b = static_cast<std::size_t>(face);
         return share * ccg_.boundary_gradient(face).dot(end_.displacement[b] - start_.displacement[b]);
-    };
-    if (part_)
-        work = part_->fold_faces(work, term);
-    else
-        for (const BoundaryFace face : ccg_.boundary_faces()) work += term(face);
+    });
 }
 
 template <int Dim>
 double Loads<Dim>::body_work(std::span<const Vector<Dim>> u) const {
     if (!has_body_force_) return 0.0;
-    const auto term = [&](std::ptrdiff_t c) { return body_force_[c].dot(u[c]); };
-    return part_ ? part_->sum_of_cells(term) : ordered_sum(std::ssize(u), 0.0, term);
+    return part_.sum_of_cells([&](std::ptrdiff_t c) { return body_force_[c].dot(u[c]); });
 }
 
 template <int Dim>

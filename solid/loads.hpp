@@ -18,10 +18,10 @@ namespace abut::solid {
 template <int Dim>
 class Loads {
 public:
-    /// `masses` are those of the cells; `part` is null on one rank. Mesh, operators and part must outlive the loads. Throws
+    /// `masses` are those of the cells. Mesh, operators and part must outlive the loads. Throws
     /// BadInput for a body force that is not finite, and where a boundary condition gives such a value.
     Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::span<const double> masses,
-          const Ccg<Dim>& ccg, const RankPart<Dim>* part);
+          const Ccg<Dim>& ccg, const RankPart<Dim>& part);
 
     /// Whether a boundary condition has a history.
     [[nodiscard]] bool vary() const { return ccg_.load_varies(); }
@@ -64,7 +64,7 @@ public:
 private:
     const mesh::Mesh<Dim>& mesh_;
     const Ccg<Dim>& ccg_;
-    const RankPart<Dim>* part_;
+    const RankPart<Dim>& part_;
     bool has_conditions_;                  // on the boundary, of all ranks
     bool has_body_force_;                  // of all ranks
     std::vector<Vector<Dim>> body_force_;  // by cell; empty: none

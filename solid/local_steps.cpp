@@ -234,7 +234,7 @@ std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
 
 template <int Dim>
 SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stable, const LocalStepOptions& options) {
-    dynamics::refuse_ranks(solid.ranks(), "local steps");
+    dynamics::refuse_ranks(solid.ranks(), {{"local steps"}});
     const auto& [most_levels, contact_margin, contact_levels] = options;
     if (most_levels < 1 || most_levels > 20 || contact_margin < 0 || contact_levels < 0 || contact_levels > 10)
         throw BadInput("local steps: " + std::to_string(most_levels) + " levels, a margin of " +

@@ -50,14 +50,14 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
 
 template <int Dim>
 PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads,
-                                              const BodyFrames<Dim>& frames, SolidTimes& times, const RankPart<Dim>* part)
+                                              const BodyFrames<Dim>& frames, SolidTimes& times, const RankPart<Dim>& part)
     : bodies_(bodies),
       ccg_(ccg),
       loads_(loads),
       frames_(frames),
       times_(times),
-      ranks_(part ? &part->ranks() : nullptr),
-      sharing_(part ? std::optional<RankSharing>(part->ranks()) : std::nullopt),
+      ranks_(part.ranks()),
+      sharing_(part.is_whole() ? std::nullopt : std::optional<RankSharing>(ranks_)),
       obstacles_(bodies.deformable_options().obstacles),
       corners_(bodies, ccg, frames, obstacles_, part),
       contact_(corners_.for_contact(), nodal_options(bodies), sharing_ ? &*sharing_ : nullptr),

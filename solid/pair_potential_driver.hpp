@@ -21,9 +21,9 @@ template <int Dim>
 class PairPotentialDriver final : public ContactDriver<Dim> {
 public:
     /// All arguments must outlive the driver; `frames` are led along each step before it. Where the time goes is added to
-    /// `times`. `part` is null on one rank; on several each does its share of the pairs, and all that places nodes is a call of all. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
+    /// `times`. On several ranks each does its share of the pairs, and all that places nodes is a call of all. Throws as contact::NodalContact, and BadInput for a choice of ContactOptions that is of another law.
     PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim>& ccg, const Loads<Dim>& loads, const BodyFrames<Dim>& frames,
-                        SolidTimes& times, const RankPart<Dim>* part);
+                        SolidTimes& times, const RankPart<Dim>& part);
 
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double cell_motion, double time,
                 double dt) override;
@@ -100,7 +100,7 @@ private:
     const Loads<Dim>& loads_;
     const BodyFrames<Dim>& frames_;
     SolidTimes& times_;
-    const dynamics::Ranks* ranks_;        // null: one
+    const dynamics::Ranks& ranks_;
     std::optional<RankSharing> sharing_;  // likewise
     Obstacles<Dim> obstacles_;
     CornerSurface<Dim> corners_;

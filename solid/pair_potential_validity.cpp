@@ -66,7 +66,7 @@ double PairPotentialDriver<Dim>::distance_in_frame(const Listed& listed, std::sp
     frames_.displacement(cells, q, frames_.end(), u_);
     const double here =
         largest(std::ssize(cells), [&](std::ptrdiff_t i) { return (u_[cells[i]] - watch.u[i]).squaredNorm(); });
-    return std::sqrt(ranks_ ? ranks_->largest(here) : here);
+    return std::sqrt(ranks_.largest(here));
 }
 
 /// Places the nodes near other bodies at the end of the step; what is far must not have come near. Where faces move without

@@ -35,7 +35,7 @@ Rate acting(contact::TakenForce take, const std::optional<Rate>& before, const R
 }  // namespace
 
 template <int Dim>
-PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>* part)
+PointLoads<Dim>::PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part)
     : bodies_(bodies), options_(bodies.options()), part_(part) {
     HeldPlaces<Dim> places(bodies, part);
     hold_springs(places);
@@ -308,8 +308,8 @@ double PointLoads<Dim>::add_pressure(const HeldTraction& traction, const Vector<
 template <int Dim>
 template <class OfPoint>
 void PointLoads<Dim>::for_each_here(std::int32_t body, const OfPoint& of_point) const {
-    if (const std::int32_t deformable = bodies_.deformable_body(body); part_ && deformable >= 0) {
-        for (const std::int32_t i : part_->own_cells_of(static_cast<std::size_t>(deformable))) of_point(i);
+    if (const std::int32_t deformable = bodies_.deformable_body(body); deformable >= 0) {
+        for (const std::int32_t i : part_.own_cells_of(static_cast<std::size_t>(deformable))) of_point(i);
         return;
     }
     const auto [begin, end] = bodies_.points_of(body);
@@ -320,8 +320,11 @@ void PointLoads<Dim>::for_each_here(std::int32_t body, const OfPoint& of_point) 
 template <int Dim>
 template <class Value, class Term>
 Value PointLoads<Dim>::sum_of(std::int32_t body, const Value& zero, const Term& term) const {
-    const std::int32_t deformable = bodies_.deformable_body(body);
-    return sum_over_body(deformable < 0 ? nullptr : part_, deformable, bodies_.points_of(body), zero, term);
+    if (const std::int32_t deformable = bodies_.deformable_body(body); deformable >= 0)
+        return part_.sum_of_body(static_cast<std::size_t>(deformable), zero, term);
+    const auto [begin, end] = bodies_.points_of(body);
+    return ordered_sum(end - begin, zero,
+                       [&, first = begin](std::ptrdiff_t i) { return term(first + static_cast<std::int32_t>(i)); });
 }
 
 template <int Dim>

@@ -23,10 +23,10 @@ class PointLoads {
 public:
     using TurnOf = std::function<Matrix<Dim>(std::int32_t body)>;
 
-    /// All must outlive it. `part`: null on one rank; on several each has all loads, looks at all points that they act on, and
-    /// every function that takes values by point is a call of all. Throws BadInput for a body that does not exist, or a value
+    /// All must outlive it. Each rank has all loads and looks at all points that they act on; every function that takes values by
+    /// point is a call of all ranks. Throws BadInput for a body that does not exist, or a value
     /// out of range.
-    PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>* part);
+    PointLoads(const Bodies<Dim>& bodies, const RankPart<Dim>& part);
 
     [[nodiscard]] bool any() const { return !springs_.empty() || !moments_.empty() || !tractions_.empty(); }
     /// Whether V does not tell all forces.
@@ -118,7 +118,7 @@ private:
 
     const Bodies<Dim>& bodies_;
     const SolidOptions<Dim>& options_;
-    const RankPart<Dim>* part_;
+    const RankPart<Dim>& part_;
     HeldPoints<Dim> held_;
     std::vector<HeldSpring> springs_;
     std::vector<HeldMoment> moments_;

@@ -15,21 +15,17 @@ constexpr std::int64_t most_faces = 8;  // of a cell
 }  // namespace
 
 template <int Dim>
-RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies) : ranks_(ranks) {
+RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies)
+    : is_whole_(ranks.is_one()),
+      one_(is_whole_ ? static_cast<std::int32_t>(bodies.rest().size()) : 0, Dim),
+      ranks_(is_whole_ ? one_ : ranks),
+      n_points_(bodies.rest().size()) {
     const mesh::Mesh<Dim>& mesh = bodies.deformable();
     check(bodies);
-    const auto positions = ranks.positions();
+    const auto positions = ranks_.positions();
     n_own_cells_ = static_cast<std::size_t>(std::ranges::lower_bound(positions, mesh.n_cells()) - positions.begin());
-    for (const std::int32_t position : positions) {
-        const auto point = static_cast<std::size_t>(position);
-        rest_.push_back(bodies.rest()[point]);
-        masses_.push_back(bodies.masses()[point]);
-        inverse_masses_.insert(inverse_masses_.end(), Dim, bodies.inverse_masses()[point * Dim]);
-        body_.push_back(bodies.body_of_points()[point]);
-    }
-    const std::size_t n_part = bodies.rest().size();
-    for (auto* array : {&state_, &start_, &end_}) array->assign(n_part, Vector<Dim>::Constant(std::nan("")));
-    result_.assign(n_part, Vector<Dim>::Zero());
+    own_cells_ = positions.first(n_own_cells_);
+    take_points(bodies);
     set_cell_numbers(mesh);
     std::vector<bool> is_own(static_cast<std::size_t>(mesh.n_cells()), false);
     for (const std::int32_t cell : own_cells()) is_own[static_cast<std::size_t>(cell)] = true;
@@ -46,8 +42,36 @@ RankPart<Dim>::RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies)
 }
 
 template <int Dim>
+void RankPart<Dim>::take_points(const Bodies<Dim>& bodies) {
+    rest_ = bodies.rest();
+    masses_ = bodies.masses();
+    inverse_masses_ = bodies.inverse_masses();
+    body_ = bodies.body_of_points();
+    if (is_whole_) return;
+    for (const std::int32_t position : ranks_.positions()) {
+        const auto point = static_cast<std::size_t>(position);
+        rest_here_.push_back(rest_[point]);
+        masses_here_.push_back(masses_[point]);
+        inverse_masses_here_.insert(inverse_masses_here_.end(), Dim, inverse_masses_[point * Dim]);
+        body_here_.push_back(body_[point]);
+    }
+    rest_ = rest_here_;
+    masses_ = masses_here_;
+    inverse_masses_ = inverse_masses_here_;
+    body_ = body_here_;
+    for (auto* array : {&state_, &start_, &end_}) array->assign(n_points_, Vector<Dim>::Constant(std::nan("")));
+    result_.assign(n_points_, Vector<Dim>::Zero());
+}
+
+template <int Dim>
+void RankPart<Dim>::take_rest(const Bodies<Dim>& bodies) {
+    for (std::size_t i = 0; i < rest_here_.size(); ++i)
+        rest_here_[i] = bodies.rest()[static_cast<std::size_t>(ranks_.positions()[i])];
+}
+
+template <int Dim>
 void RankPart<Dim>::check(const Bodies<Dim>& bodies) const {
-    dynamics::agreed(&ranks_, [&] {
+    dynamics::agreed(ranks_, [&] {
         const auto own = ranks_.positions();
         const bool rises = std::ranges::adjacent_find(own, std::greater_equal{}) == own.end();
         if (ranks_.dimension() != Dim || !rises ||
@@ -60,11 +84,11 @@ void RankPart<Dim>::check(const Bodies<Dim>& bodies) const {
 
 template <int Dim>
 void RankPart<Dim>::set_cell_numbers(const mesh::Mesh<Dim>& mesh) {
-    cell_numbers_.resize(result_.size());
+    cell_numbers_.resize(n_points_);
     for (std::size_t i = 0; i < ranks_.positions().size(); ++i)
         cell_numbers_[static_cast<std::size_t>(ranks_.positions()[i])] = ranks_.numbers()[i];
     ranks_.fill(cell_numbers_, 1, dynamics::CopySet::all);
-    dynamics::agreed(&ranks_, [&] {
+    dynamics::agreed(ranks_, [&] {
         if (std::ranges::adjacent_find(cell_numbers_, std::greater_equal{}) != cell_numbers_.end())
             throw BadInput(mesh.name +
                            ": the ranks do not fit the points of this part: their numbers do not rise. Take both from one "
@@ -76,7 +100,7 @@ void RankPart<Dim>::set_cell_numbers(const mesh::Mesh<Dim>& mesh) {
 template <int Dim>
 void RankPart<Dim>::fill_only(std::span<const std::int32_t> cells) {
     std::vector<std::int32_t> filled(cells.begin(), cells.end());
-    for (auto point = cell_numbers_.size(); point < result_.size(); ++point)
+    for (auto point = cell_numbers_.size(); point < n_points_; ++point)
         filled.push_back(static_cast<std::int32_t>(point));
     copies_ = ranks_.copy_set(filled);
 }
@@ -160,6 +184,11 @@ void RankPart<Dim>::find_first_cells() {
 
 template <int Dim>
 std::vector<Vector<Dim>> RankPart<Dim>::of_first_cells(std::span<const Vector<Dim>> of_part) const {
+    if (is_whole_) {
+        std::vector<Vector<Dim>> of_bodies;
+        for (const std::int32_t cell : own_first_cells_) of_bodies.push_back(of_part[static_cast<std::size_t>(cell)]);
+        return of_bodies;
+    }
     std::vector<double> mine;
     for (const std::int32_t cell : own_first_cells_)
         for (const double value : of_part[static_cast<std::size_t>(cell)]) mine.push_back(value);
@@ -183,7 +212,7 @@ void RankPart<Dim>::find_own_rigid(const RigidBodies<Dim>& rigid) {
 /// One rank owns all points of a body, and they are where it has them only if all cells of the body are here.
 template <int Dim>
 void RankPart<Dim>::check_rigid(const Bodies<Dim>& bodies) const {
-    if (!bodies.any_rigid()) return;
+    if (is_whole_ || !bodies.any_rigid()) return;
     constexpr std::size_t width = Dim + 1;
     std::vector<double> here;  // rest position and mass of each point
     for (std::size_t i = 0; i < bodies.rest().size(); ++i) {
@@ -192,7 +221,7 @@ void RankPart<Dim>::check_rigid(const Bodies<Dim>& bodies) const {
     }
     std::vector<double> of_owner = here;
     ranks_.fill(of_owner, width, dynamics::CopySet::all);
-    dynamics::agreed(&ranks_, [&] {
+    dynamics::agreed(ranks_, [&] {
         if (ranks_.positions().size() != n_own_cells_ + own_rigid_.size() * RigidBodies<Dim>::points_per_body ||
             gathered_rigid_.size() != bodies.rigid().size())
             throw BadInput(bodies.mesh().name +
@@ -217,7 +246,7 @@ std::vector<double> RankPart<Dim>::gather_rigid(std::span<const double> of_own) 
 
 template <int Dim>
 void RankPart<Dim>::spread_rigid(std::span<const Vector<Dim>> of_own, std::vector<Vector<Dim>>& of_part) const {
-    of_part.resize(result_.size());
+    of_part.resize(n_points_);
     const auto positions = ranks_.positions();
     for (std::size_t i = n_own_cells_; i < positions.size(); ++i)
         of_part[static_cast<std::size_t>(positions[i])] = of_own[i];
@@ -231,16 +260,16 @@ void RankPart<Dim>::take_rigid(std::span<const Vector<Dim>> of_part, std::span<V
 }
 
 template <int Dim>
-std::span<const Vector<Dim>> RankPart<Dim>::fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const {
+void RankPart<Dim>::fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const {
     const auto own = ranks_.positions();
     for (std::size_t i = 0; i < own.size(); ++i) of_part[static_cast<std::size_t>(own[i])] = q[i];
     ranks_.fill(as_values<Dim>(of_part), Dim, copies_);
-    return of_part;
 }
 
 template <int Dim>
 std::pair<std::span<const Vector<Dim>>, std::span<const Vector<Dim>>> RankPart<Dim>::step(std::span<const Vector<Dim>> q_0,
                                                                                           std::span<const Vector<Dim>> q_1) {
+    if (is_whole_) return {q_0, q_1};
     std::swap(start_, end_);
     bool moved = false;
     const auto own = ranks_.positions();
@@ -251,16 +280,17 @@ std::pair<std::span<const Vector<Dim>>, std::span<const Vector<Dim>>> RankPart<D
 }
 
 template <int Dim>
-std::vector<Vector<Dim>> RankPart<Dim>::filled(std::span<const Vector<Dim>> q) const {
-    std::vector<Vector<Dim>> of_part(state_.size());
-    fill(q, of_part);
-    return of_part;
+std::span<const Vector<Dim>> RankPart<Dim>::filled(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& kept) const {
+    if (is_whole_) return q;
+    kept.resize(n_points_);
+    fill(q, kept);
+    return kept;
 }
 
 template <int Dim>
 std::vector<double> RankPart<Dim>::of_owners(std::span<const double> of_cells) const {
     std::vector<double> values(of_cells.begin(), of_cells.end());
-    values.resize(result_.size());
+    values.resize(n_points_);
     ranks_.fill(values, 1, dynamics::CopySet::all);
     values.resize(of_cells.size());
     return values;
@@ -275,6 +305,7 @@ std::vector<Vector<Dim>> RankPart<Dim>::own(std::span<const Vector<Dim>> of_part
 
 template <int Dim>
 void RankPart<Dim>::take_result(std::span<Vector<Dim>> of_own) const {
+    if (is_whole_) return;
     const auto own = ranks_.positions();
     for (std::size_t i = 0; i < own.size(); ++i) of_own[i] = result_[static_cast<std::size_t>(own[i])];
 }

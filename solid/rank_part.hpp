@@ -8,23 +8,32 @@
 
 #include "abut/base/parallel.hpp"
 #include "abut/dynamics/ranks.hpp"
+#include "abut/dynamics/sum_over.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/boundary_face.hpp"
 
 namespace abut::solid {
 
-/// What one of several ranks has of a solid. The points of its system are its own cells, then the points of rigid bodies that
-/// are its own. Its part has copies beside these: points of the part are the cells that deform there, its own and copies, then
-/// the points of all rigid bodies. It turns arrays by own point into arrays by point of the part, and back.
+/// Part of a solid that a rank has. The points of its system are its own cells, then the points of rigid bodies that are its own.
+/// The part has copies beside these: points of the part are the cells that deform there, its own and copies, then the points of
+/// all rigid bodies. It turns arrays by own point into arrays by point of the part, and back; on one rank both are the same array.
 template <int Dim>
 class RankPart {
 public:
     /// All arguments must outlive it. A call of all ranks.
     RankPart(const dynamics::Ranks& ranks, const Bodies<Dim>& bodies);
+    RankPart(const RankPart&) = delete;
+    RankPart& operator=(const RankPart&) = delete;
 
+    /// Reads positions at rest again: Bodies::place_cell_points has changed them.
+    void take_rest(const Bodies<Dim>& bodies);
+
+    /// Those that it was made with; of one alone, with the points of this solid.
     [[nodiscard]] const dynamics::Ranks& ranks() const { return ranks_; }
+    /// Whether it is all of the solid, on the only rank: every point is where its number says.
+    [[nodiscard]] bool is_whole() const { return is_whole_; }
     /// Among the cells of the part that deform, increasing.
-    [[nodiscard]] std::span<const std::int32_t> own_cells() const { return ranks_.positions().first(n_own_cells_); }
+    [[nodiscard]] std::span<const std::int32_t> own_cells() const { return own_cells_; }
     /// Rigid bodies whose points are own ones, increasing.
     [[nodiscard]] std::span<const std::int32_t> own_rigid() const { return own_rigid_; }
     [[nodiscard]] std::int32_t n_all_cells() const { return body_begin_.back(); }  ///< that deform, of all ranks
@@ -58,17 +67,18 @@ public:
     [[nodiscard]] std::span<const double> inverse_masses() const { return inverse_masses_; }
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return body_; }  ///< in the mesh
 
-    // By point of the part, from values of own points: calls of all ranks
+    // By point of the part, from values of own points: calls of all ranks. On one rank nothing is copied.
 
     /// From now on only own points, these cells and the points of rigid bodies are filled. A call of all ranks.
     void fill_only(std::span<const std::int32_t> cells);
 
     /// A state; valid until the next call.
-    [[nodiscard]] std::span<const Vector<Dim>> state(std::span<const Vector<Dim>> q) { return fill(q, state_); }
+    [[nodiscard]] std::span<const Vector<Dim>> state(std::span<const Vector<Dim>> q) { return filled(q, state_); }
     /// Both ends of a step, valid until the next call; the start is exchanged only where it is not the end of the call before.
     [[nodiscard]] std::pair<std::span<const Vector<Dim>>, std::span<const Vector<Dim>>> step(
         std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
-    [[nodiscard]] std::vector<Vector<Dim>> filled(std::span<const Vector<Dim>> q) const;
+    /// Any values, in `kept` or, on one rank, in q itself.
+    [[nodiscard]] std::span<const Vector<Dim>> filled(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& kept) const;
     /// What the owner of each cell here has of it (n_cells).
     [[nodiscard]] std::vector<double> of_owners(std::span<const double> of_cells) const;
     /// The other way round, which needs no other rank.
@@ -76,12 +86,21 @@ public:
 
     // Of own rigid bodies; without other ranks
 
-    /// Sets those of their points, by point of the part.
-    void spread_rigid(std::span<const Vector<Dim>> of_own, std::vector<Vector<Dim>>& of_part) const;
-    void take_rigid(std::span<const Vector<Dim>> of_part, std::span<Vector<Dim>> of_own) const;
+    /// Calls constrain(q, p) with values by point of the part, of which those of own rigid bodies are set, and takes their p back.
+    /// A call of all ranks.
+    template <class Constrain>
+    void constrain_rigid(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> p, const Constrain& constrain) {
+        if (is_whole_) return constrain(q, p);
+        spread_rigid(q, rigid_q_);
+        spread_rigid(p, rigid_p_);
+        dynamics::agreed(ranks_, [&] { constrain(std::span<const Vector<Dim>>(rigid_q_), std::span<Vector<Dim>>(rigid_p_)); });
+        take_rigid(rigid_p_, p);
+    }
 
-    /// To be written by point of the part; `take_result` copies what belongs to own points.
-    [[nodiscard]] std::span<Vector<Dim>> result() { return result_; }
+    /// To be written by point of the part; `take_result` then copies what belongs to own points. On one rank `of_own` itself.
+    [[nodiscard]] std::span<Vector<Dim>> result(std::span<Vector<Dim>> of_own) {
+        return is_whole_ ? of_own : std::span<Vector<Dim>>(result_);
+    }
     void take_result(std::span<Vector<Dim>> of_own) const;
 
     // Sums of all ranks, with the bits of one
@@ -89,13 +108,15 @@ public:
     /// Of values by cell of the part: `ordered_sum` over all cells.
     template <class Term>
     [[nodiscard]] double sum_of_cells(const Term& term) const {
-        const auto own = own_cells();
-        return dynamics::sum_over(ranks_, {.last = n_all_cells()}, std::ssize(own), 0.0,
-                                  [&](std::ptrdiff_t i) { return term(own[static_cast<std::size_t>(i)]); });
+        return sum_of({.first = 0, .last = n_all_cells()}, own_cells(), 0.0, term);
     }
     /// start + term of each boundary face, one after the other.
     template <class Term>
     [[nodiscard]] double fold_faces(double start, const Term& term) const {
+        if (is_whole_) {
+            for (const BoundaryFace face : own_faces_) start += term(face);
+            return start;
+        }
         std::vector<double> terms;
         terms.reserve(own_faces_.size());
         for (const BoundaryFace face : own_faces_) terms.push_back(term(face));
@@ -104,9 +125,15 @@ public:
     /// Of values by cell of the part: `ordered_sum` over the cells of a body that deforms.
     template <class Value, class Term>
     [[nodiscard]] Value sum_of_body(std::size_t body, const Value& zero, const Term& term) const {
+        return sum_of({.first = body_begin_[body], .last = body_begin_[body + 1]}, own_cells_of(body), zero, term);
+    }
+    /// Calls of_cell(cell) for the own cells of a body that deforms, concurrently.
+    template <class OfCell>
+    void each_cell_of_body(std::size_t body, const OfCell& of_cell) const {
         const auto own = own_cells_of(body);
-        return dynamics::sum_over(ranks_, {.first = body_begin_[body], .last = body_begin_[body + 1]}, std::ssize(own), zero,
-                                  [&](std::ptrdiff_t i) { return term(own[static_cast<std::size_t>(i)]); });
+        const std::ptrdiff_t begin = body_begin_[body];
+        if (is_whole_) return parallel_each(std::ssize(own), [&](std::ptrdiff_t i) { of_cell(begin + i); });
+        parallel_each(std::ssize(own), [&](std::ptrdiff_t i) { of_cell(own[static_cast<std::size_t>(i)]); });
     }
     /// Those of the first cell of each body that deforms (n_bodies), from values by cell of the part. A call of all ranks.
     [[nodiscard]] std::vector<Vector<Dim>> of_first_cells(std::span<const Vector<Dim>> of_part) const;
@@ -116,7 +143,20 @@ public:
     [[nodiscard]] bool any(bool here) const { return ranks_.largest(here ? 1.0 : 0.0) > 0.0; }
 
 private:
-    std::span<const Vector<Dim>> fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const;
+    /// Of the own ones among cells, which have these numbers. On one rank these are the cells: nothing is looked up.
+    template <class Value, class Term>
+    [[nodiscard]] Value sum_of(const dynamics::Summands& numbers, std::span<const std::int32_t> own, const Value& zero,
+                               const Term& term) const {
+        if (is_whole_)
+            return ordered_sum(std::ssize(own), zero,
+                               [&](std::ptrdiff_t i) { return term(numbers.first + static_cast<std::int32_t>(i)); });
+        return dynamics::sum_over(ranks_, numbers, std::ssize(own), zero,
+                                  [&](std::ptrdiff_t i) { return term(own[static_cast<std::size_t>(i)]); });
+    }
+    void fill(std::span<const Vector<Dim>> q, std::vector<Vector<Dim>>& of_part) const;
+    void spread_rigid(std::span<const Vector<Dim>> of_own, std::vector<Vector<Dim>>& of_part) const;
+    void take_rigid(std::span<const Vector<Dim>> of_part, std::span<Vector<Dim>> of_own) const;
+    void take_points(const Bodies<Dim>& bodies);
     void check(const Bodies<Dim>& bodies) const;
     void set_cell_numbers(const mesh::Mesh<Dim>& mesh);
     void set_body_begin(const mesh::Mesh<Dim>& mesh);
@@ -126,7 +166,11 @@ private:
     void order_faces();
     [[nodiscard]] std::size_t position_of(std::int64_t key) const;
 
+    bool is_whole_;
+    dynamics::OneRank one_;  // of a whole: it numbers the points
     const dynamics::Ranks& ranks_;
+    std::size_t n_points_;  // of the part
+    std::span<const std::int32_t> own_cells_;
     dynamics::CopySet copies_ = dynamics::CopySet::all;
     std::size_t n_own_cells_ = 0;
     std::vector<double> cell_numbers_;
@@ -140,20 +184,13 @@ private:
     std::vector<std::size_t> gathered_body_;     // as `gather` brings the first cells of all ranks
     std::vector<std::int32_t> own_rigid_;
     std::vector<std::size_t> gathered_rigid_;  // as `gather` brings the rigid bodies of all ranks
-    std::vector<Vector<Dim>> rest_;
-    std::vector<double> masses_, inverse_masses_;
-    std::vector<std::int32_t> body_;
-    std::vector<Vector<Dim>> state_, start_, end_, result_;
+    std::span<const Vector<Dim>> rest_;  // of own points, as below; of a whole those of the bodies
+    std::span<const double> masses_, inverse_masses_;
+    std::span<const std::int32_t> body_;
+    std::vector<Vector<Dim>> rest_here_;
+    std::vector<double> masses_here_, inverse_masses_here_;
+    std::vector<std::int32_t> body_here_;
+    std::vector<Vector<Dim>> state_, start_, end_, result_, rigid_q_, rigid_p_;  // none of a whole
 };
-
-/// Of term(point) over the points [first, second) of a body, as `ordered_sum`; on several ranks (`part` is not null then) over
-/// those of all of them, `body` being numbered as in Bodies::deformable.
-template <int Dim, class Value, class Term>
-[[nodiscard]] Value sum_over_body(const RankPart<Dim>* part, std::ptrdiff_t body,
-                                  std::pair<std::int32_t, std::int32_t> points, const Value& zero, const Term& term) {
-    if (part) return part->sum_of_body(static_cast<std::size_t>(body), zero, term);
-    return ordered_sum(points.second - points.first, zero,
-                       [&](std::ptrdiff_t i) { return term(points.first + static_cast<std::int32_t>(i)); });
-}
 
 }  // namespace abut::solid

@@ -52,7 +52,7 @@ public:
         std::vector<double> here(number_.size());
         for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) here[static_cast<std::size_t>(c)] = fingerprint(c);
         const std::vector<double> of_owner = part_.of_owners(here);
-        dynamics::agreed(&part_.ranks(), [&] {
+        dynamics::agreed(part_.ranks(), [&] {
             std::vector<std::int32_t> cells = region.displacement_gradient_cells;
             for (const std::int32_t f : region.reconstructed) cells.push_back(mesh_.face_cells[f][0]);
             for (const BoundaryFace b : region.reconstructed_boundary) cells.push_back(cell_of(mesh_, b));
@@ -85,7 +85,7 @@ public:
         }
         sort_unique(known);
         const std::vector<double> all = part_.ranks().gather(foreign);
-        dynamics::agreed(&part_.ranks(), [&] {
+        dynamics::agreed(part_.ranks(), [&] {
             const auto numbers = part_.ranks().numbers();
             for (std::size_t i = 0; i < all.size(); i += 2)
                 if (std::ranges::binary_search(numbers, static_cast<std::int32_t>(all[i])) &&

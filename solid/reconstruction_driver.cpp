@@ -30,16 +30,16 @@ contact::ContactOptions contact_options(const mesh::Mesh<Dim>& mesh, const Solid
 
 template <int Dim>
 ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                                                const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>* part)
+                                                const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part)
     : mesh_(mesh),
       options_(contact_options(mesh, options)),
       ccg_(ccg),
       loads_(loads),
       times_(times),
       obstacles_(options.obstacles),
-      ranks_(part ? std::make_unique<RankFaces<Dim>>(*part, mesh, ccg) : nullptr),
-      watch_(ccg, part ? &part->ranks() : nullptr) {
-    if (part) sharing_.emplace(part->ranks());
+      ranks_(part.is_whole() ? nullptr : std::make_unique<RankFaces<Dim>>(part, mesh, ccg)),
+      watch_(ccg, part.ranks()) {
+    if (ranks_) sharing_.emplace(part.ranks());
     build_surface();
     make_contact();
 }

@@ -24,10 +24,10 @@ namespace abut::solid {
 template <int Dim>
 class ReconstructionDriver final : public ContactDriver<Dim> {
 public:
-    /// All arguments must outlive the driver; where the time goes is added to `times`. `part` is null on one rank; on several
+    /// All arguments must outlive the driver; where the time goes is added to `times`. On several ranks
     /// faces are evaluated where their cells are, and each does its share of the pairs. Throws as contact::Contact.
     ReconstructionDriver(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, Ccg<Dim>& ccg,
-                         const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>* part);
+                         const Loads<Dim>& loads, SolidTimes& times, const RankPart<Dim>& part);
 
     // The path of the listed faces in one step
 

@@ -23,55 +23,44 @@
 namespace abut::solid {
 namespace {
 
-/// What is not made for several ranks.
+/// What is not made for several ranks, and what a part lacks.
 template <int Dim>
-void check_for_ranks(const dynamics::Ranks* ranks, const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+void check_for_ranks(const dynamics::Ranks& ranks, const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options) {
+    if (ranks.is_one()) return;
     const auto n_bodies = std::min<std::int32_t>(mesh.n_bodies(), static_cast<std::int32_t>(options.kinematics.size()));
     for (std::int32_t body = 0; body < n_bodies; ++body)
         if (const auto [first, last] = cells_of_body(mesh, body);
             first == last && options.kinematics[static_cast<std::size_t>(body)] == Kinematics::rigid)
             throw BadInput(mesh.name + ": rigid body " + std::to_string(body) +
                            " has no cells in the part of a rank. Give each rank the whole of it (solid::part_of).");
-    if (std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside))
-        dynamics::refuse_ranks(ranks, "a load from outside");
-    if (options.precision == Precision::single_precision) dynamics::refuse_ranks(ranks, "a bulk in single precision");
-    if (options.device != StepDevice::host) dynamics::refuse_ranks(ranks, "a bulk on a device");
+    const bool from_outside = std::ranges::any_of(options.boundary.traction, &TractionCondition<Dim>::from_outside);
+    dynamics::refuse_ranks(ranks, {{"a load from outside", from_outside},
+                                   {"a bulk in single precision", options.precision == Precision::single_precision},
+                                   {"a bulk on a device", options.device != StepDevice::host}});
 }
 
 template <int Dim>
 std::unique_ptr<Bodies<Dim>> bodies_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                       const dynamics::Ranks* ranks) {
-    if (ranks) dynamics::agreed(ranks, [&] { check_for_ranks(ranks, mesh, options); });
+                                       const dynamics::Ranks& ranks) {
+    dynamics::agreed(ranks, [&] { check_for_ranks(ranks, mesh, options); });
     std::vector<TractionHold> holds = traction_holds(mesh, options, ranks);
     return dynamics::agreed(ranks, [&] { return std::make_unique<Bodies<Dim>>(mesh, options, std::move(holds)); });
 }
 
-/// The points of cells are placed once ranks can be brought together, and are then those of the part. Null on one rank.
+/// The points of cells are placed once ranks can be brought together.
 template <int Dim>
-std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks* ranks, Bodies<Dim>& bodies) {
-    if (!ranks) {
-        bodies.place_cell_points(nullptr);
-        return nullptr;
-    }
-    bodies.place_cell_points(std::make_unique<RankPart<Dim>>(*ranks, bodies).get());
-    auto part = std::make_unique<RankPart<Dim>>(*ranks, bodies);
-    bodies.take_part(part.get());
+std::unique_ptr<RankPart<Dim>> part_of_rank(const dynamics::Ranks& ranks, Bodies<Dim>& bodies) {
+    auto part = std::make_unique<RankPart<Dim>>(ranks, bodies);
+    bodies.place_cell_points(*part);
+    part->take_rest(bodies);
+    bodies.take_part(*part);
     return part;
-}
-
-/// Where the cells of each body begin, one more at the end.
-template <int Dim>
-std::vector<std::int32_t> first_cells(const mesh::Mesh<Dim>& mesh) {
-    std::vector<std::int32_t> begin;
-    for (std::int32_t body = 0; body < mesh.n_bodies(); ++body) begin.push_back(cells_of_body(mesh, body).first);
-    begin.push_back(mesh.n_cells());
-    return begin;
 }
 
 }  // namespace
 
 template <int Dim>
-Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks)
+Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks& ranks)
     : mesh_(mesh),
       options_(std::move(options)),
       bodies_(bodies_of(mesh, options_, ranks)),
@@ -83,62 +72,55 @@ Solid<Dim>::Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const 
                                                 deformable.kinematics, CellForm::automatic, deformable.precision,
                                                 deformable.device);
                             })),
-      frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(part_.get()))),
-      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_, part_.get())),
+      rotation_(std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(), part_->body_begin(), part_->ranks())),
+      frames_(std::make_unique<BodyFrames<Dim>>(bodies_->frames(*part_))),
+      point_loads_(std::make_unique<PointLoads<Dim>>(*bodies_, *part_)),
       all_cells_(static_cast<std::size_t>(bodies_->n_cells())),
       rigid_force_(bodies_->rigid_forces()),
       rigid_stiffness_(bodies_->rigid_stiffness()) {
     std::iota(all_cells_.begin(), all_cells_.end(), 0);
-    if (part_) {
-        check_rows_of_ranks(*part_, bodies_->deformable(), ccg_);
-        bodies_->rigid().constrain_only(part_->own_rigid());
-        part_->fill_only(ccg_.compute_only(part_->own_cells()));
-        ccg_.watch_only(part_->own_faces());
-        const auto begin = part_->body_begin();
-        rotation_ = std::make_unique<BodyRotation<Dim>>(part_->rest(), part_->masses(),
-                                                        std::vector<std::int32_t>(begin.begin(), begin.end()), ranks);
-    } else {
-        rotation_ = std::make_unique<BodyRotation<Dim>>(bodies_->deformable().cell_centroid, bodies_->masses(),
-                                                        first_cells(bodies_->deformable()), nullptr);
-    }
+    bodies_->rigid().constrain_only(part_->own_rigid());
+    if (!part_->is_whole()) meet_other_ranks();
     loads_ = dynamics::agreed(ranks, [&] {
         return std::make_unique<Loads<Dim>>(bodies_->deformable(), bodies_->deformable_options(), bodies_->masses(), ccg_,
-                                            part_.get());
+                                            *part_);
     });
-    frame_loads_ = std::make_unique<FrameLoads<Dim>>(*bodies_, *frames_, part_.get());
+    frame_loads_ = std::make_unique<FrameLoads<Dim>>(*bodies_, *frames_, *part_);
     if (frame_loads_->any()) frame_loads_->take(loads_->end());
     outside_ = std::make_unique<OutsideLoads<Dim>>(*bodies_, ccg_, *loads_, *point_loads_);
     if (!options_.contact) return;
     const ContactLaw law = bodies_->law();
     refuse_choices_of_other_law(law, options_);
     if (law == ContactLaw::pair_potential) {
-        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, part_.get());
+        contact_ = std::make_unique<PairPotentialDriver<Dim>>(*bodies_, ccg_, *loads_, *frames_, times_, *part_);
     } else {
-        contact_ = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, part_.get());
+        contact_ = std::make_unique<ReconstructionDriver<Dim>>(mesh, options_, ccg_, *loads_, times_, *part_);
     }
 }
 
 template <int Dim>
 Solid<Dim>::~Solid() = default;
 
+/// What is brought from them and computed here is what forces on own cells depend on.
 template <int Dim>
-const dynamics::Ranks* Solid<Dim>::ranks() const {
-    return part_ ? &part_->ranks() : nullptr;
+void Solid<Dim>::meet_other_ranks() {
+    check_rows_of_ranks(*part_, bodies_->deformable(), ccg_);
+    part_->fill_only(ccg_.compute_only(part_->own_cells()));
+    ccg_.watch_only(part_->own_faces());
 }
 
 template <int Dim>
-void Solid<Dim>::refuse_ranks(const char* what) const {
-    dynamics::refuse_ranks(ranks(), what);
+const dynamics::Ranks& Solid<Dim>::ranks() const {
+    return part_->ranks();
 }
 
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::state_here(std::span<const double> q) {
-    return part_ ? part_->state(as_vectors<Dim>(q)) : as_vectors<Dim>(q);
+    return part_->state(as_vectors<Dim>(q));
 }
 
 template <int Dim>
 auto Solid<Dim>::ends_here(std::span<const double> q_0, std::span<const double> q_1) -> Ends {
-    if (!part_) return {as_vectors<Dim>(q_0), as_vectors<Dim>(q_1)};
     const auto [start, end] = part_->step(as_vectors<Dim>(q_0), as_vectors<Dim>(q_1));
     return {start, end};
 }
@@ -146,18 +128,12 @@ auto Solid<Dim>::ends_here(std::span<const double> q_0, std::span<const double> 
 /// Where to write what `take_result` makes by point.
 template <int Dim>
 std::span<Vector<Dim>> Solid<Dim>::result_here(std::span<double> of_points) {
-    return part_ ? part_->result() : as_vectors<Dim>(of_points);
+    return part_->result(as_vectors<Dim>(of_points));
 }
 
 template <int Dim>
 void Solid<Dim>::take_result(std::span<double> of_points) const {
-    if (part_) part_->take_result(as_vectors<Dim>(of_points));
-}
-
-/// That deform, of all ranks.
-template <int Dim>
-std::int32_t Solid<Dim>::n_cells_of_all() const {
-    return part_ ? part_->n_all_cells() : bodies_->n_cells();
+    part_->take_result(as_vectors<Dim>(of_points));
 }
 
 /// The part of what is by point that belongs to cells.
@@ -219,8 +195,9 @@ void Solid<Dim>::set_rates(std::span<const double> q, std::span<const double> p)
     if (!point_loads_->damp()) return;
     std::vector<double> v(p.begin(), p.end());
     for (std::size_t i = 0; i < v.size(); ++i) v[i] *= inverse_mass()[i];
-    if (!part_) return point_loads_->set_rates(as_vectors<Dim>(q), as_vectors<Dim>(std::span<const double>(v)));
-    point_loads_->set_rates(part_->filled(as_vectors<Dim>(q)), part_->filled(as_vectors<Dim>(std::span<const double>(v))));
+    std::vector<Vector<Dim>> kept_q, kept_v;
+    const auto q_here = part_->filled(as_vectors<Dim>(q), kept_q);
+    point_loads_->set_rates(q_here, part_->filled(as_vectors<Dim>(std::span<const double>(v)), kept_v));
 }
 
 template <int Dim>
@@ -259,7 +236,6 @@ template <int Dim>
 double Solid<Dim>::stored_energy(std::span<const Vector<Dim>> u) {
     const BoundaryLoad<Dim>& load = loads_->end();
     const auto in_frame = in_frames(u, all_cells_);
-    if (!part_) return ccg_.potential(in_frame, load, corrections());
     const std::vector<double> of_cells = ccg_.cell_energies(in_frame, load, corrections());
     const double stored = part_->sum_of_cells([&](std::int32_t c) { return of_cells[static_cast<std::size_t>(c)]; });
     const BoundaryConditions<Dim>& conditions = bodies_->deformable_options().boundary;
@@ -281,8 +257,8 @@ template <int Dim>
 void Solid<Dim>::end_force_on(std::span<const std::int32_t> points, std::span<const double> q,
                               std::span<Vector<Dim>> force) {
     std::vector<std::int32_t> here(points.begin(), points.end());
-    if (part_)
-        for (std::int32_t& point : here) point = part_->ranks().positions()[static_cast<std::size_t>(point)];
+    const auto positions = ranks().positions();
+    for (std::int32_t& point : here) point = positions[static_cast<std::size_t>(point)];
     const std::vector<std::int32_t> cells(here.begin(), std::ranges::lower_bound(here, bodies_->n_cells()));
     const auto u = state_here(q);
     frames_->stand_at_end();
@@ -317,19 +293,15 @@ bool Solid<Dim>::has_constraints() const {
 
 template <int Dim>
 bool Solid<Dim>::is_constrained(std::int32_t point) const {
-    return point >= (part_ ? std::ssize(part_->own_cells()) : bodies_->n_cells());
+    return point >= std::ssize(part_->own_cells());
 }
 
-/// Calls constrain(q, p) with values by point here; on several ranks each constrains its own bodies.
+/// Calls constrain(q, p) with values by point here; each rank constrains its own bodies.
 template <int Dim>
 template <class Constrain>
 void Solid<Dim>::constrain_own(std::span<const double> q, std::span<double> p, const Constrain& constrain) {
     if (!bodies_->any_rigid()) return;
-    if (!part_) return constrain(as_vectors<Dim>(q), as_vectors<Dim>(p));
-    part_->spread_rigid(as_vectors<Dim>(q), rigid_q_);
-    part_->spread_rigid(as_vectors<Dim>(p), rigid_p_);
-    dynamics::agreed(ranks(), [&] { constrain(std::span<const Vector<Dim>>(rigid_q_), std::span<Vector<Dim>>(rigid_p_)); });
-    part_->take_rigid(rigid_p_, as_vectors<Dim>(p));
+    part_->constrain_rigid(as_vectors<Dim>(q), as_vectors<Dim>(p), constrain);
 }
 
 template <int Dim>

@@ -66,11 +66,11 @@ public:
 
     /// The mesh must outlive the solid. Throws BadInput saying where, how much, how much is allowed and what to do.
     ///
-    /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, say whose its points are
+    /// On several ranks `mesh` is that of a part (part_of), and `ranks`, which must outlive the solid, tell whose its points are
     /// (points_of, ranks::PointRanks): those of the solid are the ones of this rank then, and functions that take q or p, `state`
     /// and `restore` are calls of all ranks together, except `displacement_gradient`. All bits are those of one rank; what is not
     /// made for several throws BadInput (docs/ranks.md).
-    Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks* ranks = nullptr);
+    Solid(const mesh::Mesh<Dim>& mesh, SolidOptions<Dim> options, const dynamics::Ranks& ranks = dynamics::one_rank());
     Solid(const Solid&) = delete;
     Solid& operator=(const Solid&) = delete;
     ~Solid();
@@ -180,7 +180,7 @@ public:
     /// So far; q is where the last step ended.
     [[nodiscard]] OutsideWork outside_work(std::span<const double> q) const;
 
-    [[nodiscard]] const dynamics::Ranks* ranks() const;  ///< null: there is one
+    [[nodiscard]] const dynamics::Ranks& ranks() const;  ///< that the points are shared out to; one alone has all
     /// Cells whose points this rank owns, on one rank all. Needs no other rank.
     [[nodiscard]] OwnCells own_cells() const;
     [[nodiscard]] const mesh::Mesh<Dim>& mesh() const { return mesh_; }
@@ -234,7 +234,7 @@ public:
     [[nodiscard]] std::vector<double> momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const;
 
 private:
-    // By point of this system or, on several ranks, by point of the part: all that is private takes the latter.
+    // By point of this system or, on several ranks, by point of the part (RankPart): all that is private takes the latter.
     struct Ends {
         std::span<const Vector<Dim>> start, end;
     };
@@ -245,8 +245,7 @@ private:
     [[nodiscard]] double potential_here(std::span<const Vector<Dim>> u);
     [[nodiscard]] double stored_energy(std::span<const Vector<Dim>> u);
     void evaluate_contact(std::span<const double> q);
-    void refuse_ranks(const char* what) const;
-    [[nodiscard]] std::int32_t n_cells_of_all() const;
+    void meet_other_ranks();
 
     [[nodiscard]] std::span<const Vector<Dim>> of_cells(std::span<const Vector<Dim>> q) const;
     void stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Vector<Dim>> result);
@@ -274,7 +273,7 @@ private:
     const mesh::Mesh<Dim>& mesh_;
     SolidOptions<Dim> options_;
     std::unique_ptr<Bodies<Dim>> bodies_;
-    std::unique_ptr<RankPart<Dim>> part_;  // null on one rank
+    std::unique_ptr<RankPart<Dim>> part_;  // of this rank
     Ccg<Dim> ccg_;                         // of the bodies that deform
     std::unique_ptr<BodyRotation<Dim>> rotation_;
     std::unique_ptr<BodyFrames<Dim>> frames_;
@@ -291,11 +290,10 @@ private:
     std::unique_ptr<LocalLevels<Dim>> levels_;     // null without local steps
     LargeArray<double> midpoint_;                  // in the frames, packed; empty where no body turns
     std::vector<Vector<Dim>> in_frames_;
-    std::vector<std::int32_t> all_cells_;         // that deform
-    std::vector<Vector<Dim>> rigid_force_;        // on the points of rigid bodies, constant; by point
-    std::vector<double> rigid_stiffness_;         // of the same, for the stable step; by point
-    std::vector<Vector<Dim>> rigid_q_, rigid_p_;  // by point of the part
-    Region<Dim> patch_region_;                    // of the cells that `end_force_on` was asked for last
+    std::vector<std::int32_t> all_cells_;   // that deform
+    std::vector<Vector<Dim>> rigid_force_;  // on the points of rigid bodies, constant; by point
+    std::vector<double> rigid_stiffness_;   // of the same, for the stable step; by point
+    Region<Dim> patch_region_;              // of the cells that `end_force_on` was asked for last
 };
 
 }  // namespace abut::solid

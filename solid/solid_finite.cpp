@@ -27,6 +27,7 @@ struct Extremes {
 
 /// Of all ranks, from those of each.
 Extremes of_ranks(const dynamics::Ranks& ranks, const Extremes& here) {
+    if (ranks.is_one()) return here;
     const std::vector<double> all =
         ranks.gather(std::vector{here.values.determinant, here.values.strain, static_cast<double>(here.values.cell),
                                  static_cast<double>(here.label), static_cast<double>(here.body)});
@@ -54,13 +55,11 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
     if (!bodies_->any_finite()) return ccg_.gradient(u, ccg_.load_free(), {}, result);
     const mesh::Mesh<Dim>& part = bodies_->deformable();
     double largest = 0.0, smallest = std::numeric_limits<double>::infinity();
-    for (const std::int32_t c : part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_))
+    for (const std::int32_t c : part_->own_cells())
         largest = larger(largest, u[static_cast<std::size_t>(c)].cwiseAbs().maxCoeff());
     for (const double measure : part.cell_measure) smallest = std::min(smallest, measure);
-    if (part_) {
-        largest = part_->ranks().largest(largest);
-        smallest = -part_->ranks().largest(-smallest);
-    }
+    largest = ranks().largest(largest);
+    smallest = -ranks().largest(-smallest);
     const double size = std::pow(smallest, 1.0 / Dim);
     const double scale = largest > 0.0 ? std::exp2(std::floor(std::log2(tiny_displacement * size / largest))) : 1.0;
     in_frames_.resize(u.size());
@@ -73,17 +72,15 @@ void Solid<Dim>::stiffness_of_cells(std::span<const Vector<Dim>> u, std::span<Ve
 template <int Dim>
 void Solid<Dim>::require_no_collapse() {
     if (!bodies_->any_finite()) return;
-    Extremes now{ccg_.finite_extremes(part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_))};
+    Extremes now{ccg_.finite_extremes(part_->own_cells())};
     if (now.values.cell >= 0) {
         const std::int32_t cell = bodies_->mesh_cell(now.values.cell);
         now.label = mesh_.cell_label[cell];
         now.body = static_cast<std::size_t>(mesh_.cell_body[cell]);
-        if (part_)  // cells of rigid bodies before it are all here
-            now.values.cell = static_cast<std::int32_t>(part_->cell_numbers()[now.values.cell]) + cell - now.values.cell;
-        else
-            now.values.cell = cell;
+        // Cells of rigid bodies before it are all here.
+        now.values.cell = static_cast<std::int32_t>(part_->cell_numbers()[now.values.cell]) + cell - now.values.cell;
     }
-    if (part_) now = of_ranks(part_->ranks(), now);
+    now = of_ranks(ranks(), now);
     const auto& [determinant, strain, cell] = now.values;
     finite_extremes_.strain = std::max(finite_extremes_.strain, strain);
     if (cell < 0) return;

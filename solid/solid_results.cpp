@@ -161,31 +161,31 @@ std::optional<contact::EdgePair<Dim>> Solid<Dim>::unseen_edges() const {
 
 template <int Dim>
 std::span<const double> Solid<Dim>::inverse_mass() const {
-    return part_ ? part_->inverse_masses() : bodies_->inverse_masses();
+    return part_->inverse_masses();
 }
 
 template <int Dim>
 std::span<const double> Solid<Dim>::masses() const {
-    return part_ ? part_->masses() : bodies_->masses();
+    return part_->masses();
 }
 
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::rest_positions() const {
-    return part_ ? part_->rest() : bodies_->rest();
+    return part_->rest();
 }
 
 template <int Dim>
 std::span<const std::int32_t> Solid<Dim>::body_of_points() const {
-    return part_ ? part_->body_of_points() : bodies_->body_of_points();
+    return part_->body_of_points();
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::rotations(std::span<const double> q) const {
     const auto u = as_vectors<Dim>(q);
-    std::vector<Vector<Dim>> of_part;
-    if (part_ && bodies_->any_rigid()) of_part = part_->filled(u);
+    std::vector<Vector<Dim>> kept;
+    const auto of_part = bodies_->any_rigid() ? part_->filled(u, kept) : u;
     return bodies_->of_bodies(rotation_->angles(u), [&](std::size_t rigid) {
-        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, part_ ? of_part : u).map));
+        return rotation_angle<Dim>(nearest_rotation<Dim>(bodies_->rigid().place(rigid, of_part).map));
     });
 }
 
@@ -194,20 +194,19 @@ std::vector<double> Solid<Dim>::local_rotations(std::span<const double> q) {
     static_cast<void>(potential(q));  // leaves the displacement gradients of this state behind
     const mesh::Mesh<Dim>& part = bodies_->deformable();
     std::vector<double> largest(static_cast<std::size_t>(part.n_bodies()), 0.0);
-    for (const std::int32_t c : part_ ? part_->own_cells() : std::span<const std::int32_t>(all_cells_)) {
+    for (const std::int32_t c : part_->own_cells()) {
         if (bodies_->is_finite(bodies_->body_of_points()[static_cast<std::size_t>(c)])) continue;
         double& of_body = largest[static_cast<std::size_t>(part.cell_body[c])];
         of_body = larger(of_body, 0.5 * axial<Dim>(ccg_.displacement_gradient(c)).norm());
     }
-    if (part_)
-        for (double& of_body : largest) of_body = part_->ranks().largest(of_body);
+    for (double& of_body : largest) of_body = ranks().largest(of_body);
     return bodies_->of_bodies(largest, [](std::size_t) { return 0.0; });
 }
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_displacement(std::span<const double> q) const {
-    if (part_) return bodies_->of_cells(part_->filled(as_vectors<Dim>(q)));
-    return bodies_->of_cells(as_vectors<Dim>(q));
+    std::vector<Vector<Dim>> kept;
+    return bodies_->of_cells(part_->filled(as_vectors<Dim>(q), kept));
 }
 
 template <int Dim>
@@ -223,11 +222,10 @@ Matrix<Dim> Solid<Dim>::displacement_gradient(std::int32_t cell, std::span<const
     return Matrix<Dim>::Zero();
 }
 
-/// The part of q that belongs to a rigid body, on several ranks to an own one.
+/// The part of q that belongs to an own rigid body.
 template <int Dim>
 std::span<const Vector<Dim>> Solid<Dim>::own_points_of(std::size_t rigid, std::span<const Vector<Dim>> q) const {
     constexpr std::size_t n = RigidBodies<Dim>::points_per_body;
-    if (!part_) return q.subspan(static_cast<std::size_t>(bodies_->rigid().first_point(rigid)), n);
     const auto own = part_->own_rigid();
     const auto found = std::ranges::find(own, static_cast<std::int32_t>(rigid));
     if (found == own.end())
@@ -239,11 +237,6 @@ std::span<const Vector<Dim>> Solid<Dim>::own_points_of(std::size_t rigid, std::s
 template <int Dim>
 OwnCells Solid<Dim>::own_cells() const {
     OwnCells own;
-    if (!part_) {
-        for (std::int32_t c = 0; c < mesh_.n_cells(); ++c) own.number.push_back(c);
-        own.position = own.number;
-        return own;
-    }
     std::vector<bool> is_own(mesh_.cell_body.size(), false), is_own_body(mesh_.body_names.size(), false);
     for (const std::int32_t c : part_->own_cells()) is_own[bodies_->mesh_cell(c)] = true;
     for (const std::int32_t i : part_->own_rigid()) is_own_body[bodies_->rigid().mesh_body(i)] = true;
@@ -268,7 +261,7 @@ OwnCells Solid<Dim>::own_cells() const {
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double> q) const {
-    refuse_ranks("displacements of vertices");
+    dynamics::refuse_ranks(ranks(), {{"displacements of vertices"}});
     const std::vector<Vector<Dim>> of_cells = cell_displacement(q);
     std::vector<Vector<Dim>> displacement(mesh_.vertices.size(), Vector<Dim>::Zero());
     std::vector<int> n_cells(mesh_.vertices.size(), 0);
@@ -285,20 +278,18 @@ std::vector<Vector<Dim>> Solid<Dim>::vertex_displacement(std::span<const double>
 
 template <int Dim>
 std::vector<Vector<Dim>> Solid<Dim>::cell_velocity(std::span<const double> p) const {
-    if (part_) return bodies_->velocities(part_->filled(as_vectors<Dim>(p)));
-    return bodies_->velocities(as_vectors<Dim>(p));
+    std::vector<Vector<Dim>> kept;
+    return bodies_->velocities(part_->filled(as_vectors<Dim>(p), kept));
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::displacement_of_points(std::span<const Vector<Dim>> of_cells) const {
-    const std::vector<Vector<Dim>> of_points = bodies_->of_points(of_cells);
-    return as_numbers<Dim>(part_ ? part_->own(of_points) : of_points);
+    return as_numbers<Dim>(part_->own(bodies_->of_points(of_cells)));
 }
 
 template <int Dim>
 std::vector<double> Solid<Dim>::momentum_of_points(std::span<const Vector<Dim>> cell_velocity) const {
-    const std::vector<Vector<Dim>> of_points = bodies_->momenta(cell_velocity);
-    return as_numbers<Dim>(part_ ? part_->own(of_points) : of_points);
+    return as_numbers<Dim>(part_->own(bodies_->momenta(cell_velocity)));
 }
 
 template <int Dim>

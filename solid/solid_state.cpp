@@ -26,19 +26,18 @@ std::string kind() {
 
 /// Of places and masses of the points, whatever ranks they are on: the arrays inside are checked where they are read.
 template <int Dim>
-std::uint64_t fingerprint(std::span<const Vector<Dim>> rest, std::span<const double> masses, const dynamics::Ranks* ranks) {
+std::uint64_t fingerprint(std::span<const Vector<Dim>> rest, std::span<const double> masses, const dynamics::Ranks& ranks) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < masses.size(); ++i) {
         Checksum checksum;
-        const std::int32_t number = ranks ? ranks->numbers()[i] : static_cast<std::int32_t>(i);
+        const std::int32_t number = ranks.number_of(i);
         checksum.add_values(std::span(&number, 1));
         checksum.add_values(std::span<const double>(rest[i].data(), Dim));
         checksum.add_values(masses.subspan(i, 1));
         sum += checksum.value();
     }
-    if (!ranks) return sum;
     constexpr int half = 32;  // of the bits: so many fit into a double
-    const std::vector<double> halves = ranks->gather(
+    const std::vector<double> halves = ranks.gather(
         std::vector{static_cast<double>(sum >> half), static_cast<double>(sum & ((std::uint64_t{1} << half) - 1))});
     sum = 0;
     for (std::size_t i = 0; i < halves.size(); i += 2)
@@ -60,7 +59,7 @@ std::vector<std::byte> Solid<Dim>::state() const {
     loads_->save(state);
     point_loads_->save(state);
     outside_->save(state);
-    bodies_->rigid().save(state, part_.get());
+    bodies_->rigid().save(state, *part_);
     state.put(static_cast<std::uint8_t>(contact_ != nullptr));
     if (!contact_) return std::move(state).finish();
     state.put_all(std::span<const std::byte>(contact_->state()));
@@ -114,26 +113,26 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
 
 template <int Dim>
 void Loads<Dim>::save(StateWriter& state) const {
-    if (!part_ || !has_conditions_) {
+    if (!has_conditions_) {
         put_all<Dim>(state, end_.displacement);
         put_all<Dim>(state, end_.traction);
     } else {
-        put_all<Dim>(state, part_->gather_faces(end_.displacement));
-        put_all<Dim>(state, part_->gather_faces(end_.traction));
+        put_all<Dim>(state, part_.gather_faces(end_.displacement));
+        put_all<Dim>(state, part_.gather_faces(end_.traction));
     }
 }
 
 template <int Dim>
 void Loads<Dim>::restore(StateReader& state) {
-    if (!part_ || !has_conditions_) {
+    if (!has_conditions_) {
         take_all<Dim>(state, end_.displacement);
         take_all<Dim>(state, end_.traction);
     } else {
-        std::vector<Vector<Dim>> of_all(part_->n_all_faces());
+        std::vector<Vector<Dim>> of_all(part_.n_all_faces());
         take_all<Dim>(state, of_all);
-        end_.displacement = part_->faces_here(mesh_, of_all);
+        end_.displacement = part_.faces_here(mesh_, of_all);
         take_all<Dim>(state, of_all);
-        end_.traction = part_->faces_here(mesh_, of_all);
+        end_.traction = part_.faces_here(mesh_, of_all);
     }
     start_ = end_;
 }
@@ -181,15 +180,14 @@ void OutsideLoads<Dim>::restore(StateReader& state) {
 }
 
 template <int Dim>
-void RigidBodies<Dim>::save(StateWriter& state, const RankPart<Dim>* part) const {
+void RigidBodies<Dim>::save(StateWriter& state, const RankPart<Dim>& part) const {
     std::vector<double> values;
     for (const std::int32_t i : constrained_) {
         const Body& body = bodies_[i];
         for (const Matrix<Dim>* matrix : {&body.turn_0, &body.turn_1, &body.rate_before, &body.rate_after})
             values.insert(values.end(), matrix->data(), matrix->data() + matrix->size());
     }
-    if (part) values = part->gather_rigid(values);
-    for (const double value : values) state.put(value);
+    for (const double value : part.gather_rigid(values)) state.put(value);
 }
 
 template <int Dim>
@@ -234,7 +232,7 @@ void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::sp
     template void PointLoads<Dim>::restore(StateReader&);                                                               \
     template void OutsideLoads<Dim>::save(StateWriter&) const;                                                          \
     template void OutsideLoads<Dim>::restore(StateReader&);                                                             \
-    template void RigidBodies<Dim>::save(StateWriter&, const RankPart<Dim>*) const;                                     \
+    template void RigidBodies<Dim>::save(StateWriter&, const RankPart<Dim>&) const;                                     \
     template void RigidBodies<Dim>::restore(StateReader&);                                                              \
     template std::vector<std::byte> ReconstructionDriver<Dim>::state() const;                                           \
     template void ReconstructionDriver<Dim>::restore(std::span<const std::byte>, std::span<const Vector<Dim>>, double); \

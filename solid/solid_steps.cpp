@@ -117,7 +117,7 @@ void Solid<Dim>::finish_step(const Ends& ends, double time, double dt, contact::
     add_point_loads(ends.start, ends.end, time, dt, take, gradient);
     outside_->add_step(ends.start, ends.end, [this](std::int32_t body) { return mean_turn(body); });
     take_result(force);
-    evaluations_ += n_cells_of_all();
+    evaluations_ += part_->n_all_cells();
     end_step(time + dt);
 }
 
@@ -164,8 +164,7 @@ double Solid<Dim>::follow_frames(std::span<const Vector<Dim>> q_0, std::span<con
     const Stopwatch watch(times_.bulk);
     if (!frames_->any_turns()) {
         if (!contact_) return 0.0;
-        const double motion = largest_motion<Dim>(q_0, q_1);
-        return part_ ? part_->ranks().largest(motion) : motion;
+        return ranks().largest(largest_motion<Dim>(q_0, q_1));
     }
     frames_->follow(q_0, q_1);
     frame_loads_->follow();
@@ -193,7 +192,7 @@ void Solid<Dim>::end_step(double time) {
 
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
-    refuse_ranks("local steps");
+    dynamics::refuse_ranks(ranks(), {{"local steps"}});
     if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !contact_->makes_parts()))
         throw BadInput(mesh_.name +
                        ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "

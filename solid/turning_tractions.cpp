@@ -38,7 +38,7 @@ Sides sides_of(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, co
 
 template <int Dim>
 std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                         const dynamics::Ranks* ranks) {
+                                         const dynamics::Ranks& ranks) {
     std::vector<Sides> of_conditions = dynamics::agreed(ranks, [&] {
         std::vector<Sides> here;
         for (const auto& condition : options.boundary.traction) here.push_back(sides_of(mesh, options, condition));
@@ -48,8 +48,7 @@ std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const Soli
     for (std::size_t i = 0; i < of_conditions.size(); ++i) {
         const TractionCondition<Dim>& condition = options.boundary.traction[i];
         Sides& sides = of_conditions[i];
-        if (ranks)
-            for (double* side : {&sides.small, &sides.floating, &sides.finite, &sides.rigid}) *side = ranks->largest(*side);
+        for (double* side : {&sides.small, &sides.floating, &sides.finite, &sides.rigid}) *side = ranks.largest(*side);
         const bool turns = sides.floating + sides.finite + sides.rigid > 0.0;
         if (turns && sides.small > 0.0)
             throw BadInput(mesh.name + ": the traction on '" + condition.group +
@@ -60,7 +59,7 @@ std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const Soli
     return holds;
 }
 
-template std::vector<TractionHold> traction_holds(const mesh::Mesh<2>&, const SolidOptions<2>&, const dynamics::Ranks*);
-template std::vector<TractionHold> traction_holds(const mesh::Mesh<3>&, const SolidOptions<3>&, const dynamics::Ranks*);
+template std::vector<TractionHold> traction_holds(const mesh::Mesh<2>&, const SolidOptions<2>&, const dynamics::Ranks&);
+template std::vector<TractionHold> traction_holds(const mesh::Mesh<3>&, const SolidOptions<3>&, const dynamics::Ranks&);
 
 }  // namespace abut::solid

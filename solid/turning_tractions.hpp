@@ -19,6 +19,6 @@ enum class TractionHold {
 /// BadInput for a group on bodies of Kinematics::small and on others, and for one that the mesh does not have.
 template <int Dim>
 [[nodiscard]] std::vector<TractionHold> traction_holds(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options,
-                                                       const dynamics::Ranks* ranks);
+                                                       const dynamics::Ranks& ranks);
 
 }  // namespace abut::solid

@@ -106,7 +106,7 @@ double largest_bits(double a, double b) {
 template <int Dim>
 BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses,
                             std::vector<std::int32_t> begin, std::vector<bool> turns, std::span<const std::string> names,
-                            const RankPart<Dim>* part)
+                            const RankPart<Dim>& part)
     : part_(part),
       begin_(std::move(begin)),
       turns_(std::move(turns)),
@@ -127,7 +127,7 @@ BodyFrames<Dim>::BodyFrames(std::span<const Vector<Dim>> rest, std::span<const d
 
 template <int Dim>
 void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<const double> masses) {
-    const std::vector<Vector<Dim>> origins = of_first_points(rest);
+    const std::vector<Vector<Dim>> origins = part_.of_first_cells(rest);
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         BodyFrame<Dim>& frame = rest_[body];
         mass_[body] = sum_of(body, 0.0, [&](std::ptrdiff_t i) { return masses[i]; });
@@ -150,40 +150,18 @@ void BodyFrames<Dim>::set_rest(std::span<const Vector<Dim>> rest, std::span<cons
 
 // Sums and loops over the points of a body ---------------------------------------------------------------------------
 
-/// Of each body its first point among those of all ranks.
-template <int Dim>
-std::vector<Vector<Dim>> BodyFrames<Dim>::of_first_points(std::span<const Vector<Dim>> of_points) const {
-    if (part_) return part_->of_first_cells(of_points);
-    std::vector<Vector<Dim>> first;
-    for (std::size_t body = 0; body < turns_.size(); ++body) first.push_back(of_points[begin_[body]]);
-    return first;
-}
-
 /// Of term(point) in blocks of fixed size, whatever ranks they are on.
 template <int Dim>
 template <class Value, class Term>
 Value BodyFrames<Dim>::sum_of(std::size_t body, const Value& zero, const Term& term) const {
-    return sum_over_body(part_, static_cast<std::ptrdiff_t>(body), {begin_[body], begin_[body + 1]}, zero, term);
-}
-
-/// Calls of_point(point) for all points of a body, or those of this rank.
-template <int Dim>
-template <class Body>
-void BodyFrames<Dim>::for_each_wanted(std::size_t body, const Body& of_point) const {
-    if (part_) {
-        const auto own = part_->own_cells_of(body);
-        parallel_each(std::ssize(own), [&](std::ptrdiff_t at) { of_point(own[static_cast<std::size_t>(at)]); });
-        return;
-    }
-    const std::ptrdiff_t begin = begin_[body];
-    parallel_each(begin_[body + 1] - begin, [&](std::ptrdiff_t at) { of_point(begin + at); });
+    return part_.sum_of_body(body, zero, term);
 }
 
 /// add(sum, point) adds what a point of the body has.
 template <int Dim>
 template <class Add>
 auto BodyFrames<Dim>::moments(std::size_t body, const Add& add) const {
-    return part_ ? sum_moments<Dim>(*part_, body, add) : sum_moments<Dim>(begin_[body], begin_[body + 1], add);
+    return part_.is_whole() ? sum_moments<Dim>(begin_[body], begin_[body + 1], add) : sum_moments<Dim>(part_, body, add);
 }
 
 // Places of the frames -----------------------------------------------------------------------------------------------
@@ -191,7 +169,7 @@ auto BodyFrames<Dim>::moments(std::size_t body, const Add& add) const {
 /// Displacements enter by their differences to that of the first point: a body far from where it began loses no digits.
 template <int Dim>
 void BodyFrames<Dim>::place(std::span<const Vector<Dim>> q, std::vector<BodyFrame<Dim>>& frames) const {
-    const std::vector<Vector<Dim>> origins = of_first_points(q);
+    const std::vector<Vector<Dim>> origins = part_.of_first_cells(q);
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         if (!turns_[body]) continue;
         const Lanes<Dim> origin = load_packed<Dim>(origins[body]);
@@ -288,8 +266,7 @@ double BodyFrames<Dim>::take_midpoints(std::span<const Vector<Dim>> q_0, std::sp
         };
         farthest = larger(farthest, largest((n + parallel_grain - 1) / parallel_grain, take_block, 4));
     }
-    if (part_) farthest = part_->ranks().largest(farthest);
-    return std::sqrt(farthest);
+    return std::sqrt(part_.ranks().largest(farthest));
 }
 
 template <int Dim>
@@ -298,7 +275,7 @@ void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const
                                std::span<Vector<Dim>> gradient) {
     for (std::size_t body = 0; body < turns_.size(); ++body) {
         if (!turns_[body]) {
-            for_each_wanted(body, [&](std::ptrdiff_t i) {
+            part_.each_cell_of_body(body, [&](std::ptrdiff_t i) {
                 gradient[i] = force.empty() ? Vector<Dim>(-gradient[i]) : Vector<Dim>(force[i] - gradient[i]);
             });
             continue;
@@ -316,7 +293,7 @@ void BodyFrames<Dim>::to_force(std::span<const Vector<Dim>> q_0, std::span<const
         const LaneTensor<Dim> turning = load_packed<Dim>(turn);
         const LaneTensor<Dim> carrying = load_packed<Dim>(Matrix<Dim>(turn * hat<Dim>(lambda_[body])));
         const Lanes<Dim> missing = load_packed<Dim>(Vector<Dim>((push.gradient - turn * sums.col(Dim)) / mass_[body]));
-        for_each_wanted(body, [&](std::ptrdiff_t i) {
+        part_.each_cell_of_body(body, [&](std::ptrdiff_t i) {
             const Register4 weighted = load_four(weighted_arm_, i);
             Lanes<Dim> sum = turning * load_packed<Dim>(gradient[i]) + weighted[Dim] * missing;
             for (int k = 0; k < Dim; ++k) sum += weighted[k] * carrying.col[k];

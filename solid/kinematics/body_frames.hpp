@@ -34,11 +34,11 @@ template <int Dim>
 class BodyFrames {
 public:
     /// Points of body b are [begin[b], begin[b + 1]); `turns`: whether its frame moves. Throws BadInput for a body
-    /// that turns in space while its points lie on a line, or in a point. `part`: on several ranks, of whose part of the mesh
-    /// these points are; it must outlive this then, all that places the frames and `take_midpoints` and `to_force` are calls
-    /// of all ranks, and only the gradients of own cells become forces. Null on one rank.
+    /// that turns in space while its points lie on a line, or in a point. `part`: of whose cells these points are; it must
+    /// outlive this. All that places the frames and `take_midpoints` and `to_force` are calls of all ranks, and only the
+    /// gradients of own cells become forces.
     BodyFrames(std::span<const Vector<Dim>> rest, std::span<const double> masses, std::vector<std::int32_t> begin,
-               std::vector<bool> turns, std::span<const std::string> names, const RankPart<Dim>* part = nullptr);
+               std::vector<bool> turns, std::span<const std::string> names, const RankPart<Dim>& part);
 
     [[nodiscard]] std::size_t n_bodies() const { return turns_.size(); }
     [[nodiscard]] bool any_turns() const { return any_turns_; }
@@ -81,19 +81,16 @@ private:
     void stand_in(const std::vector<BodyFrame<Dim>>& frames);
     void set_steps();
     void set_rest(std::span<const Vector<Dim>> rest, std::span<const double> masses);
-    [[nodiscard]] std::vector<Vector<Dim>> of_first_points(std::span<const Vector<Dim>> of_points) const;
     template <class Value, class Term>
     [[nodiscard]] Value sum_of(std::size_t body, const Value& zero, const Term& term) const;
     template <class Add>
     [[nodiscard]] auto moments(std::size_t body, const Add& add) const;
-    template <class Body>
-    void for_each_wanted(std::size_t body, const Body& of_point) const;
     [[nodiscard]] Lanes<Dim> rest_arm(std::ptrdiff_t point) const { return load_packed<Dim>(arm_, point); }
     class IntoFrame;
 
     LargeArray<double> arm_;           // X', packed, by point
     LargeArray<double> weighted_arm_;  // (m X', m), four numbers per point
-    const RankPart<Dim>* part_;
+    const RankPart<Dim>& part_;
     std::vector<std::int32_t> begin_;
     std::vector<bool> turns_;
     bool any_turns_ = false;

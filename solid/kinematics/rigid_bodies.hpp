@@ -64,7 +64,7 @@ public:
     void set_momentum(std::size_t body, const Vector<Dim>& velocity, const AxialVector<Dim>& spin,
                       std::span<Vector<Dim>> p) const;
 
-    /// On several ranks: these bodies, increasing, are constrained here from now on, and others are left as they are.
+    /// These bodies, increasing, are constrained here from now on, and others, of other ranks, are left as they are.
     void constrain_only(std::span<const std::int32_t> bodies) { constrained_.assign(bodies.begin(), bodies.end()); }
     /// A step from q_0 to q_1: what constrains the next half step lies between.
     void follow(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1);
@@ -80,8 +80,8 @@ public:
     /// Adds to the forces on the points what holds the distances in q, at the mean of the velocities before and after.
     void add_constraint_forces(std::span<const Vector<Dim>> q, std::span<Vector<Dim>> force) const;
 
-    /// Between two steps; `part`: of whose ranks each brings what it constrains, null on one.
-    void save(StateWriter& state, const RankPart<Dim>* part) const;
+    /// Between two steps; `part`: of whose ranks each brings what it constrains.
+    void save(StateWriter& state, const RankPart<Dim>& part) const;
     void restore(StateReader& state);
 
 private:

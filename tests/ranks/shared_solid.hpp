@@ -47,7 +47,7 @@ struct SharedSolid {
     SharedSolid(const ranks::Communicator& all, mesh::MeshPart<Dim> of_rank, const solid::SolidOptions<Dim>& options)
         : part(std::move(of_rank)),
           points(all, shared_points<Dim>(all, part, options.kinematics)),
-          solid(part.mesh, options, &points) {}
+          solid(part.mesh, options, points) {}
 
     /// What this rank has of values by point of the whole (n_points, Dim).
     [[nodiscard]] std::vector<double> own(std::span<const double> of_all) const {

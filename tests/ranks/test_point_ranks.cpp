@@ -8,6 +8,7 @@
 #include "abut/base/vector.hpp"
 #include "abut/dynamics/highest_mode.hpp"
 #include "abut/dynamics/mass.hpp"
+#include "abut/dynamics/sum_over.hpp"
 #include "abut/ranks/point_ranks.hpp"
 #include "ranks/world.hpp"
 
@@ -96,6 +97,54 @@ TEST_CASE("values that are collected come in the order of the points", "[ranks]"
     CHECK(n_gathered == 2 * static_cast<std::size_t>(n));
 }
 
+TEST_CASE("one rank answers with the bits of several, and gives back what it is given", "[ranks]") {
+    const Communicator all = test::world();
+    const std::int32_t n = 5000;
+    const PointRanks several(all, points_of(all, n));
+    const dynamics::OneRank one(n, 3);
+    CHECK(one.is_one());
+    CHECK_FALSE(several.is_one());
+    std::vector<double> whole, here;  // two values per point
+    std::vector<std::int64_t> keys(static_cast<std::size_t>(n)), keys_here;
+    for (std::int32_t i = 0; i < n; ++i) {
+        whole.insert(whole.end(), {term(i), -term(3 * i)});
+        keys[static_cast<std::size_t>(i)] = (7919 * std::int64_t{i}) % n;  // in another order than the points
+        CHECK(one.number_of(static_cast<std::size_t>(i)) == i);
+        CHECK(one.point_with(i) == i);
+    }
+    for (std::size_t i = 0; i < several.numbers().size(); ++i) {
+        const std::int32_t number = several.numbers()[i];
+        here.insert(here.end(), {term(number), -term(3 * number)});
+        keys_here.push_back(keys[static_cast<std::size_t>(number)]);
+        CHECK(several.number_of(i) == number);
+        CHECK(several.point_with(number) == static_cast<std::int32_t>(i));
+    }
+    CHECK(several.point_with(n) == -1);
+
+    std::vector<double> sum(2), sum_of_one(2), first_here, first;
+    several.sum({.width = 2}, here, sum);
+    one.sum({.width = 2}, whole, sum_of_one);
+    for (std::size_t k = 0; k < sum.size(); ++k) CHECK(same_bits(sum[k], sum_of_one[k]));
+    for (std::size_t i = 0; i < here.size(); i += 2) first_here.push_back(here[i]);
+    for (std::size_t i = 0; i < whole.size(); i += 2) first.push_back(whole[i]);
+    CHECK(same_bits(several.fold(0.125, keys_here, first_here), one.fold(0.125, keys, first)));
+    const std::vector<double> collected = several.collect(here, 2);
+    if (all.rank() == 0) CHECK(collected == one.collect(whole, 2));
+    CHECK(one.gather(whole) == whole);
+    CHECK(one.largest(-3.0) == -3.0);
+    one.agree(nullptr);
+    CHECK_THROWS_WITH(one.agree(std::make_exception_ptr(BadInput("its own"))), "its own");
+}
+
+TEST_CASE("what is made for one rank alone is refused by its name where it is used on several", "[ranks]") {
+    const Communicator all = test::world();
+    const PointRanks several(all, points_of(all, 10));
+    CHECK_NOTHROW(dynamics::refuse_ranks(dynamics::one_rank(), {{"a lonely load"}}));
+    CHECK_NOTHROW(dynamics::refuse_ranks(several, {{"a lonely load", false}}));
+    CHECK_THROWS_WITH(dynamics::refuse_ranks(several, {{"another one", false}, {"a lonely load", true}}),
+                      Catch::StartsWith("a lonely load: not made for a run on several ranks"));
+}
+
 TEST_CASE("products and the highest mode of a system over ranks have the bits of those on one", "[ranks]") {
     const Communicator all = test::world();
     const std::int32_t n = 700;
@@ -124,7 +173,7 @@ TEST_CASE("products and the highest mode of a system over ranks have the bits of
         };
     };
     const auto whole = dynamics::highest_mode(inverse_all, product({}));
-    const auto shared = dynamics::highest_mode(inverse_mass, product(ranks.numbers()), &ranks);
+    const auto shared = dynamics::highest_mode(inverse_mass, product(ranks.numbers()), ranks);
     CHECK(same_bits(whole.quotient, shared.quotient));
     CHECK(whole.iterations == shared.iterations);
 }

@@ -151,8 +151,8 @@ TEST_CASE("parts without the whole of a rigid body, or with its points on two ra
     const auto cut = mesh::part_of<2>(mesh, owner, all.rank());
     solid::PartPoints its = solid::points_of<2>(whole, options.kinematics);
     const ranks::PointRanks points(all, ranks::shared_points(all, 2, its.n_points, its.number, its.owner));
-    CHECK_THROWS_WITH(solid::Solid<2>(cut.mesh, options, &points), Catch::Contains("whole of it"));
+    CHECK_THROWS_WITH(solid::Solid<2>(cut.mesh, options, points), Catch::Contains("whole of it"));
     its.owner.back() = (its.owner.back() + 1) % all.size();
     const ranks::PointRanks split(all, ranks::shared_points(all, 2, its.n_points, its.number, its.owner));
-    CHECK_THROWS_WITH(solid::Solid<2>(whole.mesh, options, &split), Catch::Contains("are on several ranks"));
+    CHECK_THROWS_WITH(solid::Solid<2>(whole.mesh, options, split), Catch::Contains("are on several ranks"));
 }
