@@ -14,12 +14,12 @@
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/bar_host.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::studies {
+namespace abut::studies::bouncing_bar_study {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -47,31 +47,29 @@ struct BounceOptions {
     int interval = 0;
 };
 
-void add_options(CLI::App& app, BounceOptions& options) {
-    apps::add_count(app, "--cells", options.cells, "cells of the bar, a mass each", 4)->group("Bar");
-    apps::add_choice(app, "--gravity", options.gravity, "towards the wall, in m/s^2: what closed forms are known for",
-                     apps::Choices<double>{{"0", 0.0}, {"10", 10.0}})
-        ->group("Bar");
-    apps::add_number(app, "--cfl", options.cfl, "Courant number c dt/h",
-                     {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the explicit schemes are unstable."})
-        ->group("Time");
-    apps::add_count(app, "--steps", options.steps, "steps of the run; 0: three periods (16 s) with gravity, 2 s without", 0)
-        ->group("Time");
-    apps::add_integrator(app, options.schemes);
-    apps::add_gauge(app, options.schemes);
-    apps::add_local_steps(app, options.schemes);
-    auto* filter = apps::add_choice(app, "--filter", options.filter,
-                                    "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
-                                    apps::Choices<bool>{{"none", false}, {"neutral", true}});
-    auto* patch =
-        apps::add_count(app, "--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2)
-            ->needs(filter);
-    auto* restart = apps::add_count(app, "--restart", options.restart,
-                                    "of memm: steps between neutral restarts, which clear that mode everywhere; 0: none", 0);
-    for (auto* option : {filter, patch, restart})
-        apps::restrict_to(option->group("Schemes"), options.schemes, {apps::Scheme::memm});
-    apps::add_out_option(app, options.out);
-    apps::add_interval_option(app, options.interval);
+void add_options(Flags& flags, BounceOptions& options) {
+    flags.group("Bar");
+    flags.count("--cells", options.cells, "cells of the bar, a mass each", 4);
+    flags.choice("--gravity", options.gravity, "towards the wall, in m/s^2: what closed forms are known for",
+                 apps::Choices<double>{{"0", 0.0}, {"10", 10.0}});
+    flags.group("Time");
+    flags.number("--cfl", options.cfl, "Courant number c dt/h",
+                 {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the explicit schemes are unstable."});
+    flags.count("--steps", options.steps, "steps of the run; 0: three periods (16 s) with gravity, 2 s without", 0);
+    apps::add_integrator(flags, options.schemes);
+    apps::add_gauge(flags, options.schemes);
+    apps::add_local_steps(flags, options.schemes);
+    flags.group("Schemes");
+    auto* filter = flags.choice("--filter", options.filter,
+                                "of memm: energy-neutral filter of the parasitic mode, after each step in contact",
+                                apps::Choices<bool>{{"none", false}, {"neutral", true}});
+    auto* patch = flags.count("--patch", options.patch, "of the filter: masses, from the wall on, that it changes", 2);
+    needs(patch, filter);
+    auto* restart = flags.count("--restart", options.restart,
+                                "of memm: steps between neutral restarts, which clear that mode everywhere; 0: none", 0);
+    for (auto* option : {filter, patch, restart}) apps::restrict_to(option, options.schemes, {apps::Scheme::memm});
+    flags.out(options.out);
+    apps::add_interval_option(flags, options.interval);
 }
 
 /// What happens at the wall.
@@ -271,12 +269,7 @@ void run_study(const BounceOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    BounceOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, BounceOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::bouncing_bar_study

@@ -7,11 +7,11 @@
 // H - H~ over a million steps (--steps 1000000) with and without the energy-neutral filter. docs/filter.md has the table.
 #include <vector>
 
-#include "apps/support/command_line.hpp"
 #include "apps/support/run_scene.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::studies {
+namespace abut::studies::bouncing_strip_study {
 namespace {
 
 constexpr double gravity = 10.0;  // [m/s^2]
@@ -35,15 +35,15 @@ struct StripOptions {
     apps::Messages messages = apps::Messages::normal;
 };
 
-void add_options(CLI::App& app, StripOptions& options) {
-    const apps::Limits eta{.unit = "Pa", .above = 0.0, .zero = true};
-    apps::add_count(app, "--cells", options.cells, "cells along the bar; two across it", 4)->group("Bar");
-    apps::add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus", eta)
-        ->group("Bar");
-    apps::add_time_options(app, options.run, "--steps decides");
-    apps::add_compression_limit(app, options.run);
-    apps::add_output_options(app, options.run);
-    apps::add_message_options(app, options.messages);
+void add_options(Flags& flags, StripOptions& options) {
+    const Limits eta{.unit = "Pa", .above = 0.0, .zero = true};
+    flags.group("Bar");
+    flags.count("--cells", options.cells, "cells along the bar; two across it", 4);
+    flags.number("--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus", eta);
+    apps::add_time_options(flags, options.run, "--steps decides");
+    apps::add_compression_limit(flags, options.run);
+    apps::add_output_options(flags, options.run);
+    apps::add_message_options(flags, options.messages);
 }
 
 /// Impulses of the wall, one per impact: contacts belong together that are apart by less than a wave takes through the bar.
@@ -98,23 +98,25 @@ run::Scene<2> bar(const StripOptions& options, Impacts& impacts) {
     return scene;
 }
 
-}  // namespace
-}  // namespace abut::studies
-
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
+/// As entry_of makes it, but how many messages there are is an option.
+int run_study(int argc, char** argv) {
     StripOptions options;
     // An impact at a third of the wave speed: the foot gives way by up to twice its cell, and more when vibration adds up.
     options.run.contact.compression_limit = 10.0;
     // Only the foot of the bar faces the wall: a thick skin costs nothing and lasts long.
     options.run.contact.search.skin = 0.1 * the_bar.length;
     Impacts impacts;
-    apps::Program named = program;
-    return apps::run_program(
-        named, argc, argv, [&](CLI::App& app) { add_options(app, options); },
+    apps::Program study = program, typed = as_typed(program);
+    return run_command(
+        typed, argc, argv, [&](Flags& flags) { add_options(flags, options); },
         [&] {
-            named.messages = options.messages;
-            apps::run_scene<2>(named, options.run, [&] { return bar(options, impacts); });
+            study.messages = typed.messages = options.messages;
+            apps::run_scene<2>(study, options.run, [&] { return bar(options, impacts); });
         });
 }
+
+}  // namespace
+
+Entry entry() { return {program.name, program.purpose, run_study}; }
+
+}  // namespace abut::studies::bouncing_strip_study

@@ -9,10 +9,10 @@
 
 #include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/run_options.hpp"
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/report.hpp"
+#include "studies/program/entry.hpp"
 
 namespace abut::studies::extremes {
 namespace {
@@ -27,26 +27,18 @@ struct Options {
     SweepOptions sweep{.run = {.out = "out/" + program.name}};
 };
 
-void add_options(CLI::App& app, Options& options) {
+void add_options(Flags& flags, Options& options) {
     std::vector<std::string> names;
     for (const Family& family : families()) names.push_back(family.name);
-    app.add_option("--only", options.only, "families to sweep; by default all of " + apps::joined(names))
-        ->delimiter(',')
-        ->check(apps::one_of(names))
-        ->type_name("NAME,...")
-        ->group("Sweeps");
-    apps::add_count(app, "--steps", options.sweep.steps, "steps of the families long and rest", 1)->group("Sweeps");
-    app.add_flag("--quick", options.sweep.quick, "fewer values of each family, and at most 2,000 steps of a long run")
-        ->default_str("off")
-        ->group("Sweeps");
-    apps::add_number(app, "--cfl", options.sweep.run.cfl, "time step over the stable step, where it is not swept",
-                     {.above = 0.0, .below = 1.0, .closed = true})
-        ->group("Time");
-    apps::add_contact_options(app, options.sweep.run);
-    app.add_option("--out", options.sweep.run.out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
+    flags.group("Sweeps");
+    flags.names("--only", options.only, "families to sweep", names);
+    flags.count("--steps", options.sweep.steps, "steps of the families long and rest", 1);
+    flags.flag("--quick", options.sweep.quick, "fewer values of each family, and at most 2,000 steps of a long run");
+    flags.group("Time");
+    flags.number("--cfl", options.sweep.run.cfl, "time step over the stable step, where it is not swept",
+                 {.above = 0.0, .below = 1.0, .closed = true});
+    apps::add_contact_options(flags, options.sweep.run);
+    flags.out(options.sweep.run.out);
 }
 
 void sweep(const Options& options) {
@@ -66,12 +58,7 @@ void sweep(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies::extremes
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    extremes::Options options;
-    return apps::run_program(
-        extremes::program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { sweep(options); });
-}
+Entry entry() { return entry_of(program, Options{}, add_options, sweep); }
+
+}  // namespace abut::studies::extremes

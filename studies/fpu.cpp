@@ -16,10 +16,10 @@
 
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 
-namespace abut::studies {
+namespace abut::studies::fpu_study {
 namespace {
 
 using Chain = dynamics::Particles<dynamics::LineSpring>;
@@ -37,19 +37,20 @@ struct FpuOptions {
     int interval = 0;
 };
 
-void add_options(CLI::App& app, FpuOptions& options) {
-    const apps::Limits time{.unit = "s", .above = 0.0};
-    apps::add_number(app, "--omega", options.omega, "circular frequency of the stiff springs", {.unit = "1/s", .above = 0.0})
-        ->group("Chain");
-    apps::add_number(app, "--dt", options.dt, "time step", time)->group("Time");
-    apps::add_number(app, "--time", options.time, "end of the run", time)->group("Time");
-    apps::add_integrator(app, options.schemes);
-    apps::add_mean(app, options.schemes);
-    apps::add_gauge(app, options.schemes);
-    apps::add_local_steps(app, options.schemes);
-    apps::add_start(app, options.schemes);
-    apps::add_out_option(app, options.out);
-    apps::add_interval_option(app, options.interval);
+void add_options(Flags& flags, FpuOptions& options) {
+    const Limits time{.unit = "s", .above = 0.0};
+    flags.group("Chain");
+    flags.number("--omega", options.omega, "circular frequency of the stiff springs", {.unit = "1/s", .above = 0.0});
+    flags.group("Time");
+    flags.number("--dt", options.dt, "time step", time);
+    flags.number("--time", options.time, "end of the run", time);
+    apps::add_integrator(flags, options.schemes);
+    apps::add_mean(flags, options.schemes);
+    apps::add_gauge(flags, options.schemes);
+    apps::add_local_steps(flags, options.schemes);
+    apps::add_start(flags, options.schemes);
+    flags.out(options.out);
+    apps::add_interval_option(flags, options.interval);
 }
 
 Chain chain(double omega) {
@@ -159,12 +160,7 @@ void run_study(const FpuOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    FpuOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, FpuOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::fpu_study

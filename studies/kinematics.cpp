@@ -6,8 +6,8 @@
 // energy is claimed without H - H~, |e|/m and the number of events beside it.
 #include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/command_line.hpp"
 #include "studies/kinematics/rows.hpp"
+#include "studies/program/entry.hpp"
 
 namespace abut::studies::kinematics {
 
@@ -37,13 +37,15 @@ const apps::Program program{
     .purpose = "Small, floating, finite and rigid bodies: energies, momenta, closed forms, and what they cost.",
     .footer = "A target that is missed is said to be; the exit code is that of the program alone."};
 
-void add_options(CLI::App& app, Options& options) {
+void add_options(Flags& flags, Options& options) {
     std::vector<std::string> names;
     for (const Part& part : parts()) names.push_back(part.name);
-    add_part_options(app, program, names, options);
-    apps::add_count(app, "--steps", options.steps, "of the pile", 1)->group("Time");
-    apps::add_count(app, "--turns", options.turns, "of the first gear", 1)->group("Time");
-    apps::add_count(app, "--frames", options.frames, "for ParaView, of each run; 0: none", 0)->group("Output");
+    add_part_options(flags, program, names, options);
+    flags.group("Time");
+    flags.count("--steps", options.steps, "of the pile", 1);
+    flags.count("--turns", options.turns, "of the first gear", 1);
+    flags.group("Output");
+    flags.count("--frames", options.frames, "for ParaView, of each run; 0: none", 0);
 }
 
 void run(const Options& options) {
@@ -62,13 +64,7 @@ void run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies::kinematics
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    kinematics::Options options;
-    return apps::run_program(
-        kinematics::program, argc, argv, [&](CLI::App& app) { kinematics::add_options(app, options); },
-        [&] { kinematics::run(options); });
-}
+Entry entry() { return entry_of(program, Options{}, add_options, run); }
+
+}  // namespace abut::studies::kinematics

@@ -16,11 +16,11 @@
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/program.hpp"
 #include "studies/extremes/scenes.hpp"
 #include "studies/long_runs/rattle.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/bar_host.hpp"
 
 namespace abut::studies::long_runs {
@@ -192,24 +192,16 @@ void run_study(const Options& options) {
     }
 }
 
-void add_options(CLI::App& app, Options& options) {
-    const std::vector<std::string> names{"bar", "strip", "disc", "blocks", "rest", "rattle"};
-    app.add_option("--only", options.only, "scenes to run; by default all of " + apps::joined(names))
-        ->delimiter(',')
-        ->check(apps::one_of(names))
-        ->type_name("NAME,...")
-        ->group("Scenes");
-    apps::add_count(app, "--steps", options.steps, "steps of each run", 1)->group("Time");
-    apps::add_count(app, "--period", options.period, "steps from one neutral restart to the next", 1)->group("Time");
+void add_options(Flags& flags, Options& options) {
+    flags.group("Scenes");
+    flags.names("--only", options.only, "scenes to run", {"bar", "strip", "disc", "blocks", "rest", "rattle"});
+    flags.group("Time");
+    flags.count("--steps", options.steps, "steps of each run", 1);
+    flags.count("--period", options.period, "steps from one neutral restart to the next", 1);
 }
 
 }  // namespace
-}  // namespace abut::studies::long_runs
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies::long_runs;
-    Options options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::long_runs

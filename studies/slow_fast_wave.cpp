@@ -13,10 +13,10 @@
 #include "abut/base/error.hpp"
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/options.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 
-namespace abut::studies {
+namespace abut::studies::slow_fast_wave_study {
 namespace {
 
 using Chain = dynamics::Particles<dynamics::LineSpring>;
@@ -41,22 +41,22 @@ struct WaveOptions {
     std::filesystem::path out = "out/" + program.name;
 };
 
-void add_options(CLI::App& app, WaveOptions& options) {
-    apps::add_count(app, "--cells", options.cells, "cells of the whole interval, an even number", 4)->group("Wave");
-    apps::add_number(app, "--time", options.time, "end of the run: the exact solution holds until 0.5",
-                     {.unit = "s", .above = 0.0, .below = longest, .closed = true})
-        ->group("Wave");
-    apps::add_number(app, "--cfl", options.cfl, "Courant number c dt/h of the fast half",
-                     {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 every scheme here is unstable."})
-        ->group("Time");
-    apps::add_integrator(app, options.schemes);
-    auto* ratio =
-        apps::add_count(app, "--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
-    apps::restrict_to(ratio->group("Schemes"), options.schemes, {apps::Scheme::memm_async});
-    apps::add_count(app, "--refinements", options.refinements,
-                    "how many coarser meshes, each of half the cells, the order is fitted over; 0: none", 0)
-        ->group("Wave");
-    apps::add_out_option(app, options.out);
+void add_options(Flags& flags, WaveOptions& options) {
+    flags.group("Wave");
+    flags.count("--cells", options.cells, "cells of the whole interval, an even number", 4);
+    flags.number("--time", options.time, "end of the run: the exact solution holds until 0.5",
+                 {.unit = "s", .above = 0.0, .below = longest, .closed = true});
+    flags.group("Time");
+    flags.number("--cfl", options.cfl, "Courant number c dt/h of the fast half",
+                 {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 every scheme here is unstable."});
+    apps::add_integrator(flags, options.schemes);
+    flags.group("Schemes");
+    auto* ratio = flags.count("--ratio", options.ratio, "of memm_async: steps of the fast half in one of the slow half", 1);
+    apps::restrict_to(ratio, options.schemes, {apps::Scheme::memm_async});
+    flags.group("Wave");
+    flags.count("--refinements", options.refinements,
+                "how many coarser meshes, each of half the cells, the order is fitted over; 0: none", 0);
+    flags.out(options.out);
 }
 
 /// The solution by reflections: at the wall the pulse changes its sign, at the interface a part goes back.
@@ -280,12 +280,7 @@ void run_study(const WaveOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    WaveOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, WaveOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::slow_fast_wave_study

@@ -14,8 +14,8 @@
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/preset.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/trade/report.hpp"
 
 namespace abut::studies::trade {
@@ -52,36 +52,23 @@ std::string refusal(const Setting& setting) {
     }
 }
 
-void add_options(CLI::App& app, Options& options) {
+void add_options(Flags& flags, Options& options) {
     std::vector<std::string> names;
     for (const Problem& problem : problems()) names.push_back(problem.name);
-    app.add_option("--only", options.only, "problems to run; by default all of " + apps::joined(names))
-        ->delimiter(',')
-        ->check(apps::one_of(names))
-        ->type_name("NAME,...")
-        ->group("Ladder");
-    apps::add_choice(app, "--settings", options.extent,
-                     "each choice by itself, kinematics and presets alone, or products of choices that act together, too",
-                     extents)
-        ->group("Ladder");
-    app.add_option("--also", options.settings,
-                   "a setting of your own, in quotation marks: \"--cfl 0.5 --events off\"; may come again; by default none")
-        ->type_name("OPTIONS")
-        ->expected(1)
-        ->take_all()
-        ->check(CLI::Validator(refusal, "", ""))
-        ->group("Ladder");
-    apps::add_count(app, "--levels", options.levels, "coarsest meshes of each problem; 0: all", 0)->group("Ladder");
-    apps::add_count(app, "--repetitions", options.repetitions, "of each run, in turn; the least time counts", 1)
-        ->group("Ladder");
-    apps::add_number(app, "--limit", options.limit,
-                     "of a run in time; one that takes longer is stopped, and said to be. Not of the references",
-                     {.unit = "s", .above = 0.0})
-        ->group("Ladder");
-    app.add_option("--out", options.out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
+    flags.group("Ladder");
+    flags.names("--only", options.only, "problems to run", names);
+    flags.choice("--settings", options.extent,
+                 "each choice by itself, kinematics and presets alone, or products of choices that act together, too",
+                 extents);
+    flags.lines("--also", options.settings,
+                "a setting of your own, in quotation marks: \"--cfl 0.5 --events off\"; may come again; by default none",
+                refusal);
+    flags.count("--levels", options.levels, "coarsest meshes of each problem; 0: all", 0);
+    flags.count("--repetitions", options.repetitions, "of each run, in turn; the least time counts", 1);
+    flags.number("--limit", options.limit,
+                 "of a run in time; one that takes longer is stopped, and said to be. Not of the references",
+                 {.unit = "s", .above = 0.0});
+    flags.out(options.out);
 }
 
 nlohmann::ordered_json to_json(const Options& options) {
@@ -164,12 +151,7 @@ void run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies::trade
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    trade::Options options;
-    return apps::run_program(
-        trade::program, argc, argv, [&](CLI::App& app) { trade::add_options(app, options); }, [&] { trade::run(options); });
-}
+Entry entry() { return entry_of(program, Options{}, add_options, run); }
+
+}  // namespace abut::studies::trade

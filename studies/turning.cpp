@@ -7,8 +7,8 @@
 #include "abut/base/error.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/folder_lock.hpp"
-#include "apps/support/command_line.hpp"
 #include "studies/nodal/rows.hpp"
+#include "studies/program/entry.hpp"
 
 namespace abut::studies::turning {
 
@@ -32,25 +32,19 @@ const apps::Program program{
     .purpose = "Contact on nodes, of bodies that turn: energies, momenta, patch tests, Hertz, corners, time steps.",
     .footer = "A target that is missed is said to be; the exit code is that of the program alone."};
 
-void add_options(CLI::App& app, Options& options) {
+void add_options(Flags& flags, Options& options) {
     std::vector<std::string> names;
     for (const Part& part : parts()) names.push_back(part.name);
-    add_part_options(app, program, names, options);
-    apps::add_choice(app, "--scheme", options.impact.scheme, "of the runs in which it is not compared",
-                     apps::Choices<Scheme>{{"memm", Scheme::memm}, {"leapfrog", Scheme::leapfrog}})
-        ->group("Time");
-    app.add_flag("--filter", options.impact.filter, "take the alternating mode of memm out of what touches")
-        ->default_str("off")
-        ->group("Time");
-    apps::add_count(app, "--restart", options.impact.restart, "steps of memm from one neutral restart to the next; 0: none",
-                    0)
-        ->group("Time");
-    apps::add_number(app, "--cfl", options.impact.cfl, "time step over the advised one", {.above = 0.0})->group("Time");
-    app.add_option("--steps", options.long_steps, "of the long runs")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str()
-        ->group("Time");
-    apps::add_count(app, "--frames", options.impact.frames, "for ParaView, of each run; 0: none", 0)->group("Output");
+    add_part_options(flags, program, names, options);
+    flags.group("Time");
+    flags.choice("--scheme", options.impact.scheme, "of the runs in which it is not compared",
+                 apps::Choices<Scheme>{{"memm", Scheme::memm}, {"leapfrog", Scheme::leapfrog}});
+    flags.flag("--filter", options.impact.filter, "take the alternating mode of memm out of what touches");
+    flags.count("--restart", options.impact.restart, "steps of memm from one neutral restart to the next; 0: none", 0);
+    flags.number("--cfl", options.impact.cfl, "time step over the advised one", {.above = 0.0});
+    flags.count("--steps", options.long_steps, "of the long runs");
+    flags.group("Output");
+    flags.count("--frames", options.impact.frames, "for ParaView, of each run; 0: none", 0);
 }
 
 void run(const Options& options) {
@@ -73,13 +67,7 @@ void run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies::turning
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    turning::Options options;
-    return apps::run_program(
-        turning::program, argc, argv, [&](CLI::App& app) { turning::add_options(app, options); },
-        [&] { turning::run(options); });
-}
+Entry entry() { return entry_of(program, Options{}, add_options, run); }
+
+}  // namespace abut::studies::turning

@@ -10,9 +10,10 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/log.hpp"
+#include "apps/support/run_options.hpp"
+#include "studies/program/flags.hpp"
 
 namespace abut::studies {
 namespace {
@@ -194,9 +195,9 @@ std::string BarOptions::body_name() const { return apps::name_of(bodies, body); 
 void BarOptions::check() const {
     if (body != BarBody::chain) return;
     for (const CLI::Option* option : of_solver)
-        if (option->count() > 0)
+        if (is_given(option))
             throw BadInput(fmt::format("{}: a chain does not know it. Take --body strip2d or strip3d, or leave it out.",
-                                       option->get_name()));
+                                       name_of(option)));
 }
 
 BarOptions default_bar_options(const apps::Program& program, std::vector<int> cells, double length) {
@@ -206,28 +207,22 @@ BarOptions default_bar_options(const apps::Program& program, std::vector<int> ce
     return options;
 }
 
-void add_bar_options(CLI::App& app, BarOptions& options, const std::vector<BarBody>& offered) {
+void add_bar_options(Flags& flags, BarOptions& options, const std::vector<BarBody>& offered) {
     apps::Choices<BarBody> choices;
     for (const BarBody body : offered) choices.emplace_back(apps::name_of(bodies, body), body);
-    apps::add_choice(app, "--body", options.body, "masses and springs, or the full solver: strips two cells wide on rollers",
-                     choices)
-        ->group("Bar");
-    apps::add_counts(app, "--cells", options.cells, "cells along the bar, a run for each number", 8)->group("Bar");
-    apps::add_number(app, "--cfl", options.cfl,
-                     "Courant number c dt/h; strips are stable below about 0.6 in 2D and 0.5 in 3D",
-                     {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the scheme is unstable."})
-        ->group("Time");
-    options.of_solver = {apps::add_choice(app, "--filter", options.run.filter,
-                                          "energy-neutral filter of the parasitic mode, after each step in contact",
-                                          apps::Choices<bool>{{"none", false}, {"neutral", true}})
-                             ->group("Time")};
-    apps::add_contact_options(app, options.run);
-    for (CLI::Option* option : app.get_options())
-        if (option->get_group() == "Contact") options.of_solver.push_back(option);
-    app.add_option("--out", options.run.out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
+    flags.group("Bar");
+    flags.choice("--body", options.body, "masses and springs, or the full solver: strips two cells wide on rollers",
+                 choices);
+    flags.counts("--cells", options.cells, "cells along the bar, a run for each number", 8);
+    flags.group("Time");
+    flags.number("--cfl", options.cfl, "Courant number c dt/h; strips are stable below about 0.6 in 2D and 0.5 in 3D",
+                 {.above = 0.0, .below = 1.0, .closed = true, .remedy = "Above 1 the scheme is unstable."});
+    options.of_solver = {flags.choice("--filter", options.run.filter,
+                                      "energy-neutral filter of the parasitic mode, after each step in contact",
+                                      apps::Choices<bool>{{"none", false}, {"neutral", true}})};
+    apps::add_contact_options(flags, options.run);
+    for (CLI::Option* option : flags.of_group("Contact")) options.of_solver.push_back(option);
+    flags.out(options.run.out);
 }
 
 nlohmann::ordered_json to_json(const BarOptions& options) {

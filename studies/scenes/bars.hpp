@@ -14,6 +14,8 @@
 /// energy [J/m^2]. Heights are measured from the wall, or from the middle between two bars.
 namespace abut::studies {
 
+class Flags;
+
 /// A bar of one material; by default the one that most reference cases take.
 struct Bar {
     double length = 10.0;  ///< L [m]
@@ -175,7 +177,7 @@ struct BarOptions {
 [[nodiscard]] BarOptions default_bar_options(const apps::Program& program, std::vector<int> cells,
                                              double length = Bar{}.length);
 /// --body, --cells, --cfl, --filter, --out and the options of contact; `bodies` are those on offer.
-void add_bar_options(CLI::App& app, BarOptions& options,
+void add_bar_options(Flags& flags, BarOptions& options,
                      const std::vector<BarBody>& bodies = {BarBody::chain, BarBody::strip2d, BarBody::strip3d});
 /// As they were used.
 [[nodiscard]] nlohmann::ordered_json to_json(const BarOptions& options);

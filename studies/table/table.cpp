@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "abut/run/files.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/csv.hpp"
+#include "studies/program/flags.hpp"
 
 namespace abut::studies {
 namespace {
@@ -63,19 +63,13 @@ bool PartOptions::asks_for(const std::string& part) const {
     return only.empty() || std::ranges::find(only, part) != only.end();
 }
 
-void add_part_options(CLI::App& app, const apps::Program& program, const std::vector<std::string>& parts,
+void add_part_options(Flags& flags, const apps::Program& program, const std::vector<std::string>& parts,
                       PartOptions& options) {
-    app.add_option("--only", options.only, "parts to run; by default all of " + apps::joined(parts))
-        ->delimiter(',')
-        ->check(apps::one_of(parts))
-        ->type_name("NAME,...")
-        ->group("Parts");
-    app.add_flag("--quick", options.quick, "coarse meshes and short runs")->default_str("off")->group("Parts");
+    flags.group("Parts");
+    flags.names("--only", options.only, "parts to run", parts);
+    flags.flag("--quick", options.quick, "coarse meshes and short runs");
     options.out = "out/" + program.name;
-    app.add_option("--out", options.out, "folder of all results; made if it is not there")
-        ->type_name("DIR")
-        ->capture_default_str()
-        ->group("Output");
+    flags.out(options.out);
 }
 
 std::string folder_name(std::string name) {

@@ -11,6 +11,8 @@
 /// What studies share whose parts give rows of a table: a run or a solution each, with figures and their targets.
 namespace abut::studies {
 
+class Flags;
+
 inline constexpr double no_target = std::numeric_limits<double>::infinity();
 
 /// A figure that is to be at most `allowed`; `no_target`: shown alone.
@@ -26,7 +28,7 @@ struct PartOptions {
 
     [[nodiscard]] bool asks_for(const std::string& part) const;
 };
-void add_part_options(CLI::App& app, const apps::Program& program, const std::vector<std::string>& parts,
+void add_part_options(Flags& flags, const apps::Program& program, const std::vector<std::string>& parts,
                       PartOptions& options);
 
 /// A name as that of a folder.

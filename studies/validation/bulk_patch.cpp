@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/patch_test.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::bulk_patch_study {
 namespace {
 
 using solid::FreeFaceRule;
@@ -38,12 +38,12 @@ struct PatchOptions {
     std::filesystem::path out = "out/" + program.name;
 };
 
-void add_options(CLI::App& app, PatchOptions& options) {
-    apps::add_count(app, "--cells", options.cells, "along an edge of the box of the patch test", 2)->group("Mesh");
-    apps::add_count(app, "--mode-cells", options.mode_cells,
-                    "along an edge of the box whose eigenvalues are taken (dense matrix)", 2)
-        ->group("Mesh");
-    apps::add_out_option(app, options.out);
+void add_options(Flags& flags, PatchOptions& options) {
+    flags.group("Mesh");
+    flags.count("--cells", options.cells, "along an edge of the box of the patch test", 2);
+    flags.count("--mode-cells", options.mode_cells, "along an edge of the box whose eigenvalues are taken (dense matrix)",
+                2);
+    flags.out(options.out);
 }
 
 template <int Dim>
@@ -154,12 +154,7 @@ void run_study(const PatchOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    PatchOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, PatchOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::bulk_patch_study

@@ -8,12 +8,12 @@
 #include <array>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/contact_patch.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::contact_patch_study {
 namespace {
 
 const apps::Program program{
@@ -156,29 +156,21 @@ Study solve(const Options& options) {
     return study;
 }
 
-}  // namespace
-}  // namespace abut::studies
-
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    Options options;
-    const auto add_options = [&](CLI::App& app) {
-        apps::add_choice(app, "--dim", options.dim, "squares in plane strain, or cubes",
-                         apps::Choices<int>{{"2", 2}, {"3", 3}})
-            ->group("Scene");
-        app.add_option("--mesh", options.meshes, "meshes of the two blocks; by default all")
-            ->delimiter(',')
-            ->check(apps::one_of({"matching", "non-matching", "unstructured"}))
-            ->type_name("NAME[,NAME...]")
-            ->group("Scene");
-        apps::add_number(app, "--strain", options.strain, "pressure over the wave modulus of the lower block",
-                         {.above = 0.0})
-            ->group("Scene");
-        apps::add_out_option(app, options.out);
-    };
-    return apps::run_program(program, argc, argv, add_options, [&] {
-        const auto lock = prepare_study(program, options.out, {"stress"}, {"stress"});
-        report(program, options.out, options.dim == 2 ? solve<2>(options) : solve<3>(options));
-    });
+void add_options(Flags& flags, Options& options) {
+    flags.group("Scene");
+    flags.choice("--dim", options.dim, "squares in plane strain, or cubes", apps::Choices<int>{{"2", 2}, {"3", 3}});
+    flags.names("--mesh", options.meshes, "meshes of the two blocks", {"matching", "non-matching", "unstructured"});
+    flags.number("--strain", options.strain, "pressure over the wave modulus of the lower block", {.above = 0.0});
+    flags.out(options.out);
 }
+
+void run_study(const Options& options) {
+    const auto lock = prepare_study(program, options.out, {"stress"}, {"stress"});
+    report(program, options.out, options.dim == 2 ? solve<2>(options) : solve<3>(options));
+}
+
+}  // namespace
+
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::contact_patch_study

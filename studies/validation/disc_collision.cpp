@@ -7,13 +7,13 @@
 
 #include <array>
 
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::disc_collision_study {
 namespace {
 
 const apps::Program program{.name = "disc_collision",
@@ -123,21 +123,17 @@ void run_study(const Options& options) {
     report(program, options.run.out, study);
 }
 
-}  // namespace
-}  // namespace abut::studies
-
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    Options options;
-    const auto add_options = [&](CLI::App& app) {
-        apps::add_numbers(app, "--size", options.sizes, "sizes of cells, one per level",
-                          {.unit = "m", .above = 0.0, .below = 1.0})
-            ->group("Scene");
-        apps::add_preset_option(app, options.run);
-        apps::add_time_options(app, options.run, "the approach and 6 crossings of a disc by a wave");
-        apps::add_contact_options(app, options.run);
-        apps::add_out_option(app, options.run.out);
-    };
-    return apps::run_program(program, argc, argv, add_options, [&] { run_study(options); });
+void add_options(Flags& flags, Options& options) {
+    flags.group("Scene");
+    flags.numbers("--size", options.sizes, "sizes of cells, one per level", {.unit = "m", .above = 0.0, .below = 1.0});
+    apps::add_preset_option(flags, options.run);
+    apps::add_time_options(flags, options.run, "the approach and 6 crossings of a disc by a wave");
+    apps::add_contact_options(flags, options.run);
+    flags.out(options.run.out);
 }
+
+}  // namespace
+
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::disc_collision_study

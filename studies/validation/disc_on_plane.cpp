@@ -8,13 +8,13 @@
 #include <array>
 #include <cmath>
 
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::disc_on_plane_study {
 namespace {
 
 const apps::Program program{
@@ -82,37 +82,35 @@ apps::Picture picture(const std::vector<double>& cells) {
     return {.name = "fall", .purpose = "Velocity of the disc, from the .csv files beside this file", .script = script};
 }
 
-}  // namespace
-}  // namespace abut::studies
-
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    Options options;
-    const auto add_options = [&](CLI::App& app) {
-        apps::add_numbers(app, "--cells", options.cells, "cells in the radius, a number a level",
-                          {.above = 1.0, .below = 1000.0})
-            ->group("Scene");
-        apps::add_preset_option(app, options.run);
-        apps::add_time_options(app, options.run, "4 times the fall");
-        apps::add_contact_options(app, options.run);
-        apps::add_out_option(app, options.run.out);
-    };
-    return apps::run_program(program, argc, argv, add_options, [&] {
-        std::vector<std::string> curves;
-        for (const double cells : options.cells) curves.push_back(curve_name(cells));
-        const auto lock = prepare_study(program, options.run.out, curves, {"fall"});
-        Study study{.title = "disc that falls on a rigid plane", .reference = "free fall: t = sqrt(2 h/g), v = g t"};
-        for (const double cells : options.cells) {
-            DroppedDisc disc;
-            disc.size = disc.radius / cells;
-            Fall one = fall(disc, options.run);
-            study.levels.push_back(std::move(one.level));
-            study.curves.emplace_back(curve_name(cells), std::move(one.curve));
-        }
-        study.pictures = {picture(options.cells)};
-        study.options = apps::to_json(options.run);
-        study.options["cells"] = options.cells;
-        report(program, options.run.out, study);
-    });
+void add_options(Flags& flags, Options& options) {
+    flags.group("Scene");
+    flags.numbers("--cells", options.cells, "cells in the radius, a number a level", {.above = 1.0, .below = 1000.0});
+    apps::add_preset_option(flags, options.run);
+    apps::add_time_options(flags, options.run, "4 times the fall");
+    apps::add_contact_options(flags, options.run);
+    flags.out(options.run.out);
 }
+
+void run_study(const Options& options) {
+    std::vector<std::string> curves;
+    for (const double cells : options.cells) curves.push_back(curve_name(cells));
+    const auto lock = prepare_study(program, options.run.out, curves, {"fall"});
+    Study study{.title = "disc that falls on a rigid plane", .reference = "free fall: t = sqrt(2 h/g), v = g t"};
+    for (const double cells : options.cells) {
+        DroppedDisc disc;
+        disc.size = disc.radius / cells;
+        Fall one = fall(disc, options.run);
+        study.levels.push_back(std::move(one.level));
+        study.curves.emplace_back(curve_name(cells), std::move(one.curve));
+    }
+    study.pictures = {picture(options.cells)};
+    study.options = apps::to_json(options.run);
+    study.options["cells"] = options.cells;
+    report(program, options.run.out, study);
+}
+
+}  // namespace
+
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::disc_on_plane_study

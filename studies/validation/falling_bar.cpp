@@ -13,9 +13,10 @@
 #include <fmt/format.h>
 
 #include "apps/support/choices.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::studies {
+namespace abut::studies::falling_bar_study {
 namespace {
 
 constexpr double gravity = 10.0;  // [m/s^2]
@@ -116,12 +117,11 @@ void run_study(const BarOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    BarOptions options = default_bar_options(program, {50, 100, 200});
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_bar_options(app, options); }, [&] { run_study(options); });
+Entry entry() {
+    return entry_of(
+        program, default_bar_options(program, {50, 100, 200}),
+        [](Flags& flags, BarOptions& options) { add_bar_options(flags, options); }, run_study);
 }
+
+}  // namespace abut::studies::falling_bar_study

@@ -12,11 +12,11 @@
 #include <string>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::hertz_study {
 namespace {
 
 const apps::Program program{.name = "hertz",
@@ -33,28 +33,24 @@ struct Options {
     run::RunOptions run{.out = "out/" + program.name};
 };
 
-void add_options(CLI::App& app, Options& options) {
-    const auto grouped = [](CLI::Option* option) { option->group("Scene"); };
-    grouped(apps::add_choice(app, "--dim", options.dim, "cylinder or sphere", apps::Choices<int>{{"2", 2}, {"3", 3}}));
-    grouped(apps::add_choice(app, "--support", options.hertz.support, "what it lies on", supports));
-    grouped(apps::add_number(app, "--load", options.hertz.load, "P, in 3D F", {.unit = "N/m, N", .above = 0.0}));
-    grouped(apps::add_number(app, "--radius", options.hertz.radius, "of each round body", {.unit = "m", .above = 0.0}));
-    grouped(apps::add_body_values(app, "--young", options.hertz.young, "Young's modulus, upper and lower",
-                                  {.unit = "Pa", .above = 0.0}));
-    grouped(apps::add_body_values(app, "--poisson", options.hertz.poisson, "Poisson's ratio, upper and lower",
-                                  {.above = -1.0, .below = 0.5}));
-    grouped(apps::add_number(app, "--ratio", options.hertz.ratio, "size of the lower faces over that of the upper ones",
-                             {.above = 0.0}));
-    grouped(apps::add_number(app, "--coarse", options.hertz.coarse, "size of cells far from the contact over the radius",
-                             {.above = 0.0, .below = 1.0}));
-    grouped(apps::add_numbers(app, "--faces", options.faces,
-                              "faces in the contact radius, a number a level; by default 2.5,5,10, in 3D 2.5,5",
-                              {.above = 0.0}));
-    apps::add_number(app, "--tolerance", options.hertz.statics.tolerance, "largest force left, over the largest stress",
-                     {.above = 0.0})
-        ->group("Statics");
-    apps::add_model_options(app, options.run);
-    apps::add_out_option(app, options.run.out);
+void add_options(Flags& flags, Options& options) {
+    flags.group("Scene");
+    flags.choice("--dim", options.dim, "cylinder or sphere", apps::Choices<int>{{"2", 2}, {"3", 3}});
+    flags.choice("--support", options.hertz.support, "what it lies on", supports);
+    flags.number("--load", options.hertz.load, "P, in 3D F", {.unit = "N/m, N", .above = 0.0});
+    flags.number("--radius", options.hertz.radius, "of each round body", {.unit = "m", .above = 0.0});
+    flags.body_values("--young", options.hertz.young, "Young's modulus, upper and lower", {.unit = "Pa", .above = 0.0});
+    flags.body_values("--poisson", options.hertz.poisson, "Poisson's ratio, upper and lower", {.above = -1.0, .below = 0.5});
+    flags.number("--ratio", options.hertz.ratio, "size of the lower faces over that of the upper ones", {.above = 0.0});
+    flags.number("--coarse", options.hertz.coarse, "size of cells far from the contact over the radius",
+                 {.above = 0.0, .below = 1.0});
+    flags.numbers("--faces", options.faces,
+                  "faces in the contact radius, a number a level; by default 2.5,5,10, in 3D 2.5,5", {.above = 0.0});
+    flags.group("Statics");
+    flags.number("--tolerance", options.hertz.statics.tolerance, "largest force left, over the largest stress",
+                 {.above = 0.0});
+    apps::add_model_options(flags, options.run);
+    flags.out(options.run.out);
 }
 
 /// Targets of the reference case, for 5 faces in a and for 10.
@@ -182,22 +178,18 @@ void check(Options& options) {
                 "--faces: {:g} faces in the contact radius, 1 to 1000 are allowed. 5 and 10 have targets.", faces));
 }
 
-}  // namespace
-}  // namespace abut::studies
-
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    Options options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); },
-        [&] {
-            check(options);
-            std::vector<std::string> curves;
-            for (const double faces : options.faces) curves.push_back(curve_name(faces));
-            const auto lock = prepare_study(program, options.run.out, curves, {"pressure"});
-            Study study = options.dim == 2 ? solve<2>(options) : solve<3>(options);
-            study.options = to_json(options);
-            report(program, options.run.out, study);
-        });
+void run_study(Options& options) {
+    check(options);
+    std::vector<std::string> curves;
+    for (const double faces : options.faces) curves.push_back(curve_name(faces));
+    const auto lock = prepare_study(program, options.run.out, curves, {"pressure"});
+    Study study = options.dim == 2 ? solve<2>(options) : solve<3>(options);
+    study.options = to_json(options);
+    report(program, options.run.out, study);
 }
+
+}  // namespace
+
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::hertz_study

@@ -8,13 +8,13 @@
 #include <algorithm>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/manufactured.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::manufactured_study {
 namespace {
 
 const apps::Program program{
@@ -32,17 +32,14 @@ struct ManufacturedOptions {
     std::filesystem::path out = "out/" + program.name;
 };
 
-void add_options(CLI::App& app, ManufacturedOptions& options) {
-    apps::add_choice(app, "--dim", options.dim, "dimensions", apps::Choices<int>{{"2", 2}, {"3", 3}})->group("Mesh");
-    apps::add_count(app, "--cells", options.cells, "along an edge of the coarsest box; 0: 8 in 2D, 4 in 3D", 0)
-        ->group("Mesh");
-    apps::add_count(app, "--levels", options.levels, "meshes, each of half the size of the one before; 0: 4 in 2D, 3 in 3D",
-                    0)
-        ->group("Mesh");
-    apps::add_number(app, "--tolerance", options.tolerance, "of the static solution, over the largest stress",
-                     {.above = 0.0})
-        ->group("Solution");
-    apps::add_out_option(app, options.out);
+void add_options(Flags& flags, ManufacturedOptions& options) {
+    flags.group("Mesh");
+    flags.choice("--dim", options.dim, "dimensions", apps::Choices<int>{{"2", 2}, {"3", 3}});
+    flags.count("--cells", options.cells, "along an edge of the coarsest box; 0: 8 in 2D, 4 in 3D", 0);
+    flags.count("--levels", options.levels, "meshes, each of half the size of the one before; 0: 4 in 2D, 3 in 3D", 0);
+    flags.group("Solution");
+    flags.number("--tolerance", options.tolerance, "of the static solution, over the largest stress", {.above = 0.0});
+    flags.out(options.out);
 }
 
 void fill_defaults(ManufacturedOptions& options) {
@@ -135,12 +132,7 @@ void run_study(ManufacturedOptions options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    ManufacturedOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, ManufacturedOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::manufactured_study

@@ -15,13 +15,13 @@
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/dynamics/stable_step.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/dense_stiffness.hpp"
 #include "studies/scenes/plane_wave.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::spectrum_study {
 namespace {
 
 using std::numbers::pi;
@@ -45,13 +45,13 @@ struct SpectrumOptions {
     std::filesystem::path out = "out/" + program.name;
 };
 
-void add_options(CLI::App& app, SpectrumOptions& options) {
-    apps::add_count(app, "--cells", options.cells, "along the strip, of size 1; two across it", 20)->group("Strip");
-    apps::add_number(app, "--poisson", options.poisson, "Poisson's ratio", {.above = -1.0, .below = 0.5})->group("Strip");
-    apps::add_number(app, "--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus",
-                     {.unit = "Pa", .above = 0.0, .zero = true})
-        ->group("Strip");
-    apps::add_out_option(app, options.out);
+void add_options(Flags& flags, SpectrumOptions& options) {
+    flags.group("Strip");
+    flags.count("--cells", options.cells, "along the strip, of size 1; two across it", 20);
+    flags.number("--poisson", options.poisson, "Poisson's ratio", {.above = -1.0, .below = 0.5});
+    flags.number("--eta", options.eta, "stabilisation of jumps between cells; 0: Young's modulus",
+                 {.unit = "Pa", .above = 0.0, .zero = true});
+    flags.out(options.out);
 }
 
 /// A strip or bar of unit squares or cubes.
@@ -153,8 +153,11 @@ void add_stable_step(Level& level, const SpectrumOptions& options) {
     const double alternating = 2.0 * std::sqrt(dispersion.eta / dispersion.density * (1.0 + 0.5 * (Dim - 1)));
     const double highest = highest_frequency(strip.solid);
     const double estimate = dynamics::stable_step(strip.solid).omega_max / margin;
-    level.quantities.push_back(
-        {.name = "omega_max by Lanczos iteration", .unit = "rad/s", .value = estimate, .reference = highest, .allowed = 0.02});
+    level.quantities.push_back({.name = "omega_max by Lanczos iteration",
+                                .unit = "rad/s",
+                                .value = estimate,
+                                .reference = highest,
+                                .allowed = 0.02});
     level.quantities.push_back({.name = "highest omega of the strip, of alternating cells",
                                 .unit = "rad/s",
                                 .value = highest,
@@ -215,12 +218,7 @@ void run_study(const SpectrumOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    SpectrumOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, SpectrumOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::spectrum_study

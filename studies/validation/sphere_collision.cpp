@@ -12,13 +12,13 @@
 #include <array>
 #include <cmath>
 
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
 #include "apps/support/preset.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::sphere_collision_study {
 namespace {
 
 const apps::Program program{.name = "sphere_collision",
@@ -120,41 +120,39 @@ apps::Picture picture(const std::vector<double>& faces) {
             .script = script};
 }
 
-}  // namespace
-}  // namespace abut::studies
-
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    Options options;
-    const auto add_options = [&](CLI::App& app) {
-        apps::add_numbers(app, "--faces", options.faces,
-                          "faces in the largest contact radius, a number a level; from 6 on there are targets",
-                          {.above = 1.0, .below = 100.0})
-            ->group("Scene");
-        apps::add_number(app, "--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
-                         {.above = 0.0, .below = 1.0})
-            ->group("Scene");
-        apps::add_preset_option(app, options.run);
-        apps::add_time_options(app, options.run, "1.2 times Hertz's duration");
-        apps::add_contact_options(app, options.run);
-        apps::add_out_option(app, options.run.out);
-    };
-    return apps::run_program(program, argc, argv, add_options, [&] {
-        std::vector<std::string> curves{"hertz"};
-        for (const double faces : options.faces) curves.push_back(curve_name(faces));
-        const auto lock = prepare_study(program, options.run.out, curves, {"impact"});
-        Study study{.title = "two spheres that collide", .reference = "Hertz: m* d'' = -4/3 E* sqrt(R*) d^1.5"};
-        study.curves.emplace_back("hertz", exact_curve(options.spheres));
-        for (const double faces : options.faces) {
-            options.spheres.faces = faces;
-            Impact impact = collide(options.spheres, options.run);
-            study.levels.push_back(std::move(impact.level));
-            study.curves.emplace_back(curve_name(faces), std::move(impact.curve));
-        }
-        study.pictures = {picture(options.faces)};
-        study.options = apps::to_json(options.run);
-        study.options.update({{"faces", options.faces}, {"coarse", options.spheres.coarse}});
-        report(program, options.run.out, study);
-    });
+void add_options(Flags& flags, Options& options) {
+    flags.group("Scene");
+    flags.numbers("--faces", options.faces,
+                  "faces in the largest contact radius, a number a level; from 6 on there are targets",
+                  {.above = 1.0, .below = 100.0});
+    flags.number("--coarse", options.spheres.coarse, "size of cells far from the contact over the radius",
+                 {.above = 0.0, .below = 1.0});
+    apps::add_preset_option(flags, options.run);
+    apps::add_time_options(flags, options.run, "1.2 times Hertz's duration");
+    apps::add_contact_options(flags, options.run);
+    flags.out(options.run.out);
 }
+
+void run_study(Options& options) {
+    std::vector<std::string> curves{"hertz"};
+    for (const double faces : options.faces) curves.push_back(curve_name(faces));
+    const auto lock = prepare_study(program, options.run.out, curves, {"impact"});
+    Study study{.title = "two spheres that collide", .reference = "Hertz: m* d'' = -4/3 E* sqrt(R*) d^1.5"};
+    study.curves.emplace_back("hertz", exact_curve(options.spheres));
+    for (const double faces : options.faces) {
+        options.spheres.faces = faces;
+        Impact impact = collide(options.spheres, options.run);
+        study.levels.push_back(std::move(impact.level));
+        study.curves.emplace_back(curve_name(faces), std::move(impact.curve));
+    }
+    study.pictures = {picture(options.faces)};
+    study.options = apps::to_json(options.run);
+    study.options.update({{"faces", options.faces}, {"coarse", options.spheres.coarse}});
+    report(program, options.run.out, study);
+}
+
+}  // namespace
+
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::sphere_collision_study

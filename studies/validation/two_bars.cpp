@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 
 #include "abut/base/error.hpp"
-#include "apps/support/command_line.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/bars.hpp"
 
-namespace abut::studies {
+namespace abut::studies::two_bars_study {
 namespace {
 
 constexpr int least_cells = 100;    // from which on the targets hold that do not scale with h
@@ -38,14 +38,12 @@ struct Options {
     }
 };
 
-void add_options(CLI::App& app, Options& options) {
-    add_bar_options(app, options.bars, {BarBody::strip2d, BarBody::strip3d});
-    apps::add_counts(app, "--cells-2", options.upper_cells,
-                     "cells along the upper bar, as many numbers; by default as --cells", 8)
-        ->group("Bar");
-    apps::add_body_values(app, "--speed", options.speed, "speed of the lower and the upper bar towards the other",
-                          {.unit = "m/s", .above = 0.0, .zero = true})
-        ->group("Bar");
+void add_options(Flags& flags, Options& options) {
+    add_bar_options(flags, options.bars, {BarBody::strip2d, BarBody::strip3d});
+    flags.group("Bar");
+    flags.counts("--cells-2", options.upper_cells, "cells along the upper bar, as many numbers; by default as --cells", 8);
+    flags.body_values("--speed", options.speed, "speed of the lower and the upper bar towards the other",
+                      {.unit = "m/s", .above = 0.0, .zero = true});
 }
 
 void check(const Options& options) {
@@ -144,12 +142,7 @@ void run_study(const Options& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    Options options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+
+}  // namespace abut::studies::two_bars_study

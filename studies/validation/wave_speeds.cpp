@@ -17,13 +17,13 @@
 #include <numbers>
 
 #include "abut/base/stopwatch.hpp"
-#include "apps/support/command_line.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/program/entry.hpp"
 #include "studies/scenes/half_plane.hpp"
 #include "studies/scenes/plane_wave.hpp"
 #include "studies/validation/study.hpp"
 
-namespace abut::studies {
+namespace abut::studies::wave_speeds_study {
 namespace {
 
 const apps::Program program{
@@ -52,17 +52,15 @@ struct WaveOptions {
     run::RunOptions run{.out = "out/" + program.name, .interval = 10};
 };
 
-void add_options(CLI::App& app, WaveOptions& options) {
-    apps::add_choice(app, "--case", options.which, "plane waves in a strip or bar, the half plane, or all", cases)
-        ->group("Waves");
-    apps::add_choice(app, "--mesh", options.half_plane, "cells of the half plane", meshes)->group("Waves");
-    apps::add_count(app, "--cells", options.cells, "edges of cells in a wavelength, on the coarsest mesh", 5)
-        ->group("Waves");
-    apps::add_count(app, "--levels", options.levels, "meshes, each twice as fine as the one before", 1)->group("Waves");
-    apps::add_number(app, "--cfl", options.run.cfl, "time step over the stable step",
-                     {.above = 0.0, .below = 1.0, .closed = true})
-        ->group("Time");
-    apps::add_out_option(app, options.run.out);
+void add_options(Flags& flags, WaveOptions& options) {
+    flags.group("Waves");
+    flags.choice("--case", options.which, "plane waves in a strip or bar, the half plane, or all", cases);
+    flags.choice("--mesh", options.half_plane, "cells of the half plane", meshes);
+    flags.count("--cells", options.cells, "edges of cells in a wavelength, on the coarsest mesh", 5);
+    flags.count("--levels", options.levels, "meshes, each twice as fine as the one before", 1);
+    flags.group("Time");
+    flags.number("--cfl", options.run.cfl, "time step over the stable step", {.above = 0.0, .below = 1.0, .closed = true});
+    flags.out(options.run.out);
 }
 
 bool includes(const WaveOptions& options, Case which) { return options.which == Case::all || options.which == which; }
@@ -314,12 +312,7 @@ void run_study(const WaveOptions& options) {
 }
 
 }  // namespace
-}  // namespace abut::studies
 
-int main(int argc, char** argv) {
-    using namespace abut;
-    using namespace abut::studies;
-    WaveOptions options;
-    return apps::run_program(
-        program, argc, argv, [&](CLI::App& app) { add_options(app, options); }, [&] { run_study(options); });
-}
+Entry entry() { return entry_of(program, WaveOptions{}, add_options, run_study); }
+
+}  // namespace abut::studies::wave_speeds_study

@@ -115,7 +115,7 @@ def check_one_message(run, words, what):
     assert run.stderr.count("error:") == 1, (what, run.stderr)
 
 
-def check_refused(program, other, scene, folder):
+def check_refused(program, studies, scene, folder):
     """Each by its name, on all ranks, with one message."""
     not_made = "not made for a run on several ranks"
     for name, *options in (("pilot run", "--kinematics", "automatic"),
@@ -126,7 +126,7 @@ def check_refused(program, other, scene, folder):
     many = subprocess.run(command(program, scene, folder / "wrong", "--ranks", "1000000"), capture_output=True, text=True)
     check_one_message(many, ("--ranks: 1000000 are asked for", "processors"), "more ranks than a machine can have")
     for words, name in (([program, "run", scene, "--sweep", "bodies.left.density=1,2", "--out", str(folder / "sweep")], "--sweep"),
-                        ([program, "check", scene], "this command"), ([other, "--out", str(folder / "other")], pathlib.Path(other).name)):
+                        ([program, "check", scene], "this command"), ([studies, "bouncing_bar", "--out", str(folder / "study")], "study bouncing_bar")):
         run = subprocess.run([*MPIRUN, "-n", "2", *words], capture_output=True, text=True)
         check_one_message(run, (name, "not made for several ranks"), words)
 
@@ -149,7 +149,7 @@ def check_left_alone(program, scene, folder):
 
 
 def main():
-    program, other, scene = sys.argv[1:]
+    program, studies, scene = sys.argv[1:]
     with tempfile.TemporaryDirectory() as here:
         folder = pathlib.Path(here)
         subprocess.run(command(program, scene, folder / "alone"), check=True)
@@ -176,7 +176,7 @@ def main():
             assert (parted / "energy.csv").read_bytes() == energies, f"began on {before} ranks, went on on {after}"
 
         check_signals(program, scene, folder)
-        check_refused(program, other, scene, folder)
+        check_refused(program, studies, scene, folder)
         check_left_alone(program, scene, folder)
 
 

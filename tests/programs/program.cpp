@@ -43,7 +43,7 @@ Outcome run_program(const std::string& program, const std::string& arguments, co
     const auto results = folder.empty() ? nullptr : std::make_shared<const Folder>(folder);
     const auto directory = results ? results->path() : fs::path();
     const std::string to = results ? fmt::format("--out '{}'", directory.string()) : "";
-    const int status = std::system(fmt::format("{} '{}/{}' {} {} >'{}' 2>'{}' </dev/null", before, ABUT_PROGRAM_FOLDER,
+    const int status = std::system(fmt::format("{} '{}'/{} {} {} >'{}' 2>'{}' </dev/null", before, ABUT_PROGRAM_FOLDER,
                                                program, arguments, to, out.string(), error.string())
                                        .c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(error), directory, results};

@@ -30,7 +30,7 @@ struct Outcome {
     std::shared_ptr<const Folder> folder;
 };
 
-/// Runs a program in the shell: `program` is its name, `arguments` are passed on, with --out to an empty folder of that
+/// Runs a program in the shell: `program` is its name, or "study hertz"; `arguments` are passed on, with --out to an empty folder of that
 /// name. With an empty folder name the arguments hold their own --out, if any. `before` goes in front: "PATH=/nowhere".
 [[nodiscard]] Outcome run_program(const std::string& program, const std::string& arguments, const std::string& folder,
                                   const std::string& before = "");

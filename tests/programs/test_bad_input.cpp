@@ -96,32 +96,33 @@ const std::vector<BadInput> bad_options_of_the_strip = {
 };
 
 const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons = {
-    {"fpu", {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
-    {"fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},
-    {"fpu", {"--dt 0", {"--dt", "0 s", "above 0 s"}}},
-    {"fpu", {"--dt 1e-300", {"steps of 1e-300 s", "1 to 1e+15 are allowed"}}},
-    {"fpu", {"--gauge 1 --integrator memm", {"--gauge", "memm does not know it", "--integrator bilbao"}}},
-    {"fpu", {"--mean 2 --integrator leapfrog", {"--mean", "leapfrog does not know it", "memm or energy_momentum"}}},
-    {"fpu", {"--fast 7", {"--fast", "7 masses", "there are 6"}}},
-    {"fpu", {"--parts 0", {"--parts", "'0'", "at least 1"}}},
-    {"fpu", {"--start half --integrator energy_momentum", {"--start", "energy_momentum does not know it"}}},
-    {"fpu", {"--omega nan", {"--omega", "nan", "finite"}}},
-    {"slow_fast_wave", {"--integrator bilbao", {"--integrator", "bilbao", "all, memm, memm_async, leapfrog"}}},
-    {"slow_fast_wave", {"--time 0.6", {"--time", "0.6 s", "not above 0.5 s"}}},
-    {"slow_fast_wave", {"--cells 1001 --refinements 0", {"--cells", "1001", "even", "interface"}}},
-    {"slow_fast_wave", {"--cells 1002", {"--cells", "1002 halved 2 times", "multiple of 16", "--refinements"}}},
-    {"slow_fast_wave", {"--cfl 1.01", {"--cfl", "1.01", "not above 1", "unstable"}}},
-    {"slow_fast_wave", {"--ratio 20", {"--ratio", "20 steps", "below 1 is stable", "--cfl"}}},
-    {"slow_fast_wave", {"--ratio 5 --integrator memm", {"--ratio", "memm does not know it"}}},
-    {"bouncing_bar", {"--gravity 5", {"--gravity", "5", "0, 10"}}},
-    {"bouncing_bar", {"--cells 3", {"--cells", "3", "at least 4"}}},
-    {"bouncing_bar", {"--cfl 2", {"--cfl", "2", "not above 1"}}},
-    {"bouncing_bar", {"--filter weak", {"--filter", "weak", "none, neutral"}}},
-    {"bouncing_bar", {"--filter neutral --integrator leapfrog", {"--filter", "leapfrog does not know it"}}},
-    {"bouncing_bar", {"--filter neutral --patch 1", {"--patch", "'1'", "at least 2"}}},
-    {"bouncing_bar", {"--patch 3", {"--patch", "--filter"}}},
-    {"bouncing_bar", {"--cells 10 --filter neutral --patch 11", {"--patch", "11 masses", "the bar has 10"}}},
-    {"bouncing_bar", {"--gauge 0", {"Bilbao scheme", "Raise the gauge"}}},
+    {"study fpu",
+     {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
+    {"study fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},
+    {"study fpu", {"--dt 0", {"--dt", "0 s", "above 0 s"}}},
+    {"study fpu", {"--dt 1e-300", {"steps of 1e-300 s", "1 to 1e+15 are allowed"}}},
+    {"study fpu", {"--gauge 1 --integrator memm", {"--gauge", "memm does not know it", "--integrator bilbao"}}},
+    {"study fpu", {"--mean 2 --integrator leapfrog", {"--mean", "leapfrog does not know it", "memm or energy_momentum"}}},
+    {"study fpu", {"--fast 7", {"--fast", "7 masses", "there are 6"}}},
+    {"study fpu", {"--parts 0", {"--parts", "'0'", "at least 1"}}},
+    {"study fpu", {"--start half --integrator energy_momentum", {"--start", "energy_momentum does not know it"}}},
+    {"study fpu", {"--omega nan", {"--omega", "nan", "finite"}}},
+    {"study slow_fast_wave", {"--integrator bilbao", {"--integrator", "bilbao", "all, memm, memm_async, leapfrog"}}},
+    {"study slow_fast_wave", {"--time 0.6", {"--time", "0.6 s", "not above 0.5 s"}}},
+    {"study slow_fast_wave", {"--cells 1001 --refinements 0", {"--cells", "1001", "even", "interface"}}},
+    {"study slow_fast_wave", {"--cells 1002", {"--cells", "1002 halved 2 times", "multiple of 16", "--refinements"}}},
+    {"study slow_fast_wave", {"--cfl 1.01", {"--cfl", "1.01", "not above 1", "unstable"}}},
+    {"study slow_fast_wave", {"--ratio 20", {"--ratio", "20 steps", "below 1 is stable", "--cfl"}}},
+    {"study slow_fast_wave", {"--ratio 5 --integrator memm", {"--ratio", "memm does not know it"}}},
+    {"study bouncing_bar", {"--gravity 5", {"--gravity", "5", "0, 10"}}},
+    {"study bouncing_bar", {"--cells 3", {"--cells", "3", "at least 4"}}},
+    {"study bouncing_bar", {"--cfl 2", {"--cfl", "2", "not above 1"}}},
+    {"study bouncing_bar", {"--filter weak", {"--filter", "weak", "none, neutral"}}},
+    {"study bouncing_bar", {"--filter neutral --integrator leapfrog", {"--filter", "leapfrog does not know it"}}},
+    {"study bouncing_bar", {"--filter neutral --patch 1", {"--patch", "'1'", "at least 2"}}},
+    {"study bouncing_bar", {"--patch 3", {"--patch", "--filter"}}},
+    {"study bouncing_bar", {"--cells 10 --filter neutral --patch 11", {"--patch", "11 masses", "the bar has 10"}}},
+    {"study bouncing_bar", {"--gauge 0", {"Bilbao scheme", "Raise the gauge"}}},
 };
 
 void check_no_result(const fs::path& directory) {
@@ -204,7 +205,7 @@ TEST_CASE("bad options end with one message that names them, and leave no result
 
 TEST_CASE("bad options of the bouncing strip end in the same way", "[programs]") {
     const BadInput bad = GENERATE(from_range(bad_options_of_the_strip));
-    check_refused(bad, run_program("bouncing_strip", bad.arguments, "bad_strip_option"));
+    check_refused(bad, run_program("study bouncing_strip", bad.arguments, "bad_strip_option"));
 }
 
 TEST_CASE("bad options of the programs that compare integrators end in the same way", "[programs]") {
@@ -226,7 +227,8 @@ TEST_CASE("a run that breaks off says at which step, and leaves no result", "[pr
 }
 
 TEST_CASE("an output folder with a file in its place is refused before the run", "[programs]") {
-    const std::string program = GENERATE("slipping_cylinders", "bouncing_strip", "bouncing_bar", "fpu", "slow_fast_wave");
+    const std::string program =
+        GENERATE("slipping_cylinders", "study bouncing_strip", "study bouncing_bar", "study fpu", "study slow_fast_wave");
     const Folder folder("in_the_way");
     const std::string file = (folder.path() / "results").string();
     std::ofstream(file) << "something\n";

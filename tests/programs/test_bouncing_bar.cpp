@@ -13,7 +13,7 @@ using namespace abut::test::programs;
 
 /// Without a picture: it takes longer than the run.
 Outcome bar(const std::string& arguments, const std::string& folder) {
-    return run_well("bouncing_bar", arguments, folder, "PATH=/nowhere");
+    return run_well("study bouncing_bar", arguments, folder, "PATH=/nowhere");
 }
 
 // What a prototype in another language gave for the single impact under MEMM; the pressure is that of the middle 80 %.

@@ -14,8 +14,8 @@ double number(const Outcome& outcome, const char* name) { return read_summary(ou
 
 TEST_CASE("the bouncing strip keeps its pseudo-energy, and the filter makes the parasitic mode smaller", "[programs]") {
     const std::string bounces = "--steps 6000 --frames 0 --filter ";
-    const auto plain = run_well("bouncing_strip", bounces + "none", "strip_plain");
-    const auto filtered = run_well("bouncing_strip", bounces + "neutral", "strip_filtered");
+    const auto plain = run_well("study bouncing_strip", bounces + "none", "strip_plain");
+    const auto filtered = run_well("study bouncing_strip", bounces + "neutral", "strip_filtered");
     for (const auto& outcome : {plain, filtered}) {
         CHECK(read_summary(outcome)["impacts"] >= 3);
         CHECK(relative_drift(outcome) <= 1e-12);
@@ -28,8 +28,8 @@ TEST_CASE("the bouncing strip keeps its pseudo-energy, and the filter makes the 
 
 TEST_CASE("the first impulse of the bouncing strip converges to 2 rho L (v0 + g L/c)", "[programs]") {
     const double exact = 2.0 * 1.0 * 10.0 * (10.0 + 10.0 * 10.0 / 30.0);
-    const auto coarse = run_well("bouncing_strip", "--cells 50 --time 2.5 --frames 0", "strip_coarse");
-    const auto fine = run_well("bouncing_strip", "--cells 100 --time 2.5 --frames 0", "strip_fine");
+    const auto coarse = run_well("study bouncing_strip", "--cells 50 --time 2.5 --frames 0", "strip_coarse");
+    const auto fine = run_well("study bouncing_strip", "--cells 100 --time 2.5 --frames 0", "strip_fine");
     CHECK(number(fine, "impulse_exact") == Approx(exact));
     CHECK(number(fine, "impulse_first") == Approx(exact).epsilon(2e-3));
     CHECK(std::abs(number(fine, "impulse_first") - exact) < std::abs(number(coarse, "impulse_first") - exact));
@@ -37,7 +37,7 @@ TEST_CASE("the first impulse of the bouncing strip converges to 2 rho L (v0 + g 
 
 TEST_CASE("the bouncing strip leaves the files of all programs that run a scene and says how far its foot gave way",
           "[programs]") {
-    const auto outcome = run_well("bouncing_strip", "--steps 1200 --frames 3", "strip_files");
+    const auto outcome = run_well("study bouncing_strip", "--steps 1200 --frames 3", "strip_files");
     for (const char* file :
          {"energy.csv", "energy.svg", "summary.json", "strip.pvd", "strip_surface.pvd", "strip_000002.vtu"})
         CHECK(std::filesystem::exists(outcome.directory / file));
@@ -53,7 +53,7 @@ TEST_CASE("the bouncing strip leaves the files of all programs that run a scene 
 }
 
 TEST_CASE("the bouncing strip stops where a named limit of compression is exceeded", "[programs]") {
-    const auto outcome = run_program("bouncing_strip", "--steps 1200 --frames 0 --compression-limit 1", "strip_limit");
+    const auto outcome = run_program("study bouncing_strip", "--steps 1200 --frames 0 --compression-limit 1", "strip_limit");
     CHECK(outcome.exit_code == 1);
     for (const char* word : {"step ", "face ", "(body 0, at (", "allowed"})
         CHECK(outcome.error.find(word) != std::string::npos);
@@ -61,9 +61,9 @@ TEST_CASE("the bouncing strip stops where a named limit of compression is exceed
 }
 
 TEST_CASE("the stabilisation of the bouncing strip is given in pascals", "[programs]") {
-    const auto given = run_well("bouncing_strip", "--steps 10 --frames 0 --eta 900", "strip_eta");
-    const auto by_default = run_well("bouncing_strip", "--steps 10 --frames 0", "strip_no_eta");
-    const auto softer = run_well("bouncing_strip", "--steps 10 --frames 0 --eta 630", "strip_soft");
+    const auto given = run_well("study bouncing_strip", "--steps 10 --frames 0 --eta 900", "strip_eta");
+    const auto by_default = run_well("study bouncing_strip", "--steps 10 --frames 0", "strip_no_eta");
+    const auto softer = run_well("study bouncing_strip", "--steps 10 --frames 0 --eta 630", "strip_soft");
     CHECK(number(given, "stable_dt") == number(by_default, "stable_dt"));
     CHECK(number(softer, "stable_dt") > number(given, "stable_dt"));
     CHECK(read_summary(by_default)["options"]["eta"] == 900.0);

@@ -85,7 +85,7 @@ TEST_CASE("the body load of a manufactured solution is the opposite of the diver
 
 TEST_CASE("statics converge with order 1.8 in L2 and 0.95 in energy on quadrangles, triangles and unstructured triangles",
           "[programs][bulk]") {
-    const auto outcome = run_well("manufactured", "--cells 6 --levels 3", "manufactured_2d");
+    const auto outcome = run_well("study manufactured", "--cells 6 --levels 3", "manufactured_2d");
     const auto summary = read_summary(outcome);
     CHECK(summary["orders_least"].size() == 6);
     check_orders(summary);
@@ -95,14 +95,14 @@ TEST_CASE("statics converge with order 1.8 in L2 and 0.95 in energy on quadrangl
 
 TEST_CASE("statics converge with order 1.8 in L2 and 0.95 in energy on every shape of cell in 3D", "[programs][bulk]") {
     const auto summary =
-        read_summary(run_well("manufactured", "--dim 3 --cells 3 --levels 3 --tolerance 1e-6", "manufactured_3d"));
+        read_summary(run_well("study manufactured", "--dim 3 --cells 3 --levels 3 --tolerance 1e-6", "manufactured_3d"));
     CHECK(summary["orders_least"].size() == 10);
     check_orders(summary);
 }
 
 TEST_CASE("affine displacements are reproduced to 1e-12 and only rigid motions cost no energy, on every shape of cell",
           "[programs][bulk]") {
-    const auto outcome = run_well("bulk_patch", "--cells 4", "bulk_patch");
+    const auto outcome = run_well("study bulk_patch", "--cells 4", "bulk_patch");
     const auto summary = read_summary(outcome);
     CHECK(summary["levels"].size() == 8);
     CHECK(check_targets(outcome) ==
@@ -115,7 +115,7 @@ TEST_CASE("affine displacements are reproduced to 1e-12 and only rigid motions c
 
 TEST_CASE("the operator has the exact spectrum of a uniform mesh, in 2D and 3D, whatever nu and eta", "[programs][bulk]") {
     const std::string options = GENERATE("", "--poisson 0.25 --eta 300", "--poisson -0.2 --eta 2000");
-    const auto outcome = run_well("spectrum", options, "spectrum");
+    const auto outcome = run_well("study spectrum", options, "spectrum");
     CHECK(check_targets(outcome) == 2 * (2 * 2 + 2));  // 2D and 3D: two errors of P and S each; the stable step's two
     if (!options.empty()) return;
     const auto table = read_table(outcome, "spectrum_P_2d.csv");  // nu = 0, eta = E
@@ -148,7 +148,7 @@ TEST_CASE("a wavelet that comes later is found to be that much later, by correla
 
 TEST_CASE("plane waves run as fast as the medium's within 1 % at 20 triangles, and as the scheme's at 20 squares",
           "[programs][bulk]") {
-    const auto summary = read_summary(run_well("wave_speeds", "--case plane_2d --cells 20 --levels 1", "plane_waves"));
+    const auto summary = read_summary(run_well("study wave_speeds", "--case plane_2d --cells 20 --levels 1", "plane_waves"));
     for (const std::string wave : {"plane P 2D ", "plane S 2D "}) {
         for (const char* cells : {"triangles", "gmsh"})
             for (const char* speed : {", phase", ", wavelet"}) CHECK(error(summary, wave, wave + cells + speed) <= 0.01);
@@ -159,7 +159,8 @@ TEST_CASE("plane waves run as fast as the medium's within 1 % at 20 triangles, a
 
 TEST_CASE("P, S and Rayleigh waves of a line force are within 4 % at 10 cells a wavelength: 1 % at 20, order 2",
           "[programs][bulk]") {
-    const auto outcome = run_well("wave_speeds", "--case half_plane --mesh triangles --cells 10 --levels 1", "half_plane");
+    const auto outcome =
+        run_well("study wave_speeds", "--case half_plane --mesh triangles --cells 10 --levels 1", "half_plane");
     const auto summary = read_summary(outcome);
     for (const char* wave : {"P", "S", "R"}) CHECK(error(summary, "half plane", std::string("half plane ") + wave) <= 0.04);
     for (const auto& level : summary["levels"]) CHECK(level["energies"]["pseudo_energy_drift"].get<double>() <= 1e-13);

@@ -46,7 +46,7 @@ std::vector<std::string> expected_files(const Comparison& comparison, bool pictu
 TEST_CASE("a comparison leaves its tables, a picture and a summary, and nothing half written", "[programs]") {
     const Comparison& comparison = GENERATE(from_range(comparisons));
     CAPTURE(comparison.program);
-    const auto outcome = run_well(comparison.program, comparison.arguments, "comparison");
+    const auto outcome = run_well("study " + comparison.program, comparison.arguments, "comparison");
     CHECK(files_in(outcome.directory) == expected_files(comparison, has_gnuplot()));
     const auto summary = read_summary(outcome);
     CHECK(summary["program"] == comparison.program);
@@ -61,7 +61,8 @@ TEST_CASE("a comparison leaves its tables, a picture and a summary, and nothing 
 
 TEST_CASE("a comparison without gnuplot says so and leaves all but the picture", "[programs]") {
     const Comparison& comparison = GENERATE(from_range(comparisons));
-    const auto outcome = run_well(comparison.program, comparison.arguments, "comparison_no_gnuplot", "PATH=/nowhere");
+    const auto outcome =
+        run_well("study " + comparison.program, comparison.arguments, "comparison_no_gnuplot", "PATH=/nowhere");
     CHECK(outcome.out.find("gnuplot is not installed") != std::string::npos);
     CHECK(files_in(outcome.directory) == expected_files(comparison, false));
 }
@@ -69,11 +70,11 @@ TEST_CASE("a comparison without gnuplot says so and leaves all but the picture",
 TEST_CASE("a comparison removes what an earlier one left, and nobody else's file", "[programs]") {
     const Comparison& comparison = GENERATE(from_range(comparisons));
     CAPTURE(comparison.program);
-    const auto all = run_well(comparison.program, comparison.arguments, "comparison_twice");
+    const auto all = run_well("study " + comparison.program, comparison.arguments, "comparison_twice");
     std::ofstream(all.directory / "notes.csv") << "mine\n";
     std::ofstream(all.directory / "memm.csv.partial") << "broken off\n";
     const auto again =
-        run_program(comparison.program,
+        run_program("study " + comparison.program,
                     fmt::format("{} --integrator memm --out '{}'", comparison.arguments, all.directory.string()), "");
     REQUIRE(again.exit_code == 0);
     CHECK_FALSE(fs::exists(all.directory / "leapfrog.csv"));
@@ -84,7 +85,7 @@ TEST_CASE("a comparison removes what an earlier one left, and nobody else's file
 
 TEST_CASE("the rows of a comparison's files are as far apart as asked for, the first and the last node among them",
           "[programs]") {
-    const auto outcome = run_well("fpu", "--dt 0.01 --time 1.05 --interval 10 --integrator memm", "comparison_rows");
+    const auto outcome = run_well("study fpu", "--dt 0.01 --time 1.05 --interval 10 --integrator memm", "comparison_rows");
     const auto time = read_table(outcome, "memm.csv").column("time");
     REQUIRE(time.size() == 12);
     CHECK(time.front() == 0.0);

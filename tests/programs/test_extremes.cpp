@@ -11,7 +11,7 @@ using namespace abut::test::programs;
 using Rows = std::vector<nlohmann::json>;
 
 Rows sweep(const std::string& family, const std::string& more = "") {
-    const auto outcome = run_well("extremes", "--quick --only " + family + " " + more, "extremes_" + family);
+    const auto outcome = run_well("study extremes", "--quick --only " + family + " " + more, "extremes_" + family);
     CHECK(std::filesystem::exists(outcome.directory / "extremes.csv"));
     return read_summary(outcome)["rows"].get<Rows>();
 }

@@ -14,7 +14,7 @@ using namespace abut::test::programs;
 
 /// Without a picture: it takes longer than the run.
 Outcome fpu(const std::string& arguments, const std::string& folder) {
-    return run_well("fpu", arguments, folder, "PATH=/nowhere");
+    return run_well("study fpu", arguments, folder, "PATH=/nowhere");
 }
 
 // What a prototype in another language gave over T = 200, relative to H0.
@@ -73,7 +73,7 @@ TEST_CASE("leapfrog and MEMM explode above omega dt = 2, H~ does not notice, and
     const auto stable = fpu("--dt 0.039", "fpu_stable");
     for (const char* scheme : {"memm", "leapfrog"})
         CHECK(read_summary(stable)["schemes"][scheme]["broken_off_time"].is_null());
-    const auto outcome = run_program("fpu", "--dt 0.041", "fpu_unstable");
+    const auto outcome = run_program("study fpu", "--dt 0.041", "fpu_unstable");
     CHECK(outcome.exit_code == 1);
     const auto summary = read_summary(outcome);
     for (const char* scheme : {"memm", "leapfrog"}) {

@@ -20,35 +20,35 @@ const std::vector<std::pair<std::string, std::string>> explained = {
      "--levels --contact-margin --contact-levels --gauge --refine --refine-over --frames --threads --out "
      "--broad-phase --interval --allow-unstable --compression-limit --preset --facing-cosine --facing-full --facing-none "
      "--quiet --json"},
-    {"bouncing_strip",
+    {"study bouncing_strip",
      "--cells --eta --steps --cfl --dt --filter --restart --compression-limit --out --interval --frames --quiet --json"},
-    {"bouncing_bar",
+    {"study bouncing_bar",
      "--cells --gravity --cfl --steps --integrator --gauge --parts --fast --filter --patch --restart --out --interval"},
-    {"bar_impact", "--body --cells --cfl --filter --out --overlap --weights --neumann --skin"},
-    {"falling_bar", "--body --cells --cfl --filter --out"},
-    {"fixed_bar", "--body --cells --cfl --filter --out"},
-    {"two_bars", "--body --cells --cells-2 --speed --cfl --filter --out"},
+    {"study bar_impact", "--body --cells --cfl --filter --out --overlap --weights --neumann --skin"},
+    {"study falling_bar", "--body --cells --cfl --filter --out"},
+    {"study fixed_bar", "--body --cells --cfl --filter --out"},
+    {"study two_bars", "--body --cells --cells-2 --speed --cfl --filter --out"},
     {"detect",
      "--connected --unusable --self-intersections --translate --rotate --script --displacement --steps "
      "--largest-motion --distance --depth --self --rings --facing --area --broad-phase --skin --max-pairs "
      "--max-memory --verify --verify-tests --verify-samples --seed --out --no-files --write-every --threads"},
-    {"fpu", "--omega --dt --time --integrator --mean --gauge --parts --fast --start --out --interval"},
-    {"hertz",
+    {"study fpu", "--omega --dt --time --integrator --mean --gauge --parts --fast --start --out --interval"},
+    {"study hertz",
      "--dim --support --load --radius --young --poisson --ratio --coarse --faces --tolerance --weights --area "
      "--neumann --corners --out"},
-    {"contact_patch", "--dim --mesh --strain --out"},
-    {"extremes", "--only --steps --quick --cfl --overlap --events --facing-cosine --out"},
-    {"long_runs", "--only --steps --period"},
-    {"turning", "--only --quick --scheme --filter --restart --cfl --steps --frames --out"},
-    {"trade", "--only --settings --also --levels --repetitions --limit --out"},
-    {"disc_on_plane", "--preset --cells --cfl --integrator --weights --events --neumann --out"},
-    {"disc_collision", "--preset --size --cfl --integrator --weights --events --neumann --out"},
-    {"sphere_collision", "--preset --faces --coarse --cfl --integrator --weights --out"},
-    {"manufactured", "--dim --cells --levels --tolerance --out"},
-    {"bulk_patch", "--cells --mode-cells --out"},
-    {"spectrum", "--cells --poisson --eta --out"},
-    {"wave_speeds", "--case --mesh --cells --levels --cfl --out"},
-    {"slow_fast_wave", "--cells --cfl --time --ratio --integrator --refinements --out"}};
+    {"study contact_patch", "--dim --mesh --strain --out"},
+    {"study extremes", "--only --steps --quick --cfl --overlap --events --facing-cosine --out"},
+    {"study long_runs", "--only --steps --period"},
+    {"study turning", "--only --quick --scheme --filter --restart --cfl --steps --frames --out"},
+    {"study trade", "--only --settings --also --levels --repetitions --limit --out"},
+    {"study disc_on_plane", "--preset --cells --cfl --integrator --weights --events --neumann --out"},
+    {"study disc_collision", "--preset --size --cfl --integrator --weights --events --neumann --out"},
+    {"study sphere_collision", "--preset --faces --coarse --cfl --integrator --weights --out"},
+    {"study manufactured", "--dim --cells --levels --tolerance --out"},
+    {"study bulk_patch", "--cells --mode-cells --out"},
+    {"study spectrum", "--cells --poisson --eta --out"},
+    {"study wave_speeds", "--case --mesh --cells --levels --cfl --out"},
+    {"study slow_fast_wave", "--cells --cfl --time --ratio --integrator --refinements --out"}};
 
 /// One for each option; where a long list of names has pushed the explanation to the next line, both in one.
 std::vector<std::string> option_lines(const std::string& help) {
@@ -86,6 +86,29 @@ TEST_CASE("the text of --help explains every option in one line with unit and de
         if (holds(line, " X ") || holds(line, " X[,X] ") || holds(line, " N "))
             CHECK((holds(line, "[") && holds(line, "]")));
     }
+}
+
+TEST_CASE("the list of studies has a sentence for each, and a name that is not in it is refused with those that are",
+          "[programs]") {
+    const auto list = run_program("study", "list", "");
+    CHECK(list.exit_code == 0);
+    CHECK(list.error.empty());
+    std::istringstream lines(list.out);
+    std::vector<std::string> names;
+    for (std::string line; std::getline(lines, line);) {
+        CAPTURE(line);
+        names.push_back(line.substr(0, line.find(' ')));
+        CHECK(line.ends_with('.'));
+        CHECK(run_program("study " + names.back(), "--help", "")
+                  .out.starts_with(line.substr(line.find_first_not_of(' ', line.find(' ')))));
+    }
+    CHECK(std::ranges::is_sorted(names));
+    for (const auto& [program, options] : explained)
+        if (program.starts_with("study ")) CHECK(std::ranges::count(names, program.substr(6)) == 1);
+    const auto refused = run_program("study", "herz", "");
+    CHECK(refused.exit_code == 1);
+    CHECK(holds(refused.error, "'herz' is not known"));
+    for (const std::string& name : names) CHECK(holds(refused.error, name));
 }
 
 TEST_CASE("the text of --help names the default that a run uses", "[programs]") {

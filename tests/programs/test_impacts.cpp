@@ -12,7 +12,7 @@ using namespace abut::test::programs;
 }  // namespace
 
 TEST_CASE("a disc that falls touches a plane when free fall says, except for its corners and a step", "[programs]") {
-    const auto outcome = run_well("disc_on_plane", "--cells 5,10", "disc_on_plane");
+    const auto outcome = run_well("study disc_on_plane", "--cells 5,10", "disc_on_plane");
     for (std::size_t level = 0; level < 2; ++level) {
         const double size = read_summary(outcome)["levels"][level]["size"].get<double>();
         const auto fall = read_table(outcome, level == 0 ? "fall_5.csv" : "fall_10.csv");
@@ -26,7 +26,7 @@ TEST_CASE("a disc that falls touches a plane when free fall says, except for its
 }
 
 TEST_CASE("discs that collide keep momentum and pseudo-energy, and turn less on finer meshes", "[programs]") {
-    const auto outcome = run_well("disc_collision", "--size 0.25,0.125", "disc_collision");
+    const auto outcome = run_well("study disc_collision", "--size 0.25,0.125", "disc_collision");
     for (std::size_t level = 0; level < 4; ++level) {
         CHECK(study_quantity(outcome, level, "momentum, largest change").error < 1e-12);
         CHECK(study_quantity(outcome, level, "pseudo-energy, largest drift over K0").error < 1e-12);
@@ -37,7 +37,7 @@ TEST_CASE("discs that collide keep momentum and pseudo-energy, and turn less on 
 }
 
 TEST_CASE("curves of discs that collide go from the speeds at the start to those at the end", "[programs]") {
-    const auto outcome = run_well("disc_collision", "--size 0.25", "disc_velocities");
+    const auto outcome = run_well("study disc_collision", "--size 0.25", "disc_velocities");
     std::size_t level = 0;
     for (const char* file : {"head_on_0.25.csv", "off_centre_0.25.csv"}) {
         const auto curve = read_table(outcome, file);
@@ -52,7 +52,7 @@ TEST_CASE("curves of discs that collide go from the speeds at the start to those
 }
 
 TEST_CASE("spheres that collide come as close as Hertz says, within 10 % on a coarse mesh", "[programs]") {
-    const auto outcome = run_well("sphere_collision", "--faces 1.5 --coarse 0.8", "sphere_collision");
+    const auto outcome = run_well("study sphere_collision", "--faces 1.5 --coarse 0.8", "sphere_collision");
     CHECK(study_quantity(outcome, 0, "largest approach").error < 0.1);
     CHECK(study_quantity(outcome, 0, "duration").error < 0.1);
     CHECK(study_quantity(outcome, 0, "momentum, largest change").error < 1e-12);

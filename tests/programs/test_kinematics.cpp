@@ -11,7 +11,7 @@ namespace {
 using namespace abut::test::programs;
 
 Outcome part(const std::string& name) {
-    return run_well("kinematics", "--quick --frames 3 --only " + name, "kinematics_" + name);
+    return run_well("study kinematics", "--quick --frames 3 --only " + name, "kinematics_" + name);
 }
 
 /// A target that is known to be missed (docs/kinematics.md), and what holds instead.

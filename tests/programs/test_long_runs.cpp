@@ -8,7 +8,7 @@ using namespace abut::test::programs;
 
 TEST_CASE("long runs of bodies that turn keep H~, momentum and J~ to round-off, with and without filter and restart",
           "[programs]") {
-    const auto outcome = run_program("long_runs", "--only rattle --steps 5000", "");
+    const auto outcome = run_program("study long_runs", "--only rattle --steps 5000", "");
     REQUIRE(outcome.exit_code == 0);
     CHECK(outcome.error.empty());
     std::istringstream lines(outcome.out);
@@ -30,7 +30,7 @@ TEST_CASE("long runs of bodies that turn keep H~, momentum and J~ to round-off, 
 }
 
 TEST_CASE("the bar with filter and restart goes on where it explodes without", "[programs]") {
-    const auto outcome = run_program("long_runs", "--only bar --steps 120000", "");
+    const auto outcome = run_program("study long_runs", "--only bar --steps 120000", "");
     REQUIRE(outcome.exit_code == 0);
     std::istringstream lines(outcome.out);
     std::string line;

@@ -40,16 +40,16 @@ TEST_CASE("a second run into the folder of one that is under way is refused and 
 TEST_CASE("every program that leaves results is refused a folder that another run has", "[programs][folder]") {
     const auto [program, arguments] =
         GENERATE(table<std::string, std::string>({{"slipping_cylinders", "--steps 1"},
-                                                  {"bouncing_strip", "--steps 1"},
+                                                  {"study bouncing_strip", "--steps 1"},
                                                   {"detect", "torus"},
-                                                  {"fpu", "--time 1"},
-                                                  {"slow_fast_wave", "--cells 100 --refinements 0"},
-                                                  {"bouncing_bar", "--cells 10"},
-                                                  {"trade", "--only bar --levels 1"},
-                                                  {"extremes", "--only rest --quick"},
-                                                  {"two_bars", ""},
-                                                  {"spectrum", ""},
-                                                  {"bulk_patch", ""}}));
+                                                  {"study fpu", "--time 1"},
+                                                  {"study slow_fast_wave", "--cells 100 --refinements 0"},
+                                                  {"study bouncing_bar", "--cells 10"},
+                                                  {"study trade", "--only bar --levels 1"},
+                                                  {"study extremes", "--only rest --quick"},
+                                                  {"study two_bars", ""},
+                                                  {"study spectrum", ""},
+                                                  {"study bulk_patch", ""}}));
     CAPTURE(program);
     const Folder folder("taken");
     const run::FolderLock lock(folder.path(), "the test");

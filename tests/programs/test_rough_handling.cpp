@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using namespace abut::test::programs;
 using Catch::Contains;
 
-std::string program(const std::string& name) { return fmt::format("'{}/{}'", ABUT_PROGRAM_FOLDER, name); }
+std::string program(const std::string& name) { return fmt::format("'{}'/{}", ABUT_PROGRAM_FOLDER, name); }
 
 /// The exit code of a line that bash runs.
 int shell(const std::string& line, const fs::path& folder) {
@@ -82,8 +82,8 @@ TEST_CASE("a user's own file in the folder of --out stays, and the run is refuse
                                                                {"slipping_cylinders", short_run, "failed.csv"},
                                                                {"slipping_cylinders", short_run, "cylinders_000003.vtu"},
                                                                {"detect", "torus:n=500", "overlaps.csv"},
-                                                               {"bouncing_bar", "--cells 10", "bouncing_bar.png"},
-                                                               {"trade", "--only bar --levels 1", "trade.csv"}}));
+                                                               {"study bouncing_bar", "--cells 10", "bouncing_bar.png"},
+                                                               {"study trade", "--only bar --levels 1", "trade.csv"}}));
     CAPTURE(name, file);
     const Folder folder("own_files");
     write(folder.path() / file, "mine");
@@ -108,7 +108,7 @@ TEST_CASE("a run in the folder of an earlier one replaces its results and nothin
 TEST_CASE("a folder whose name is no UTF-8 gets all results of a run", "[programs][folder]") {
     const Folder folder("bytes");
     const auto [name, arguments] = GENERATE(table<std::string, std::string>(
-        {{"slipping_cylinders", short_run}, {"detect", "torus:n=500"}, {"bouncing_bar", "--cells 10"}}));
+        {{"slipping_cylinders", short_run}, {"detect", "torus:n=500"}, {"study bouncing_bar", "--cells 10"}}));
     CAPTURE(name);
     const fs::path out = folder.path() / "K\xF6rper";
     CHECK(shell(fmt::format("{} {} --out '{}' >/dev/null 2>/dev/null", program(name), arguments, out.string()),

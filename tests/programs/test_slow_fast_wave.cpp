@@ -12,7 +12,7 @@ using namespace abut::test::programs;
 
 /// Without a picture: it takes longer than the run.
 Outcome wave(const std::string& arguments, const std::string& folder) {
-    return run_well("slow_fast_wave", arguments, folder, "PATH=/nowhere");
+    return run_well("study slow_fast_wave", arguments, folder, "PATH=/nowhere");
 }
 
 }  // namespace

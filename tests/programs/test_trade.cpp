@@ -20,7 +20,7 @@ using Rows = std::vector<nlohmann::json>;
 /// The bar of 50 cells over the ladder, once for all cases.
 const Outcome& climb_of_bar() {
     static const Outcome outcome = run_well(
-        "trade", "--only bar --levels 1 --settings products --also \"--cfl 0.5\" --also \"--skin 1e9\"", "trade_bar");
+        "study trade", "--only bar --levels 1 --settings products --also \"--cfl 0.5\" --also \"--skin 1e9\"", "trade_bar");
     return outcome;
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("every choice of the ladder is in the table, and one that a program wo
     CHECK(row_of(rows, "--cfl 0.5").contains("errors"));
     for (const char* file : {"trade.csv", "pareto.gp"}) CHECK(std::filesystem::exists(climb_of_bar().directory / file));
     const auto refused = rows_of(
-        run_well("trade", "--only bar --levels 1 --also \"--filter neutral --integrator leapfrog\"", "trade_refused"));
+        run_well("study trade", "--only bar --levels 1 --also \"--filter neutral --integrator leapfrog\"", "trade_refused"));
     const std::string message = row_of(refused, "--filter neutral --integrator leapfrog")["message"];
     CHECK(message.find("--filter neutral) is for memm") != std::string::npos);
 }
@@ -122,7 +122,7 @@ TEST_CASE("on a front are the runs that no other one beats in time and error", "
 
 TEST_CASE("a setting that no program would take is refused before anything is run, with its words", "[programs][trade]") {
     for (const char* words : {"--no-such-option", "--cfl 2", "--help"}) {
-        const auto outcome = run_program("trade", std::string("--only bar --also \"") + words + "\"", "trade_bad");
+        const auto outcome = run_program("study trade", std::string("--only bar --also \"") + words + "\"", "trade_bad");
         INFO(outcome.error);
         CHECK(outcome.exit_code == 1);
         CHECK(outcome.error.find(std::string("'") + words + "'") != std::string::npos);
@@ -131,7 +131,7 @@ TEST_CASE("a setting that no program would take is refused before anything is ru
 }
 
 TEST_CASE("a run that takes longer than its limit is stopped and says so", "[programs][trade]") {
-    const Rows rows = rows_of(run_well("trade", "--only bar --levels 1 --limit 1e-9", "trade_limit"));
+    const Rows rows = rows_of(run_well("study trade", "--only bar --levels 1 --limit 1e-9", "trade_limit"));
     for (const auto& row : rows) {
         INFO(row["setting"]);
         if (has(row["setting"], "--kinematics")) continue;  // refused before its first step

@@ -9,7 +9,7 @@ namespace {
 using namespace abut::test::programs;
 
 Outcome part(const std::string& name) {
-    return run_well("turning", "--quick --frames 3 --steps 5000 --only " + name, "turning_" + name);
+    return run_well("study turning", "--quick --frames 3 --steps 5000 --only " + name, "turning_" + name);
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ TEST_CASE("corners and edges rebound, and the advised step holds", "[programs][t
 TEST_CASE("filter and restart leave pseudo-energy, momentum and angular momentum of bodies that turn",
           "[programs][turning]") {
     const auto outcome =
-        run_well("turning", "--quick --frames 0 --only turning --filter --restart 50", "turning_with_remedies");
+        run_well("study turning", "--quick --frames 0 --only turning --filter --restart 50", "turning_with_remedies");
     CHECK(check_targets(outcome) >= 29);
     int asked = 0;
     const auto summary = read_summary(outcome);
