@@ -76,7 +76,7 @@ struct StepReport {
 /// zero.
 template <int Dim>
 struct ContactStep {
-    std::vector<Face> faces;                     ///< the listed faces, increasing (n)
+    std::vector<Face> faces;                            ///< the listed faces, increasing (n)
     IdVector<ListedFace, Vector<Dim>> mean_correction;  ///< mean over the step of delta_f (n) [m]
     /// Mean over the step of what the pairs add to dV/dû_f (n) [N]; on a rigid face: minus the force on the obstacle.
     IdVector<ListedFace, Vector<Dim>> mean_gradient;

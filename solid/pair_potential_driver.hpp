@@ -55,9 +55,7 @@ public:
     [[nodiscard]] const contact::NodalContact<Dim>* by_nodes() const override { return &contact_; }
     [[nodiscard]] contact::ContactReport report() const override { return contact_.report(); }
     [[nodiscard]] double skin() const override { return contact_.skin(); }
-    [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override {
-        return corners_.mesh_boundary(face);
-    }
+    [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override { return corners_.mesh_boundary(face); }
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const override;
     [[nodiscard]] std::optional<contact::EdgePair<Dim>> unseen_edges() const override;
 

@@ -114,8 +114,7 @@ contact::FaceCoupling<Dim> ReconstructionDriver<Dim>::list_faces(std::span<const
     boundary_of_listed_.clear();
     listed_here_.clear();
     n_listed_deformable_ = static_cast<std::size_t>(
-        std::ranges::partition_point(faces, [&](contact::Face face) { return !is_of_obstacle(face); }) -
-        faces.begin());
+        std::ranges::partition_point(faces, [&](contact::Face face) { return !is_of_obstacle(face); }) - faces.begin());
     for (std::size_t i = 0; i < n_listed_deformable_; ++i)
         if (const BoundaryFace b = mesh_boundary(faces[i]); b != no_face) {
             boundary_of_listed_.push_back(b);

@@ -117,7 +117,7 @@ private:
     std::optional<RankSharing> sharing_;             // likewise
     std::optional<contact::Contact<Dim>> contact_;
     ListWatch<Dim> watch_;
-    bool has_stepped_ = false;  // the start of the path is known: it is where the last step ended
+    bool has_stepped_ = false;                      // the start of the path is known: it is where the last step ended
     Region<Dim> region_;                            // of the deformable listed faces, of those that are evaluated here
     std::size_t n_listed_deformable_ = 0;           // they come first in the list
     std::vector<BoundaryFace> boundary_of_listed_;  // of those that are here: all on one rank

@@ -162,7 +162,7 @@ TEST_CASE("what is saved on many ranks goes on on one, two and all with the same
             again.alone.restore(state);
             again.shared.restore(state);
             for (int i = 15; i < 30; ++i)
-                same = again.step(1.0, x(i), x(i + 1)) &&
+                same = again.step(x(i), x(i + 1)) &&
                        same_bits<3>(again.part.own(later[static_cast<std::size_t>(i - 15)]),
                                     forces<3>(again.shared.last(), again.part.rest.size())) &&
                        same;

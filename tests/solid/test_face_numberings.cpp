@@ -26,13 +26,14 @@ constexpr bool can_index = requires(IdVector<Id, double> values, Index i) {
 }  // namespace
 
 TEST_CASE("no number of a face can be taken for one of another numbering", "[solid]") {
-    using contact::ListedFace, contact::Face, solid::BoundaryFace;
+    using contact::Face, contact::Facet, contact::ListedFace, solid::BoundaryFace;
     STATIC_REQUIRE_FALSE(mix<MeshFace, BoundaryFace>);
     STATIC_REQUIRE_FALSE(mix<MeshFace, Face>);
     STATIC_REQUIRE_FALSE(mix<MeshFace, ListedFace>);
     STATIC_REQUIRE_FALSE(mix<BoundaryFace, Face>);
     STATIC_REQUIRE_FALSE(mix<BoundaryFace, ListedFace>);
     STATIC_REQUIRE_FALSE(mix<Face, ListedFace>);
+    STATIC_REQUIRE_FALSE(mix<Face, Facet>);
     STATIC_REQUIRE(can_index<BoundaryFace, BoundaryFace>);
     STATIC_REQUIRE_FALSE(can_index<BoundaryFace, Face>);
     STATIC_REQUIRE_FALSE(can_index<ListedFace, Face>);
