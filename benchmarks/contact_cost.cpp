@@ -1,5 +1,5 @@
 // What contact adds to a step: two cylinders collide off-centre, slip and rebound. It is the very scene of
-// slipping_cylinders --dim 3, 50,000 tetrahedra together.
+// scenes/slipping_cylinders_3d.toml, 50,000 tetrahedra together.
 //
 // The same scene steps with and without contact (`options.contact` empty: the bodies pass through each other), once more
 // with the bodies far apart (the price of looking), and once more without contact (what the machine makes of two equal
@@ -16,7 +16,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/solid/body_motion.hpp"
-#include "apps/two_cylinders.hpp"
+#include "studies/scenes/two_cylinders.hpp"
 #include "support/measure.hpp"
 
 namespace {
@@ -24,7 +24,7 @@ namespace {
 using namespace abut;
 
 struct Choices {
-    apps::CylinderOptions cylinders{.dim = 3};
+    studies::TwoCylinders cylinders{.size = 1.0 / 12.0};
     double time = 0.0;
     double skin = 0.0;
     int threads = 1;
@@ -39,9 +39,9 @@ struct Variant {
     double gap_more = 0.0;  // [m]
 };
 
-run::Scene<3> make_scene(apps::CylinderOptions cylinders, double gap_more) {
+run::Scene<3> make_scene(studies::TwoCylinders cylinders, double gap_more) {
     cylinders.gap += gap_more;
-    return apps::two_cylinders<3>(cylinders);
+    return studies::two_cylinders<3>(cylinders);
 }
 
 /// A scene with all that it needs to step.
@@ -150,7 +150,7 @@ void check(Scene& scene, const dynamics::LedgerEntry<3>& first) {
 
 /// The answer first, of the same impact with cells three times as large: at a hundredth of the cost.
 void check_coarse(Choices choices) {
-    for (double& size : choices.cylinders.size) size *= 3.0;
+    choices.cylinders.size *= 3.0;
     Scene coarse({.name = "coarse"}, choices);
     const auto first = coarse.measure();
     coarse.run(static_cast<int>(std::ceil(choices.time / coarse.dt())));
@@ -162,15 +162,12 @@ int run_benchmark(int argc, char** argv) {
     CLI::App app{"What contact adds to a step of two colliding cylinders."};
     app.option_defaults()->always_capture_default();
     auto& cylinders = choices.cylinders;
-    apps::fill_defaults(cylinders, apps::slipping_offset);
-    double size = cylinders.size[0], speed = cylinders.speed[0];
-    app.add_option("--size", size, "edge length of the cells of two cylinders of radius and length 1 [m]")
+    app.add_option("--size", cylinders.size, "edge length of the cells of two cylinders of radius and length 1 [m]")
         ->check(CLI::PositiveNumber);
-    app.add_option("--speed", speed, "of each body [m/s]")->check(CLI::PositiveNumber);
+    app.add_option("--speed", cylinders.speed, "of each body [m/s]")->check(CLI::PositiveNumber);
     app.add_option("--offset", cylinders.offset, "between the two lines of motion [m]")->check(CLI::Range(0.0, 1.9));
     app.add_option("--gap", cylinders.gap, "at the start [m]")->check(CLI::PositiveNumber);
-    app.add_option("--time", choices.time, "to run [s]; 0: as long as slipping_cylinders does")
-        ->check(CLI::NonNegativeNumber);
+    app.add_option("--time", choices.time, "to run [s]; 0: as long as the scene does")->check(CLI::NonNegativeNumber);
     app.add_option("--skin", choices.skin,
                    "how far faces move before the candidate list is rebuilt; 0: the library's choice [m]");
     app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
@@ -181,8 +178,6 @@ int run_benchmark(int argc, char** argv) {
 
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));
-    cylinders.size = {size, size};
-    cylinders.speed = {speed, speed};
     Scene contact({.name = "contact"}, choices);
     if (choices.time == 0.0) choices.time = contact.time();
     check_coarse(choices);

@@ -15,7 +15,7 @@
 #include "abut/dynamics/memm.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/local_steps.hpp"
-#include "apps/two_cylinders.hpp"
+#include "studies/scenes/two_cylinders.hpp"
 #include "support/measure.hpp"
 
 namespace {
@@ -23,7 +23,8 @@ namespace {
 using namespace abut;
 
 struct Choices {
-    apps::CylinderOptions cylinders{.dim = 2, .refine = 10.0, .offset = 0.0};
+    int dim = 2;
+    studies::TwoCylinders cylinders{.offset = 0.0, .refine = 10.0};
     double size = 0.0;
     double time = 0.0;
     double cfl = 0.9;
@@ -104,7 +105,7 @@ void print(const nlohmann::json& r) {
 template <int Dim>
 nlohmann::json compare(const Choices& choices) {
     const auto clock = benchmark::clock_for(choices.threads);
-    const run::Scene<Dim> scene = apps::two_cylinders<Dim>(choices.cylinders);
+    const run::Scene<Dim> scene = studies::two_cylinders<Dim>(choices.cylinders);
     solid::Solid<Dim> uniform_solid(scene.mesh, with_contact(scene));
     solid::Solid<Dim> local_solid(scene.mesh, with_contact(scene));
     const auto stable = dynamics::stable_step(uniform_solid);
@@ -151,15 +152,14 @@ int run_benchmark(int argc, char** argv) {
     CLI::App app{"Local time steps against one step for all cells, of two bodies refined where they touch."};
     app.option_defaults()->always_capture_default();
     auto& cylinders = choices.cylinders;
-    app.add_option("--dim", cylinders.dim)->check(CLI::Range(2, 3));
+    app.add_option("--dim", choices.dim)->check(CLI::Range(2, 3));
     app.add_option("--size", choices.size, "edge length of the large cells [m]; 0: 0.03 in 2D, 0.15 in 3D")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--refine", cylinders.refine, "how many times smaller cells are where the bodies touch")
         ->check(CLI::Range(1.0, 1000.0));
     app.add_option("--refine-over", cylinders.refine_over, "part of the radius over which they grow from there")
         ->check(CLI::Range(0.01, 2.0));
-    app.add_option("--time", choices.time, "to run [s]; 0: as long as slipping_cylinders does")
-        ->check(CLI::NonNegativeNumber);
+    app.add_option("--time", choices.time, "to run [s]; 0: as long as the scene does")->check(CLI::NonNegativeNumber);
     app.add_option("--cfl", choices.cfl, "step over the stable step")->check(CLI::Range(0.01, 1.0));
     app.add_option("--contact-levels", choices.contact_levels, "levels that cells in contact are finer than all others")
         ->check(CLI::Range(0, 6));
@@ -170,11 +170,10 @@ int run_benchmark(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));
-    if (choices.size == 0.0) choices.size = cylinders.dim == 2 ? 0.03 : 0.15;
-    cylinders.size = {choices.size, choices.size};
-    apps::fill_defaults(cylinders, 0.0);
+    if (choices.size == 0.0) choices.size = choices.dim == 2 ? 0.03 : 0.15;
+    cylinders.size = choices.size;
     nlohmann::json result = benchmark::circumstances(argc, argv);
-    result.update(cylinders.dim == 2 ? compare<2>(choices) : compare<3>(choices));
+    result.update(choices.dim == 2 ? compare<2>(choices) : compare<3>(choices));
     benchmark::write(result, choices.json);
     return 0;
 }

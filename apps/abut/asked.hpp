@@ -1,8 +1,8 @@
 #pragma once
-#include <CLI/CLI.hpp>
-
 #include <filesystem>
 #include <string>
+
+#include "apps/support/cli.hpp"
 
 namespace abut::apps {
 

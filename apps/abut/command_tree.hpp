@@ -1,8 +1,8 @@
 #pragma once
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
+
+#include "apps/support/cli.hpp"
 
 namespace abut::apps {
 

@@ -62,7 +62,8 @@ const Program abut_program{.name = "abut",
 void add_scene_options(CLI::App& command, CommandLine& line) {
     command.add_option("scene", line.scene, "the scene, a TOML file")->required()->type_name("FILE");
     command
-        .add_option("--set", line.set, "a value in place of that of the file: bodies.left.density=2; as often as you like")
+        .add_option("--set", line.set,
+                    "a value in place of that of the file, bodies.left.density=2, as often as you like; by default none")
         ->expected(1)
         ->take_all()
         ->type_name("KEY=VALUE");
@@ -70,6 +71,7 @@ void add_scene_options(CLI::App& command, CommandLine& line) {
     add_time_options(command, line.options, "that of the scene");
     add_contact_options(command, line.options);
     add_output_options(command, line.options);
+    command.get_option("--out")->default_str("out/SCENE");
 }
 
 void add_commands(CLI::App& app, CommandLine& line) {
@@ -81,7 +83,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     line.run
         ->add_option("--sweep", line.sweep,
                      "a key and its values in turn, a folder for each run and sweep.csv for all; of several keys all "
-                     "combinations")
+                     "combinations; by default none")
         ->expected(1)
         ->take_all()
         ->type_name("KEY=A,B,...");

@@ -3,7 +3,7 @@
 
 namespace abut::apps {
 
-/// The body of the program `detect`, and of `abut detect`: reads and judges the bodies, moves them step by step, finds what
+/// The body of `abut detect`: reads and judges the bodies, moves them step by step, finds what
 /// is near, and leaves and prints what was found. Throws std::exception with place, value, limit and remedy; also where
 /// --verify finds something missed. SIGINT, SIGTERM and SIGHUP end it after its present step.
 void detect(const DetectOptions& options);

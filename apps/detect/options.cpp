@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "apps/detect/shapes.hpp"
 #include "apps/support/command_line.hpp"
@@ -120,11 +121,12 @@ nlohmann::ordered_json number_or_null(double value) {
 }  // namespace
 
 const Program detect_program{
-    .name = "detect",
+    .name = "abut detect",
     .purpose = "Contact detection on complex meshes: says what it found.",
-    .footer = shapes_help() +
-              "Example, interlocked tori 0.1 apart: detect torus:n=4000 torus:n=4000,x=1,axis=1,tube=0.6 --distance 0.12\n"
-              "Ctrl-C ends a run after its present step; its files are complete until there."};
+    .footer =
+        shapes_help() +
+        "Example, interlocked tori 0.1 apart: abut detect torus:n=4000 torus:n=4000,x=1,axis=1,tube=0.6 --distance 0.12\n"
+        "Ctrl-C ends a run after its present step; its files are complete until there."};
 
 DetectOptions::DetectOptions()
     : distance(not_given), depth(not_given), skin(not_given), max_memory(not_given), max_pairs(not_given) {}

@@ -1,20 +1,19 @@
 #pragma once
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "abut/contact/options.hpp"
 #include "abut/mesh/surface_mesh.hpp"
+#include "apps/support/cli.hpp"
 #include "apps/support/program.hpp"
 
 namespace abut::apps {
 
 extern const Program detect_program;
 
-/// What the command line of `detect` asks for. NaN: not given.
+/// What the command line of `abut detect` asks for. NaN: not given.
 struct DetectOptions {
     DetectOptions();
 

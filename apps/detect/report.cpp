@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "abut/base/index.hpp"
 #include "apps/support/choices.hpp"

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "abut/base/text.hpp"
 #include "abut/run/files.hpp"

@@ -39,9 +39,8 @@ void apply_words(const std::string& words, run::RunOptions& options) {
     try {
         app.parse(words, false);
     } catch (const CLI::ParseError& error) {
-        throw BadInput(
-            fmt::format("'{}': {} Take options of the groups Preset, Time and Contact of slipping_cylinders --help.", words,
-                        error.what()));
+        throw BadInput(fmt::format("'{}': {} Take options of the groups Preset, Time and Contact of abut run --help.", words,
+                                   error.what()));
     }
 }
 

@@ -12,7 +12,7 @@
 namespace abut::apps {
 namespace {
 
-constexpr std::chrono::milliseconds between_lines{100};
+constexpr std::chrono::milliseconds between_updates{100};
 
 /// The first step after `step` that ends a tenth of all.
 std::int64_t next_tenth(std::int64_t step, std::int64_t n_steps) {
@@ -39,7 +39,7 @@ Progress::~Progress() {
 void Progress::show(std::int64_t step, double time, double drift) {
     const auto now = Clock::now();
     time_left_.add(step, std::chrono::duration<double>(now - start_).count());
-    const bool due = terminal_ ? step == n_steps_ || now - last_ >= between_lines : step >= next_step_;
+    const bool due = terminal_ ? step == n_steps_ || now - last_ >= between_updates : step >= next_step_;
     if (!due) return;
     const std::string line =
         fmt::format("step {:>{}}/{}  t = {:.4g} s  energy drift {:.1e}  {} left", step, std::to_string(n_steps_).size(),

@@ -1,4 +1,4 @@
-"""compare_runs.py <slipping_cylinders>: a run by that program and the same one by abut.solid, in turn; the least of five counts.
+"""compare_runs.py <abut>: a run of scenes/slipping_cylinders.toml by that program and the same one by abut.solid, in turn; the least of five counts.
 
 Meshes and output are left out of both. The velocities at the end must have the same bits.
 
@@ -13,13 +13,15 @@ import tempfile
 
 from abut import solid
 
+SCENE = pathlib.Path(__file__).parents[2] / "scenes" / "slipping_cylinders.toml"
+
 x, y = 0.5 * math.sqrt(2.02**2 - 0.8**2), 0.4
 mesh = solid.combine([solid.disc(centre=(-x, -y), size=0.03, name="left"),
                       solid.disc(centre=(x, y), size=0.03, variant=1, name="right")])
 seconds = {"program": [], "Python": []}
 with tempfile.TemporaryDirectory() as out:
     for _ in range(5):
-        subprocess.run([sys.argv[1], "--dim", "2", "--size", "0.03", "--gap", "0.02", "--steps", "1000", "--interval", "10",
+        subprocess.run([sys.argv[1], "run", SCENE, "--set", "values.size=0.03", "--steps", "1000", "--interval", "10",
                         "--frames", "0", "--out", out], check=True, capture_output=True)
         summary = json.loads(pathlib.Path(out, "summary.json").read_text(encoding="utf-8"))
         of_program = summary["seconds"]

@@ -22,9 +22,10 @@ namespace {
 constexpr int gmsh_triangle = 2, mesher_3d = 1, surface_tag = 1, volume_tag = 1;
 
 void refuse(const SurfaceMesh& surface, const std::string& what) {
-    throw MeshError(surface.name + ": " + what +
-                    " A body is filled where one closed surface of triangles is around it. Mend the file; detect says what "
-                    "else is wrong with it.");
+    throw MeshError(
+        surface.name + ": " + what +
+        " A body is filled where one closed surface of triangles is around it. Mend the file; abut detect says what "
+        "else is wrong with it.");
 }
 
 void check_closed(const SurfaceMesh& surface) {
@@ -113,7 +114,7 @@ Mesh<3> fill(const SurfaceMesh& surface, const FillOptions& options, const MeshO
     {
         const GmshSession session;
         session.run(surface.name, "filling failed",
-                    "Mend the surface; detect --self-intersections finds where it cuts itself.", [&] {
+                    "Mend the surface; abut detect --self-intersections finds where it cuts itself.", [&] {
                         add_surface(surface, frame);
                         mesh_inside(options, frame);
                         soup = soup_of_gmsh_model<3>(options.name);

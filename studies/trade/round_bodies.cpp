@@ -7,7 +7,7 @@
 
 #include "abut/base/error.hpp"
 #include "apps/support/preset.hpp"
-#include "apps/two_cylinders.hpp"
+#include "studies/scenes/two_cylinders.hpp"
 #include "studies/trade/runs.hpp"
 
 namespace abut::studies::trade {
@@ -15,23 +15,22 @@ namespace {
 
 /// Two round bodies that fly towards each other, and may spin.
 struct Impact {
-    apps::CylinderOptions bodies;
+    TwoCylinders bodies;
     std::array<double, 2> spin{};  ///< of the discs [rad/s]
     nodal::Strain strain = nodal::Strain::small;
 };
 
 Impact sized(Impact impact, int cells) {
-    impact.bodies.size = {impact.bodies.radius[0] / cells, impact.bodies.radius[1] / cells};
-    apps::fill_defaults(impact.bodies, apps::slipping_offset);
+    impact.bodies.size = 1.0 / cells;
     return impact;
 }
 
-Impact slip(int dim, int cells) { return sized({.bodies = {.dim = dim}}, cells); }
+Impact slip(int cells) { return sized({}, cells); }
 
 /// Slow beside the waves, so that linear strains in frames of the bodies and finite strains are nearly the same solid.
 Impact turn(int cells) {
     Impact impact{.spin = {0.1, 0.03}, .strain = nodal::Strain::finite};
-    impact.bodies.speed = {0.02, 0.02};
+    impact.bodies.speed = 0.02;
     impact.bodies.gap = 0.37;
     return sized(impact, cells);
 }
@@ -52,7 +51,7 @@ std::array<Vector<Dim>, 2> centres(const run::Scene<Dim>& scene) {
 
 template <int Dim>
 run::Scene<Dim> scene_of(const Impact& impact) {
-    run::Scene<Dim> scene = apps::two_cylinders<Dim>(impact.bodies);
+    run::Scene<Dim> scene = two_cylinders<Dim>(impact.bodies);
     if constexpr (Dim == 2)
         scene.added_velocity = [spin = impact.spin, centre = centres<2>(scene)](const Vector<2>& x) -> Vector<2> {
             const std::size_t body = x.x() < 0.0 ? 0 : 1;
@@ -81,7 +80,7 @@ void add_errors(const run::Scene<Dim>& scene, const run::RunResult<Dim>& result,
 template <int Dim>
 Outcome solve(const Impact& impact, const run::RunOptions& run, const Reference& reference, double limit) {
     const run::Scene<Dim> scene = scene_of<Dim>(impact);
-    const double speed = impact.bodies.speed[0];
+    const double speed = impact.bodies.speed;
     const TimedRun<Dim> timed = run_for<Dim>(scene, run, limit);
     Outcome outcome = outcome_of<Dim>(scene, timed, speed);
     add_errors<Dim>(scene, timed.result, reference, speed, outcome.errors);
@@ -94,7 +93,7 @@ NodalOutcome<Dim> run_on_nodes(const Impact& impact, const run::Scene<Dim>& scen
     if constexpr (Dim == 2)
         for (std::size_t body = 0; body < 2; ++body) spin[body] = AxialVector<2>(impact.spin[body]);
     const auto centre = centres<Dim>(scene);
-    return solve_on_nodes<Dim>(scene, spin, {centre.begin(), centre.end()}, run, impact.bodies.speed[0], limit);
+    return solve_on_nodes<Dim>(scene, spin, {centre.begin(), centre.end()}, run, impact.bodies.speed, limit);
 }
 
 template <int Dim>
@@ -106,7 +105,7 @@ Outcome solve_on_nodes(const Impact& impact, const NodalRun& run, const Referenc
         motion.start.push_back({.mass = 0.0, .velocity = scene.velocity[body], .rotation = 0.0});
         motion.end.push_back({.mass = 0.0, .velocity = velocity[body], .rotation = 0.0});
     }
-    add_errors<Dim>(scene, motion, reference, impact.bodies.speed[0], outcome.errors);
+    add_errors<Dim>(scene, motion, reference, impact.bodies.speed, outcome.errors);
     return outcome;
 }
 
@@ -131,17 +130,18 @@ double reference_restitution(const Impact& impact) {
 template <int Dim>
 Problem slip_problem(std::vector<int> cells, int reference) {
     return {.name = fmt::format("slip{}d", Dim),
-            .text = fmt::format("slipping_cylinders --dim {0}, cells in the radius; restitution against {1} cells, velocity "
-                                "against small strain on nodes with {1}",
-                                Dim, reference),
+            .text = fmt::format(
+                "scenes/slipping_cylinders in {0}D, cells in the radius; restitution against {1} cells, velocity "
+                "against small strain on nodes with {1}",
+                Dim, reference),
             .levels = std::move(cells),
             .reference = [reference]() -> Reference {
-                return {reference_restitution<Dim>(slip(Dim, reference)), reference_velocity<Dim>(slip(Dim, reference))};
+                return {reference_restitution<Dim>(slip(reference)), reference_velocity<Dim>(slip(reference))};
             },
             .solve = [](const run::RunOptions& run, int level, const Reference& against,
-                        double limit) { return solve<Dim>(slip(Dim, level), run, against, limit); },
+                        double limit) { return solve<Dim>(slip(level), run, against, limit); },
             .solve_on_nodes = [](const NodalRun& run, int level, const Reference& against,
-                                 double limit) { return solve_on_nodes<Dim>(slip(Dim, level), run, against, limit); }};
+                                 double limit) { return solve_on_nodes<Dim>(slip(level), run, against, limit); }};
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""check_paraview_script.py PROGRAM: runs a small scene and then the script that it leaves for ParaView, with a stand-in for
+"""check_paraview_script.py ABUT SCENE: runs a small scene and then the script that it leaves for ParaView, with a stand-in for
 ParaView that knows the functions that the script may call. What the script opens has to be there, with the arrays that it asks for."""
 import pathlib
 import re
@@ -85,8 +85,8 @@ paraview.simple = simple
 sys.modules.update({"paraview": paraview, "paraview.simple": simple})
 
 with tempfile.TemporaryDirectory() as folder:
-    subprocess.run([sys.argv[1], "--size", "0.25", "--steps", "4", "--frames", "2", "--quiet", "--out", folder], check=True)
+    subprocess.run([sys.argv[1], "run", sys.argv[2], "--set", "values.size=0.25", "--steps", "4", "--frames", "2", "--quiet", "--out", folder], check=True)
     runpy.run_path(folder + "/view_in_paraview.py")
     assert len(seen["warped"]) == seen["views"] == 2
-    assert {reader.path.name for reader in seen["readers"]} == {"cylinders.pvd", "cylinders_surface.pvd", "cylinders_pairs.pvd"}
+    assert {reader.path.name for reader in seen["readers"]} == {"bodies.pvd", "bodies_surface.pvd", "bodies_pairs.pvd"}
     assert seen["fields"] == ["von Mises [Pa]", "contact pressure [Pa]", "normal force [N]"]

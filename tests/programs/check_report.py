@@ -1,4 +1,4 @@
-"""check_report.py BROWSER PROGRAM: runs a small scene and looks at the report that it leaves in a headless browser, as wide as
+"""check_report.py BROWSER ABUT SCENE: runs a small scene and looks at the report that it leaves in a headless browser, as wide as
 a desk and as narrow as a telephone, without network. Every figure has to be there with the value of summary.json, every picture
 has to be drawn and to lie within its column, nothing may stick out, and no text may lie on another in a picture."""
 import html.parser
@@ -89,9 +89,9 @@ def at(summary, place):
 
 
 def main():
-    browser, program = sys.argv[1:]
+    browser, program, scene = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([program, "--size", "0.25", "--steps", "60", "--frames", "2", "--quiet", "--out", folder], check=True)
+        subprocess.run([program, "run", scene, "--set", "values.size=0.25", "--steps", "60", "--frames", "2", "--quiet", "--out", folder], check=True)
         summary = json.loads(pathlib.Path(folder, "summary.json").read_text())
         for width in (1280, 390):
             page = look(browser, folder, width)

@@ -82,8 +82,13 @@ std::size_t lines_in(const std::filesystem::path& path) {
 }
 
 std::vector<std::string> long_run(const std::filesystem::path& out) {
-    return {"--size",   "0.3", "--steps",   "100000000", "--interval", "7",
-            "--frames", "3",   "--threads", "1",         "--out",      out.string()};
+    return {"run",        std::string(ABUT_SCENES) + "/slipping_cylinders.toml",
+            "--set",      "values.size=0.3",
+            "--steps",    "100000000",
+            "--interval", "7",
+            "--frames",   "3",
+            "--threads",  "1",
+            "--out",      out.string()};
 }
 
 bool any_partial(const std::filesystem::path& directory) {

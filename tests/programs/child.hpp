@@ -35,7 +35,7 @@ private:
 /// 0 if the file is not there.
 [[nodiscard]] std::size_t lines_in(const std::filesystem::path& path);
 
-/// Arguments of slipping_cylinders: a small scene that would take hours.
+/// Arguments of abut: a small scene that would take hours.
 [[nodiscard]] std::vector<std::string> long_run(const std::filesystem::path& out);
 
 /// Whether a folder holds a file that is not finished, or a lock.

@@ -37,7 +37,7 @@ private:
 };
 
 inline Outcome detect(const std::string& arguments, const std::string& folder) {
-    return run_well("detect", arguments, folder);
+    return run_well("abut", "detect " + arguments, folder);
 }
 
 inline nlohmann::json last_step(const Outcome& outcome) { return read_summary(outcome)["last_step"]; }

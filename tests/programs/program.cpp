@@ -11,6 +11,7 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 namespace abut::test::programs {
 namespace {
@@ -55,6 +56,24 @@ Outcome run_well(const std::string& program, const std::string& arguments, const
     INFO(program << " " << arguments << "\n" << outcome.error);
     REQUIRE(outcome.exit_code == 0);
     return outcome;
+}
+
+std::string slip(const std::string& options) {
+    return fmt::format("run '{}/slipping_cylinders.toml' {}", ABUT_SCENES, options);
+}
+
+std::string slip_3d(const std::string& options) {
+    return fmt::format("run '{}/slipping_cylinders_3d.toml' {}", ABUT_SCENES, options);
+}
+
+std::string two_meshes(int dim, const fs::path& left, const fs::path& right, const std::string& options) {
+    const fs::path scene = left.parent_path() / "two_meshes.toml";
+    std::ofstream file(scene);
+    file << fmt::format("dim = {}\n[contact]\nlaw = \"reconstruction\"\n[materials.one]\nyoung = 1\ndensity = 1\n", dim);
+    for (const auto& [name, mesh, speed] : {std::tuple("left", left, 0.05), std::tuple("right", right, -0.05)})
+        file << fmt::format("[bodies.{}]\nmesh = '{}'\nmaterial = \"one\"\nvelocity = [{}, 0{}]\n", name, mesh.string(),
+                            speed, dim == 2 ? "" : ", 0");
+    return fmt::format("run '{}' {}", scene.string(), options);
 }
 
 std::string read_text(const fs::path& path) {

@@ -39,6 +39,15 @@ struct Outcome {
 [[nodiscard]] Outcome run_well(const std::string& program, const std::string& arguments, const std::string& folder,
                                const std::string& before = "");
 
+/// Arguments of abut that run scenes/slipping_cylinders.toml, and its scene in 3D, with more options.
+[[nodiscard]] std::string slip(const std::string& options);
+[[nodiscard]] std::string slip_3d(const std::string& options);
+
+/// Arguments of abut that run two bodies of two mesh files, which fly towards each other along x, with more options. Writes the
+/// scene beside the first file.
+[[nodiscard]] std::string two_meshes(int dim, const std::filesystem::path& left, const std::filesystem::path& right,
+                                     const std::string& options);
+
 /// Throws std::runtime_error if the file is missing.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 [[nodiscard]] nlohmann::json read_summary(const Outcome& outcome);

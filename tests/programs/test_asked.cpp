@@ -1,4 +1,4 @@
-// Commands of abut that answer with text: version, help, info, completion, manual page; and abut detect.
+// Commands of abut that answer with text: version, help, info, completion, manual page.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -197,7 +197,7 @@ TEST_CASE("abut info says what is in scenes, surfaces and meshes", "[programs][a
 }
 
 TEST_CASE("abut info says what a run has left, finished or not", "[programs][asked]") {
-    const auto run = run_well("slipping_cylinders", "--size 0.25 --steps 20 --frames 3", "info_results");
+    const auto run = run_well("abut", slip("--set values.size=0.25 --steps 20 --frames 3"), "info_results");
     const auto summary = read_summary(run);
     const std::string text = answer(fmt::format("info '{}'", run.directory.string()));
     CHECK_THAT(text, Contains("slipping_cylinders") && Contains("true") && Contains("body 'left'") &&
@@ -212,16 +212,6 @@ TEST_CASE("abut info says what a run has left, finished or not", "[programs][ask
                Contains("3 records") && Contains("the last of step 14"));
     std::ofstream(folder.path() / "summary.json") << "[1, 2";
     CHECK(run_program("abut", fmt::format("info '{}'", folder.path().string()), "").exit_code == 1);
-}
-
-TEST_CASE("abut detect finds what detect finds", "[programs][asked][detect]") {
-    const std::string arguments = "torus:n=500 torus:n=500,x=2.2 --distance 0.3";
-    const auto own = run_well("detect", arguments, "detect_alone"),
-               command = run_well("abut", "detect " + arguments, "detect_of_abut");
-    REQUIRE(files_in(own.directory) == files_in(command.directory));
-    CHECK(read_text(own.directory / "overlaps.csv") == read_text(command.directory / "overlaps.csv"));
-    CHECK(read_table(own, "overlaps.csv").rows.size() > 0);
-    CHECK(run_program("abut", "detect nowhere.stl", "nowhere").exit_code == 1);
 }
 
 TEST_CASE("bash completes commands, options, words and topics", "[programs][asked]") {

@@ -17,33 +17,18 @@ namespace fs = std::filesystem;
 using namespace abut::test::programs;
 
 /// Arguments that must be refused, and what the message must name: place, value, limit, remedy.
-struct BadInput {
+struct Refusal {
     std::string arguments;
     std::vector<std::string> words;
 };
 
-const std::vector<BadInput> bad_options = {
+const std::vector<Refusal> bad_options = {
     {"--broad-phase bvh", {"--broad-phase", "bvh", "embree", "fcl", "brute_force", "--help"}},
     {"--overlap sliding", {"--overlap", "sliding", "moving", "frozen"}},
     {"--neumann free", {"--neumann", "free", "local_equilibrium"}},
     {"--events maybe", {"--events", "maybe", "on", "off"}},
     {"--quadrature 4", {"--quadrature", "4", "from 0 to 3"}},
-    {"--dim 4", {"--dim", "4", "2, 3"}},
     {"--colour red", {"--colour", "--help"}},
-    {"--density nan", {"--density", "nan", "above 0 kg/m^3"}},
-    {"--density -1", {"--density", "-1 kg/m^3", "above 0 kg/m^3"}},
-    {"--density 1,-2", {"--density", "-2 kg/m^3", "above 0 kg/m^3"}},
-    {"--density 1,2,3", {"--density", "1,2,3", "two"}},
-    {"--density heavy", {"--density", "heavy", "above 0 kg/m^3"}},
-    {"--poisson 0.5", {"--poisson", "0.5", "below 0.5", "take 0.49"}},
-    {"--poisson -1", {"--poisson", "-1", "above -1"}},
-    {"--poisson inf", {"--poisson", "inf", "finite"}},
-    {"--young 0", {"--young", "0 Pa", "above 0 Pa"}},
-    {"--young -5,1", {"--young", "-5 Pa", "above 0 Pa"}},
-    {"--eta -1", {"--eta", "-1 Pa", "not below 0 Pa"}},
-    {"--radius 0", {"--radius", "0 m", "above 0 m"}},
-    {"--speed -0.1", {"--speed", "-0.1 m/s", "not below 0 m/s"}},
-    {"--speed 0", {"--speed", "0 m/s", "never meet"}},
     {"--time -1", {"--time", "-1 s", "above 0 s"}},
     {"--steps -1", {"--steps", "-1", "at least 0"}},
     {"--steps 10 --time 1", {"--steps", "excludes", "--time"}},
@@ -63,31 +48,22 @@ const std::vector<BadInput> bad_options = {
     {"--precision half", {"--precision", "half", "double, single"}},
     {"--precision single --integrator bilbao", {"--precision", "bilbao", "--precision double"}},
     {"--precision single --integrator memm_async", {"--precision", "memm_async", "--precision double"}},
-    {"--precision single --kinematics finite", {"kinematics \"finite\"", "single precision", "--precision double"}},
+    {"--law automatic --precision single --kinematics finite",
+     {"kinematics \"finite\"", "single precision", "--precision double"}},
     {"--device gpu", {"--device", "gpu", "host, kokkos"}},
     {"--device kokkos --integrator bilbao", {"--device", "bilbao", "--device host"}},
-    {"--device kokkos --kinematics finite", {"kinematics \"finite\"", "on a device", "--device host"}},
+    {"--law automatic --device kokkos --kinematics finite", {"kinematics \"finite\"", "on a device", "--device host"}},
     {"--gauge 0 --integrator bilbao", {"--gauge", "0 J", "above 0 J"}},
     {"--levels 3", {"--levels", "is for memm_async, and memm was chosen", "--integrator memm_async"}},
     {"--levels 99 --integrator memm_async", {"99 levels", "1 to 20"}},
-    {"--refine 0.5", {"--refine", "0.5", "1, for cells of one size, or more"}},
-    {"--size 2", {"--size", "2 m", "1 m", "tenth"}},
-    {"--offset 2.5", {"--offset", "2.5 m", "2 m", "Lower"}},
-    {"--gap -0.1",
-     {"'left'", "'right'", "overlap", "cells", "m inside each other", "0 m is allowed", "Raise --gap", "-0.1 m"}},
-    {"--dim 3 --size 0.3 --gap -0.2", {"'left'", "'right'", "overlap", "Raise --gap"}},
-    {"--gap -4.02", {"'left'", "'right'", "overlap", "Raise --gap"}},
+    {"--set values.gap=-0.1",
+     {"'left'", "'right'", "overlap", "cells", "m inside each other", "0 m is allowed", "with place"}},
     {"--time 1e300", {"--time", "1e+300 s", "steps", "1 to 1e+15 are allowed", "--dt"}},
     {"--dt 1e-300", {"--time", "steps of 1e-300 s", "1 to 1e+15 are allowed", "--dt"}},
     {"--steps 1e3", {"--steps", "1e3", "whole number"}},
-    {"--non-planar split", {"--non-planar", "--mesh"}},
-    {"--mesh left.msh", {"--mesh", "2"}},
-    {"--mesh left.msh,right.msh", {"--mesh", "--time", "above 0 s", "--steps"}},
-    {"--mesh left.msh,right.msh --radius 2", {"--mesh", "--radius"}},
-    {"--mesh nowhere.msh,right.msh --time 1", {"nowhere.msh", "no such file", "path"}},
 };
 
-const std::vector<BadInput> bad_options_of_the_strip = {
+const std::vector<Refusal> bad_options_of_the_strip = {
     {"--cells 3", {"--cells", "3", "at least 4"}},
     {"--filter weak", {"--filter", "weak", "none, neutral"}},
     {"--eta nan", {"--eta", "nan", "finite", "not below 0 Pa"}},
@@ -95,9 +71,8 @@ const std::vector<BadInput> bad_options_of_the_strip = {
     {"--csv energy.csv", {"--csv", "--help"}},
 };
 
-const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons = {
-    {"study fpu",
-     {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
+const std::vector<std::pair<std::string, Refusal>> bad_options_of_comparisons = {
+    {"study fpu", {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
     {"study fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},
     {"study fpu", {"--dt 0", {"--dt", "0 s", "above 0 s"}}},
     {"study fpu", {"--dt 1e-300", {"steps of 1e-300 s", "1 to 1e+15 are allowed"}}},
@@ -127,11 +102,10 @@ const std::vector<std::pair<std::string, BadInput>> bad_options_of_comparisons =
 
 void check_no_result(const fs::path& directory) {
     REQUIRE_FALSE(directory.empty());
-    for (const char* file : {"summary.json", "energy.csv", "energy.svg"})
-        CHECK_FALSE(fs::exists(directory / file));
+    for (const char* file : {"summary.json", "energy.csv", "energy.svg"}) CHECK_FALSE(fs::exists(directory / file));
 }
 
-void check_refused(const BadInput& bad, const Outcome& outcome) {
+void check_refused(const Refusal& bad, const Outcome& outcome) {
     INFO(bad.arguments << "\n" << outcome.error);
     CHECK(outcome.exit_code == 1);
     for (const std::string& word : bad.words) {
@@ -157,7 +131,7 @@ void write_msh(const fs::path& path, const std::vector<std::string>& nodes, cons
 
 struct BadMesh {
     std::string name;
-    std::string more;  ///< options
+    int dim;
     std::vector<std::string> nodes;
     std::vector<std::string> elements;
     std::vector<std::string> words;
@@ -166,22 +140,22 @@ struct BadMesh {
 // Element types of Gmsh: 2 triangle, 3 quadrangle, 4 tetrahedron, 5 hexahedron.
 const std::vector<BadMesh> bad_meshes = {
     {"flat_triangle",
-     "",
+     2,
      {"0 0 0", "1 0 0", "0 1 0", "0 2 0"},
      {"2 1 2 3", "2 1 3 4"},
      {"cell 2 (triangle) is flat", "its measure is 0 m^2", "more than", "is needed", "mesh the part again"}},
     {"no_edge",
-     "",
+     2,
      {"0 0 0", "1 0 0", "1 1 0", "1 1 0"},
      {"3 1 2 3 4"},
      {"face (3, 4) of cell 1 is degenerate", "its measure is 0 m^1", "more than", "is needed", "Merge"}},
     {"flat_tetrahedron",
-     "--dim 3",
+     3,
      {"0 0 0", "1 0 0", "0 1 0", "1 1 0"},
      {"4 1 2 3 4"},
      {"cell 1 (tetrahedron) is flat", "its measure is 0 m^3", "more than", "is needed", "mesh the part again"}},
     {"no_face",
-     "--dim 3",
+     3,
      {"0 0 0", "1 0 0", "0.5 1 0", "0.5 1 0", "0 0 1", "1 0 1", "0.5 1 1", "0.5 1 1"},
      {"5 1 2 3 4 5 6 7 8"},
      {"face (", "of cell 1 is degenerate", "its measure is 0 m^2", "more than", "is needed", "Merge"}},
@@ -194,17 +168,22 @@ Outcome run_into(const fs::path& directory, const std::string& program, const st
     return outcome;
 }
 
-std::string with_mesh(const fs::path& path) { return fmt::format("--time 1 --mesh '{0}','{0}'", path.string()); }
+std::string with_mesh(int dim, const fs::path& path) { return two_meshes(dim, path, path, "--time 1"); }
 
 }  // namespace
 
 TEST_CASE("bad options end with one message that names them, and leave no result", "[programs]") {
-    const BadInput bad = GENERATE(from_range(bad_options));
-    check_refused(bad, run_program("slipping_cylinders", bad.arguments, "bad_option"));
+    const Refusal bad = GENERATE(from_range(bad_options));
+    check_refused(bad, run_program("abut", slip(bad.arguments), "bad_option"));
+}
+
+TEST_CASE("bodies of a scene in 3D that overlap end in the same way", "[programs]") {
+    const Refusal bad{"--set values.size=0.3 --set values.gap=-0.2", {"'left'", "'right'", "overlap", "with place"}};
+    check_refused(bad, run_program("abut", slip_3d(bad.arguments), "bad_3d"));
 }
 
 TEST_CASE("bad options of the bouncing strip end in the same way", "[programs]") {
-    const BadInput bad = GENERATE(from_range(bad_options_of_the_strip));
+    const Refusal bad = GENERATE(from_range(bad_options_of_the_strip));
     check_refused(bad, run_program("study bouncing_strip", bad.arguments, "bad_strip_option"));
 }
 
@@ -214,33 +193,33 @@ TEST_CASE("bad options of the programs that compare integrators end in the same 
 }
 
 TEST_CASE("a run that breaks off says at which step, and leaves no result", "[programs]") {
-    const BadInput bad = GENERATE(BadInput{"--gap 10 --dt 0.05 --allow-unstable --frames 0",
-                                           {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "Worst is cell ",
-                                            "of body '", "energy.csv.partial", "cylinders_failed.pvd"}},
-                                  BadInput{"--speed 5 --frames 0",
-                                           {"step 1", "face ", "(body 0, at (", "2 is allowed", "compression_limit",
-                                            "lower the speed", "energy.csv.partial", "cylinders_failed.pvd"}});
-    const auto outcome = run_program("slipping_cylinders", bad.arguments, "broken_off");
+    const Refusal bad = GENERATE(Refusal{"--set values.gap=10 --dt 0.05 --allow-unstable --frames 0",
+                                         {"step ", "diverged", "H~", "0.05 s", "stable", "--dt", "Worst is cell ",
+                                          "of body '", "energy.csv.partial", "bodies_failed.pvd"}},
+                                 Refusal{"--set values.speed=5 --frames 0",
+                                         {"step 1", "face ", "(body 0, at (", "2 is allowed", "compression_limit",
+                                          "lower the speed", "energy.csv.partial", "bodies_failed.pvd"}});
+    const auto outcome = run_program("abut", slip(bad.arguments), "broken_off");
     check_refused(bad, outcome);
-    for (const char* name : {"energy.csv.partial", "failed.csv", "cylinders_failed.pvd", "cylinders_failed_000000.vtu"})
+    for (const char* name : {"energy.csv.partial", "failed.csv", "bodies_failed.pvd", "bodies_failed_000000.vtu"})
         CHECK(fs::exists(outcome.directory / name));
 }
 
 TEST_CASE("an output folder with a file in its place is refused before the run", "[programs]") {
-    const std::string program =
-        GENERATE("slipping_cylinders", "study bouncing_strip", "study bouncing_bar", "study fpu", "study slow_fast_wave");
+    const auto [program, arguments] = GENERATE(table<std::string, std::string>(
+        {{"abut", slip("")}, {"study bouncing_strip", ""}, {"study bouncing_bar", ""}, {"study fpu", ""}, {"study slow_fast_wave", ""}}));
     const Folder folder("in_the_way");
     const std::string file = (folder.path() / "results").string();
     std::ofstream(file) << "something\n";
-    const BadInput bad = {"", {"--out", file, "cannot be written to", "a file is in its place", "Choose another folder"}};
-    check_refused(bad, run_into(file, program, ""));
+    const Refusal bad = {"", {"--out", file, "cannot be written to", "a file is in its place", "Choose another folder"}};
+    check_refused(bad, run_into(file, program, arguments));
     CHECK(read_text(file) == "something\n");
 }
 
 TEST_CASE("an output folder that cannot exist is refused before the run", "[programs]") {
     const Folder folder("no_name");
     const std::string out = (folder.path() / std::string(300, 'x')).string();
-    Outcome outcome = run_into(out, "slipping_cylinders", "");
+    Outcome outcome = run_into(out, "abut", slip(""));
     outcome.directory = folder.path();
     check_refused({"", {"--out", "cannot be written to", "File name too long", "Choose another folder"}}, outcome);
 }
@@ -253,8 +232,8 @@ TEST_CASE("an output folder without permission to write is refused before the ru
         return;
     }
     const std::string out = folder.path().string();
-    const BadInput bad = {"", {"--out", out, "cannot be written to", "Permission denied", "Choose another folder"}};
-    check_refused(bad, run_into(out, "slipping_cylinders", ""));
+    const Refusal bad = {"", {"--out", out, "cannot be written to", "Permission denied", "Choose another folder"}};
+    check_refused(bad, run_into(out, "abut", slip("")));
     fs::permissions(folder.path(), fs::perms::owner_all);
 }
 
@@ -262,36 +241,35 @@ TEST_CASE("an output folder with a link in the place of its lock is refused befo
     const Folder folder("linked");
     fs::create_symlink("/dev/null", folder.path() / ".abut.lock");
     const std::string out = folder.path().string();
-    const BadInput bad = {"", {"--out", out, "cannot be written to", "a link", ".abut.lock", "Choose another folder"}};
-    check_refused(bad, run_into(out, "slipping_cylinders", ""));
+    const Refusal bad = {"", {"--out", out, "cannot be written to", "a link", ".abut.lock", "Choose another folder"}};
+    check_refused(bad, run_into(out, "abut", slip("")));
 }
 
 TEST_CASE("a disc that fills up during a run ends it with a message, and leaves no result", "[programs]") {
     const auto outcome =
-        run_program("slipping_cylinders", "--size 0.25 --frames 0", "fills_up", "trap '' XFSZ; ulimit -f 16;");
+        run_program("abut", slip("--set values.size=0.25 --frames 0"), "fills_up", "trap '' XFSZ; ulimit -f 16;");
     check_refused({"", {"energy.csv.partial", "cannot be written", "free space"}}, outcome);
 }
 
 TEST_CASE("a bad run leaves no results of an earlier good one, and nobody else's file is touched", "[programs]") {
-    const BadInput bad = GENERATE(BadInput{"--dt 1", {"--dt"}}, BadInput{"--gap -0.1", {"overlap"}},
-                                  BadInput{"--mesh nowhere.msh,right.msh --time 1", {"nowhere.msh"}},
-                                  BadInput{"--gap 10 --dt 0.1 --allow-unstable --frames 0", {"diverged"}});
-    const auto good = run_well("slipping_cylinders", "--size 0.25 --steps 4 --frames 2", "twice");
-    REQUIRE(fs::exists(good.directory / "cylinders_surface_000001.vtp"));
-    const std::vector<std::string> mine = {"cylinders_2.vtu", "cylinders_new_000001.vtu", "notes.txt",
-                                           "othercylinders_000001.vtu"};
+    const Refusal bad = GENERATE(Refusal{"--dt 1", {"--dt"}}, Refusal{"--set values.gap=-0.1", {"overlap"}},
+                                 Refusal{"--set values.sise=1", {"values.sise", "'size'"}},
+                                 Refusal{"--set values.gap=10 --dt 0.1 --allow-unstable --frames 0", {"diverged"}});
+    const auto good = run_well("abut", slip("--set values.size=0.25 --steps 4 --frames 2"), "twice");
+    REQUIRE(fs::exists(good.directory / "bodies_surface_000001.vtp"));
+    const std::vector<std::string> mine = {"bodies_2.vtu", "bodies_new_000001.vtu", "notes.txt", "otherbodies_000001.vtu"};
     for (const auto& name : mine) std::ofstream(good.directory / name) << "mine\n";
-    check_refused(bad, run_into(good.directory, "slipping_cylinders", bad.arguments));
+    check_refused(bad, run_into(good.directory, "abut", slip(bad.arguments)));
     auto left = files_in(good.directory);
     std::erase_if(left, [](const std::string& name) {  // of the bad run
-        return name == "energy.csv.partial" || name.starts_with("failed.") || name.starts_with("cylinders_failed");
+        return name == "energy.csv.partial" || name.starts_with("failed.") || name.starts_with("bodies_failed");
     });
     CHECK(left == mine);
 }
 
 TEST_CASE("a run of few frames leaves none of an earlier run of many", "[programs]") {
-    const auto many = run_well("slipping_cylinders", "--size 0.25 --steps 8 --frames 5", "frames_again");
-    REQUIRE(run_into(many.directory, "slipping_cylinders", "--size 0.25 --steps 8 --frames 2").exit_code == 0);
+    const auto many = run_well("abut", slip("--set values.size=0.25 --steps 8 --frames 5"), "frames_again");
+    REQUIRE(run_into(many.directory, "abut", slip("--set values.size=0.25 --steps 8 --frames 2")).exit_code == 0);
     const auto frames = [&](const std::string& ending) {
         return std::ranges::count_if(files_in(many.directory), [&](const auto& name) { return name.ends_with(ending); });
     };
@@ -306,9 +284,9 @@ TEST_CASE("mesh files that cannot be read are refused by name", "[programs]") {
     const auto [name, words] = GENERATE(table<std::string, std::vector<std::string>>(
         {{"empty.msh", {"empty", "0 bytes", "again"}}, {"truncated.msh", {"$EndNodes", "again"}}}));
     const auto path = meshes.path() / name;
-    BadInput bad{with_mesh(path), words};
+    Refusal bad{with_mesh(2, path), words};
     bad.words.push_back(path.string());
-    check_refused(bad, run_program("slipping_cylinders", bad.arguments, "bad_mesh"));
+    check_refused(bad, run_program("abut", bad.arguments, "bad_mesh"));
 }
 
 TEST_CASE("meshes with inverted or flat cells or degenerate faces are refused with cell, measure, limit and remedy",
@@ -317,6 +295,6 @@ TEST_CASE("meshes with inverted or flat cells or degenerate faces are refused wi
     const Folder meshes("bad_meshes");
     const auto path = meshes.path() / (bad.name + ".msh");
     write_msh(path, bad.nodes, bad.elements);
-    const BadInput input{bad.more + " " + with_mesh(path), bad.words};
-    check_refused(input, run_program("slipping_cylinders", input.arguments, "bad_cells"));
+    const Refusal input{with_mesh(bad.dim, path), bad.words};
+    check_refused(input, run_program("abut", input.arguments, "bad_cells"));
 }

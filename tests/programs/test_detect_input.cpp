@@ -111,16 +111,16 @@ TEST_CASE("detect: a displacement array is applied over the run in equal parts",
     CHECK(last_step(outcome)["area"].get<double>() == Approx(1.0).epsilon(1e-14));
     const auto gaps = read_table(outcome, "steps.csv").column("gap_min");
     CHECK(gaps[2] == Approx(0.4).epsilon(1e-14));
-    check_error(run_program("detect", inputs + "--displacement velocity", "no_array"),
+    check_error(run_program("abut", "detect " + inputs + "--displacement velocity", "no_array"),
                 {"'velocity'", "there is 'u'", "--displacement"});
-    check_error(run_program("detect", "torus --displacement u", "no_file"), {"--displacement u", "no input", ".vtp"});
+    check_error(run_program("abut", "detect torus --displacement u", "no_file"), {"--displacement u", "no input", ".vtp"});
 }
 
 TEST_CASE("detect: faces that cannot be used end the run, or are left out and counted", "[programs][detect]") {
     const Squares squares("unusable", 0.05);
     std::ofstream(squares.path() / "upper.obj", std::ios::app) << "f 1 1 2\nf 3 2 1\n";
     check_error(
-        run_program("detect", squares.arguments(), "unusable_fail"),
+        run_program("abut", "detect " + squares.arguments(), "unusable_fail"),
         {"upper.obj", "2 of 4 faces cannot be used", "face 2", "face 3", "repeats an earlier face", "--unusable skip"});
     const auto outcome = detect(squares.arguments() + "--unusable skip --distance 0.1 --verify", "unusable_skip");
     CHECK(last_step(outcome)["area"].get<double>() == Approx(0.75).epsilon(1e-14));
@@ -177,7 +177,7 @@ TEST_CASE("detect: bad input ends with one message that names place, value, limi
         {"torus --unusable mend", {"--unusable", "fail, skip"}}};
     for (const auto& [arguments, words] : cases) {
         INFO(arguments);
-        check_error(run_program("detect", arguments, "bad_detect"), words);
+        check_error(run_program("abut", "detect " + arguments, "bad_detect"), words);
     }
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("detect: files of an earlier run are gone, others stay, and --no-files
                                                                   "surface_000002.vtp"});
     std::ofstream(outcome.directory / "surface_mine.vtp") << "mine\n";
     const std::string out = fmt::format("--out '{}'", outcome.directory.string());
-    REQUIRE(run_program("detect", "torus " + out, "").exit_code == 0);
+    REQUIRE(run_program("abut", "detect torus " + out, "").exit_code == 0);
     CHECK(files_in(outcome.directory) == std::vector<std::string>{"candidates.csv", "overlaps.csv", "overlaps.vtp",
                                                                   "steps.csv", "summary.json", "surface.vtp",
                                                                   "surface_mine.vtp"});
@@ -201,7 +201,7 @@ TEST_CASE("detect: an output folder with a file in its place is refused before a
     const Folder folder("detect_in_the_way");
     const auto file = folder.path() / "results";
     std::ofstream(file) << "mine\n";
-    check_error(run_program("detect", fmt::format("nowhere.obj --out '{}'", file.string()), ""),
+    check_error(run_program("abut", "detect " + fmt::format("nowhere.obj --out '{}'", file.string()), ""),
                 {"--out", "cannot be written to", "a file is in its place"});
     CHECK(read_text(file) == "mine\n");
 }

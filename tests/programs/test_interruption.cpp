@@ -35,7 +35,7 @@ TEST_CASE("a run ends after its present step at SIGINT and SIGTERM, with all its
           "[programs][interruption]") {
     const int signal = GENERATE(SIGINT, SIGTERM);
     const Folder folder("interrupted");
-    Child child("slipping_cylinders", long_run(folder.path()));
+    Child child("abut", long_run(folder.path()));
     child.wait_until([&] { return lines_in(folder.path() / "energy.csv.partial") > 5; });
     child.send(signal);
     CHECK(child.wait() == 128 + signal);
@@ -48,13 +48,14 @@ TEST_CASE("a run ends after its present step at SIGINT and SIGTERM, with all its
     CHECK(read_energies(outcome).column("time").back() == summary["time"].get<double>());
     CHECK(steps.back() < 1e8);
     CHECK(steps[1] == 7.0);
-    for (const char* name : {"energy.svg", "cylinders.pvd", "cylinders_surface.pvd"}) CHECK(fs::exists(folder.path() / name));
+    for (const char* name : {"energy.svg", "bodies.pvd", "bodies_surface.pvd"}) CHECK(fs::exists(folder.path() / name));
     CHECK_FALSE(any_partial(folder.path()));
 }
 
 TEST_CASE("a run that comes to its end says that it is complete", "[programs][interruption]") {
-    CHECK(read_summary(run_well("slipping_cylinders", "--size 0.3 --steps 3 --frames 0", "complete"))["complete"] == true);
-    CHECK(read_summary(run_well("detect", "torus torus:x=2.6", "complete"))["complete"] == true);
+    CHECK(read_summary(run_well("abut", slip("--set values.size=0.3 --steps 3 --frames 0"), "complete"))["complete"] ==
+          true);
+    CHECK(read_summary(run_well("abut", "detect torus torus:x=2.6", "complete"))["complete"] == true);
 }
 
 TEST_CASE("detect: a run ends after its present step at SIGINT and SIGTERM, and that step is written as the last one",

@@ -44,20 +44,20 @@ std::vector<json> of_event(const std::vector<json>& lines, const std::string& ev
 }  // namespace
 
 TEST_CASE("with --quiet a program says nothing of a good run, and leaves the same results", "[programs][messages]") {
-    const auto quiet = run_well("slipping_cylinders", "--size 0.25 --steps 20 --frames 2 --quiet", "quiet");
+    const auto quiet = run_well("abut", slip("--set values.size=0.25 --steps 20 --frames 2 --quiet"), "quiet");
     CHECK(quiet.out.empty());
     CHECK(quiet.error.empty());
-    const auto normal = run_well("slipping_cylinders", "--size 0.25 --steps 20 --frames 2", "normal");
+    const auto normal = run_well("abut", slip("--set values.size=0.25 --steps 20 --frames 2"), "normal");
     CHECK_THAT(normal.out, Contains("step 20/20") && Contains("drift of pseudo-energy"));
     CHECK(files_in(quiet.directory) == files_in(normal.directory));
     CHECK(read_text(quiet.directory / "energy.csv") == read_text(normal.directory / "energy.csv"));
 }
 
 TEST_CASE("an error is on standard error whatever a program says otherwise", "[programs][messages]") {
-    const std::string bad = "--size 0.25 --steps 5 --dt 1";
-    const auto normal = run_program("slipping_cylinders", bad, "bad");
-    const auto quiet = run_program("slipping_cylinders", bad + " --quiet", "bad");
-    const auto machine = run_program("slipping_cylinders", bad + " --json", "bad");
+    const std::string bad = "--set values.size=0.25 --steps 5 --dt 1";
+    const auto normal = run_program("abut", slip(bad), "bad");
+    const auto quiet = run_program("abut", slip(bad + " --quiet"), "bad");
+    const auto machine = run_program("abut", slip(bad + " --json"), "bad");
     for (const auto* outcome : {&normal, &quiet, &machine}) {
         CHECK(outcome->exit_code == 1);
         CHECK_THAT(outcome->error, Contains("above the stable step"));
@@ -68,11 +68,11 @@ TEST_CASE("an error is on standard error whatever a program says otherwise", "[p
     REQUIRE(of_event(lines, "error").size() == 1);
     CHECK(lines.back()["kind"] == "bad input");
     CHECK(lines.back()["exit_code"] == 1);
-    CHECK("slipping_cylinders: error: " + lines.back()["text"].get<std::string>() + "\n" == normal.error);
+    CHECK("abut: error: " + lines.back()["text"].get<std::string>() + "\n" == normal.error);
 }
 
 TEST_CASE("with --json a program tells a run line by line, in the figures of its files", "[programs][messages]") {
-    const auto outcome = run_well("slipping_cylinders", "--size 0.25 --steps 20 --interval 5 --frames 0 --json", "lines");
+    const auto outcome = run_well("abut", slip("--set values.size=0.25 --steps 20 --interval 5 --frames 0 --json"), "lines");
     CHECK(outcome.error.empty());
     const auto lines = lines_of(outcome.out);
     const auto summary = read_summary(outcome);
@@ -100,7 +100,7 @@ TEST_CASE("with --json a program tells a run line by line, in the figures of its
 TEST_CASE("with --json a program tells of warnings, and of the code with which a signal ends a run",
           "[programs][messages]") {
     const auto warned =
-        run_well("slipping_cylinders", "--size 0.25 --steps 20 --interval 10 --restart 10 --frames 0 --json", "warned");
+        run_well("abut", slip("--set values.size=0.25 --steps 20 --interval 10 --restart 10 --frames 0 --json"), "warned");
     const auto warnings = of_event(lines_of(warned.out), "warning");
     CHECK(std::ranges::count_if(warnings, [](const json& line) {
               return line["severity"] == "warning" && line["value"] == 10.0 && line["threshold"] == 10.0;
@@ -111,7 +111,7 @@ TEST_CASE("with --json a program tells of warnings, and of the code with which a
     const auto said = folder.path() / "said.jsonl";
     std::vector<std::string> arguments = long_run(folder.path() / "results");
     arguments.push_back("--json");
-    Child child("slipping_cylinders", arguments, said);
+    Child child("abut", arguments, said);
     child.wait_until([&] { return of_event(whole_lines_of(said), "progress").size() >= 2; });
     child.send(SIGTERM);
     CHECK(child.wait() == 143);
@@ -125,7 +125,7 @@ TEST_CASE("with --json a program tells of warnings, and of the code with which a
 }
 
 TEST_CASE("a program is told to be quiet or to speak to machines, not both", "[programs][messages]") {
-    const auto outcome = run_program("slipping_cylinders", "--quiet --json", "both");
+    const auto outcome = run_program("abut", slip("--quiet --json"), "both");
     CHECK(outcome.exit_code == 1);
     CHECK_THAT(outcome.error, Contains("--quiet") && Contains("--json"));
     CHECK(files_in(outcome.directory).empty());

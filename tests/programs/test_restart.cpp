@@ -86,20 +86,18 @@ TEST_CASE("a restart takes the scene as it was, with its files where they were",
     CHECK(fs::exists(results.path() / "summary.json"));
 }
 
-TEST_CASE("programs go on with --resume, and refuse other options", "[programs][restart]") {
-    const std::string options = "--size 0.3 --steps 400 --frames 0 --interval 10 --checkpoint-steps 30";
-    const auto whole = run_well("slipping_cylinders", options, "whole");
+TEST_CASE("a run goes on with --resume, and refuses other options", "[programs][restart]") {
+    const std::string options = "--set values.size=0.3 --steps 400 --frames 0 --interval 10 --checkpoint-steps 30";
     const Folder folder("resumed");
     {
         std::vector<std::string> arguments = long_run(folder.path());
         arguments.insert(arguments.end(), {"--checkpoint-steps", "30"});
-        Child child("slipping_cylinders", arguments);
+        Child child("abut", arguments);
         child.wait_until([&] { return has_checkpoint(folder.path()); });
         child.send(SIGKILL);
         CHECK(child.wait() == -SIGKILL);
     }
-    const auto other =
-        run_program("slipping_cylinders", fmt::format("{} --resume --out '{}'", options, folder.path().string()), "");
+    const auto other = run_program("abut", slip(fmt::format("{} --resume --out '{}'", options, folder.path().string())), "");
     CHECK(other.exit_code == 1);
     CHECK(other.error.find("the checkpoint is of a run with steps = 100000000, and this one has 400") != std::string::npos);
     CHECK(has_checkpoint(folder.path()));
@@ -107,7 +105,7 @@ TEST_CASE("programs go on with --resume, and refuse other options", "[programs][
 
 TEST_CASE("a checkpoint that cannot be written ends the run with a message, and those before it stay",
           "[programs][restart]") {
-    const auto outcome = run_program("slipping_cylinders", "--size 0.1 --frames 0 --interval 1000 --checkpoint-steps 5",
+    const auto outcome = run_program("abut", slip("--set values.size=0.1 --frames 0 --interval 1000 --checkpoint-steps 5"),
                                      "checkpoint_fills_up", "trap '' XFSZ; ulimit -f 16;");
     CHECK(outcome.exit_code == 1);
     for (const char* word : {"step_000000000005.h5.partial", "cannot be written", "free space"})

@@ -21,11 +21,12 @@ using Catch::Contains;
 TEST_CASE("a second run into the folder of one that is under way is refused and changes nothing there, until that is killed",
           "[programs][folder]") {
     const Folder folder("two_runs");
-    Child first("slipping_cylinders", long_run(folder.path()));
+    Child first("abut", long_run(folder.path()));
     first.wait_until([&] { return lines_in(folder.path() / "energy.csv.partial") > 5; });
     const auto before = files_in(folder.path());
-    const std::string again = fmt::format("--size 0.3 --steps 3 --frames 0 --cfl 0.2 --out '{}'", folder.path().string());
-    const Outcome refused = run_program("slipping_cylinders", again, "");
+    const std::string again =
+        fmt::format("--set values.size=0.3 --steps 3 --frames 0 --cfl 0.2 --out '{}'", folder.path().string());
+    const Outcome refused = run_program("abut", slip(again), "");
     CHECK(refused.exit_code == 1);
     CHECK_THAT(refused.error,
                Contains(fmt::format("slipping_cylinders, process {}, since", first.id())) && Contains("--out"));
@@ -33,15 +34,15 @@ TEST_CASE("a second run into the folder of one that is under way is refused and 
 
     first.send(SIGKILL);
     CHECK(first.wait() == -SIGKILL);
-    CHECK(run_program("slipping_cylinders", again, "").exit_code == 0);
+    CHECK(run_program("abut", slip(again), "").exit_code == 0);
     CHECK_FALSE(any_partial(folder.path()));
 }
 
 TEST_CASE("every program that leaves results is refused a folder that another run has", "[programs][folder]") {
     const auto [program, arguments] =
-        GENERATE(table<std::string, std::string>({{"slipping_cylinders", "--steps 1"},
+        GENERATE(table<std::string, std::string>({{"abut", slip("--steps 1")},
                                                   {"study bouncing_strip", "--steps 1"},
-                                                  {"detect", "torus"},
+                                                  {"abut", "detect torus"},
                                                   {"study fpu", "--time 1"},
                                                   {"study slow_fast_wave", "--cells 100 --refinements 0"},
                                                   {"study bouncing_bar", "--cells 10"},

@@ -32,17 +32,16 @@ int shell(const std::string& line, const fs::path& folder) {
 
 void write(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
-const std::string short_run = "--size 0.3 --steps 20 --frames 0 --interval 1 --threads 1";
+const std::string short_run = slip("--set values.size=0.3 --steps 20 --frames 0 --interval 1 --threads 1");
 
 }  // namespace
 
 TEST_CASE("with its standard streams closed a run leaves the files that it leaves with open ones", "[programs][streams]") {
-    const auto open = run_well("slipping_cylinders", short_run, "streams_open");
+    const auto open = run_well("abut", short_run, "streams_open");
     const Folder folder("streams_closed");
     const fs::path out = folder.path() / "out";
     const std::string closed = GENERATE(std::string("<&- >&- 2>&-"), std::string("<&- >&-"), std::string("<&- >/dev/null"));
-    CHECK(shell(fmt::format("{} {} --out '{}' {}", program("slipping_cylinders"), short_run, out.string(), closed),
-                folder.path()) == 0);
+    CHECK(shell(fmt::format("{} {} --out '{}' {}", program("abut"), short_run, out.string(), closed), folder.path()) == 0);
     CHECK(read_text(out / "energy.csv") == read_text(open.directory / "energy.csv"));
     const Outcome outcome{.exit_code = 0, .out = "", .error = "", .directory = out, .folder = nullptr};
     CHECK(read_summary(outcome)["complete"] == true);
@@ -53,9 +52,9 @@ TEST_CASE("a run whose output nobody reads goes on to its end, and says so", "[p
     const Folder folder("streams_pipe");
     const fs::path out = folder.path() / "out", error = folder.path() / "error";
     const std::string how = GENERATE(std::string(""), std::string("--json"));
-    const std::string line = fmt::format(
-        "set -o pipefail; {} --size 0.3 --steps 2000 --frames 0 --interval 1 --threads 1 {} --out '{}' 2>'{}' | true",
-        program("slipping_cylinders"), how, out.string(), error.string());
+    const std::string line =
+        fmt::format("set -o pipefail; {} {} --steps 2000 {} --out '{}' 2>'{}' | true", program("abut"),
+                    slip("--set values.size=0.3 --frames 0 --interval 1 --threads 1"), how, out.string(), error.string());
     CHECK(shell(line, folder.path()) == 0);
     const Outcome outcome{.exit_code = 0, .out = "", .error = "", .directory = out, .folder = nullptr};
     CHECK(read_summary(outcome)["complete"] == true);
@@ -66,7 +65,7 @@ TEST_CASE("a run whose output nobody reads goes on to its end, and says so", "[p
 
 TEST_CASE("SIGHUP ends a run as SIGTERM does, with all its files", "[programs][interruption]") {
     const Folder folder("hung_up");
-    Child child("slipping_cylinders", long_run(folder.path()));
+    Child child("abut", long_run(folder.path()));
     child.wait_until([&] { return lines_in(folder.path() / "energy.csv.partial") > 5; });
     child.send(SIGHUP);
     CHECK(child.wait() == 128 + SIGHUP);
@@ -77,11 +76,11 @@ TEST_CASE("SIGHUP ends a run as SIGTERM does, with all its files", "[programs][i
 
 TEST_CASE("a user's own file in the folder of --out stays, and the run is refused by its name", "[programs][folder]") {
     const auto [name, arguments, file] =
-        GENERATE(table<std::string, std::string, std::string>({{"slipping_cylinders", short_run, "summary.json"},
-                                                               {"slipping_cylinders", short_run, "energy.csv"},
-                                                               {"slipping_cylinders", short_run, "failed.csv"},
-                                                               {"slipping_cylinders", short_run, "cylinders_000003.vtu"},
-                                                               {"detect", "torus:n=500", "overlaps.csv"},
+        GENERATE(table<std::string, std::string, std::string>({{"abut", short_run, "summary.json"},
+                                                               {"abut", short_run, "energy.csv"},
+                                                               {"abut", short_run, "failed.csv"},
+                                                               {"abut", short_run, "bodies_000003.vtu"},
+                                                               {"abut", "detect torus:n=500", "overlaps.csv"},
                                                                {"study bouncing_bar", "--cells 10", "bouncing_bar.png"},
                                                                {"study trade", "--only bar --levels 1", "trade.csv"}}));
     CAPTURE(name, file);
@@ -97,10 +96,10 @@ TEST_CASE("a user's own file in the folder of --out stays, and the run is refuse
 TEST_CASE("a run in the folder of an earlier one replaces its results and nothing else", "[programs][folder]") {
     const Folder folder("again");
     const std::string arguments = fmt::format("{} --out '{}'", short_run, folder.path().string());
-    REQUIRE(run_program("slipping_cylinders", arguments, "").exit_code == 0);
+    REQUIRE(run_program("abut", arguments, "").exit_code == 0);
     write(folder.path() / "notes.txt", "mine");
     write(folder.path() / "energies.csv", "mine");
-    CHECK(run_program("slipping_cylinders", arguments, "").exit_code == 0);
+    CHECK(run_program("abut", arguments, "").exit_code == 0);
     CHECK(read_text(folder.path() / "notes.txt") == "mine");
     CHECK(read_text(folder.path() / "energies.csv") == "mine");
 }
@@ -108,7 +107,7 @@ TEST_CASE("a run in the folder of an earlier one replaces its results and nothin
 TEST_CASE("a folder whose name is no UTF-8 gets all results of a run", "[programs][folder]") {
     const Folder folder("bytes");
     const auto [name, arguments] = GENERATE(table<std::string, std::string>(
-        {{"slipping_cylinders", short_run}, {"detect", "torus:n=500"}, {"study bouncing_bar", "--cells 10"}}));
+        {{"abut", short_run}, {"abut", "detect torus:n=500"}, {"study bouncing_bar", "--cells 10"}}));
     CAPTURE(name);
     const fs::path out = folder.path() / "K\xF6rper";
     CHECK(shell(fmt::format("{} {} --out '{}' >/dev/null 2>/dev/null", program(name), arguments, out.string()),

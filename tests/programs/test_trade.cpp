@@ -41,8 +41,8 @@ const nlohmann::json& row_of(const Rows& rows, const std::string& setting) {
 }
 
 nlohmann::json options_used(const std::string& arguments) {
-    const std::string small = "--size 0.3 --steps 1 --frames 0 ";
-    return read_summary(run_well("slipping_cylinders", small + arguments, "preset"))["options"];
+    const std::string small = "--set values.size=0.3 --steps 1 --frames 0 ";
+    return read_summary(run_well("abut", slip(small + arguments), "preset"))["options"];
 }
 
 }  // namespace
@@ -162,7 +162,8 @@ TEST_CASE("a preset says nothing of kinematics, and goes with each of them", "[p
         CHECK(alone["kinematics"] == "scene");
         CHECK(alone["law"] == "reconstruction");
         for (const std::string kinematics : {"floating", "rigid"})
-            CHECK(options_used("--kinematics " + kinematics + " --preset " + name)["kinematics"] == kinematics);
+            CHECK(options_used("--law automatic --kinematics " + kinematics + " --preset " + name)["kinematics"] ==
+                  kinematics);
     }
 }
 
