@@ -170,7 +170,7 @@ const Options<RunOptions>& run_options() {
 }
 
 Value value_of(const OptionFacts& option, const OptionValue& value) {
-    if (option.is_switch) return text_of(value);
+    if (option.is_switch) return abut::text_of(value);
     return std::visit([](const auto& held) { return Value(held); }, value);
 }
 

@@ -17,7 +17,7 @@ namespace {
 // All in units of the drawing, which a reader scales as a whole.
 constexpr double width = 760.0, height = 300.0;
 constexpr double left = 78.0, right = 12.0, top = 30.0, bottom = 44.0;
-constexpr double heading = 30.0;  // above the plots of a file
+constexpr double heading_height = 30.0;  // above the plots of a file
 constexpr double tick_length = 5.0, legend_mark = 22.0, letter = 7.2;
 constexpr int most_ticks_x = 9, most_ticks_y = 7, columns = 640;
 constexpr double margin = 0.04;  // above and below the curves, of their range
@@ -173,7 +173,7 @@ Markup drawing(const Plot& plot) {
 
 std::string drawing_file(const std::string& title, std::span<const Plot> plots) {
     Markup all = element("text", {{"class", "heading"}, {"x", shown(left)}, {"y", "22"}}, title);
-    double y = heading;
+    double y = heading_height;
     for (const Plot& plot : plots) {
         all += element("g", {{"transform", fmt::format("translate(0 {:.0f})", y)}}, content(plot));
         y += height;

@@ -3,31 +3,18 @@
 #include "apps/support/command_line.hpp"
 
 namespace abut::studies {
-namespace {
-
-apps::Limits of_apps(const Limits& limits) {
-    return {.unit = limits.unit,
-            .above = limits.above,
-            .below = limits.below,
-            .closed = limits.closed,
-            .zero = limits.zero,
-            .remedy = limits.remedy};
-}
-
-}  // namespace
-
 CLI::Option* Flags::number(const std::string& option, double& value, const std::string& help, const Limits& limits) {
-    return grouped(apps::add_number(app_, option, value, help, of_apps(limits)));
+    return grouped(apps::add_number(app_, option, value, help, limits));
 }
 
 CLI::Option* Flags::numbers(const std::string& option, std::vector<double>& values, const std::string& help,
                             const Limits& limits) {
-    return grouped(apps::add_numbers(app_, option, values, help, of_apps(limits)));
+    return grouped(apps::add_numbers(app_, option, values, help, limits));
 }
 
 CLI::Option* Flags::body_values(const std::string& option, apps::BodyValues& values, const std::string& help,
                                 const Limits& limits) {
-    return grouped(apps::add_body_values(app_, option, values, help, of_apps(limits)));
+    return grouped(apps::add_body_values(app_, option, values, help, limits));
 }
 
 CLI::Option* Flags::count(const std::string& option, int& value, const std::string& help, int least) {

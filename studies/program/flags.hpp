@@ -1,24 +1,14 @@
 #pragma once
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "abut/base/option.hpp"
 #include "apps/support/choices.hpp"
 #include "apps/support/cli.hpp"
 
 namespace abut::studies {
-
-/// The values that a number may take.
-struct Limits {
-    const char* unit = "";
-    double above = -std::numeric_limits<double>::infinity();  ///< open
-    double below = std::numeric_limits<double>::infinity();   ///< open, unless `closed`
-    bool closed = false;                                      ///< `below` itself is allowed
-    bool zero = false;                                        ///< 0 is allowed as well
-    const char* remedy = "";                                  ///< ends the message
-};
 
 /// The options of a study's command line, without the header of CLI11, which takes seconds to compile. A call adds one
 /// option, whose default is the present value; the value is set when the command line is read. What a call returns is for
