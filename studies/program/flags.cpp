@@ -3,6 +3,7 @@
 #include "apps/support/command_line.hpp"
 
 namespace abut::studies {
+
 CLI::Option* Flags::number(const std::string& option, double& value, const std::string& help, const Limits& limits) {
     return grouped(apps::add_number(app_, option, value, help, limits));
 }
