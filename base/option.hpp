@@ -103,7 +103,7 @@ struct Option : OptionFacts {
     std::function<void(Owner&, const OptionValue&)> set;  ///< takes a value of its kind that `allows` allows
 };
 template <class Owner>
-using Options = std::vector<Option<Owner>>;
+using OptionList = std::vector<Option<Owner>>;
 
 /// An option of one owner, which must outlive it.
 struct BoundOption {
@@ -133,7 +133,7 @@ template <class Owner>
 
 /// The option of this name; throws std::out_of_range if there is none.
 template <class Owner>
-[[nodiscard]] const Option<Owner>& named(const Options<Owner>& options, const std::string& name) {
+[[nodiscard]] const Option<Owner>& named(const OptionList<Owner>& options, const std::string& name) {
     for (const Option<Owner>& option : options)
         if (option.name == name) return option;
     throw std::out_of_range("there is no option " + name);
@@ -141,7 +141,7 @@ template <class Owner>
 
 /// Throws BadInput for the first option with a value that is not allowed.
 template <class Owner>
-void check_options(const std::string& whose, const Options<Owner>& options, const Owner& owner) {
+void check_options(const std::string& whose, const OptionList<Owner>& options, const Owner& owner) {
     const Owner plain{};
     for (const Option<Owner>& option : options) check_value(whose, option, option.get(owner), option.get(plain));
 }
@@ -199,8 +199,8 @@ template <class Outer, class Owner>
             [member, set = inner.set](Outer& outer, const OptionValue& value) { set(outer.*member, value); }};
 }
 template <class Outer, class Owner>
-[[nodiscard]] Options<Outer> within(Owner Outer::*member, const Options<Owner>& inner) {
-    Options<Outer> made;
+[[nodiscard]] OptionList<Outer> within(Owner Outer::*member, const OptionList<Owner>& inner) {
+    OptionList<Outer> made;
     for (const Option<Owner>& one : inner) made.push_back(within(member, one));
     return made;
 }

@@ -35,7 +35,7 @@ Option<Owner> compression_limit() {
                    .limits = {.above = 0.0, .endless = true}});
 }
 
-Options<CandidateOptions> make_search_options() {
+OptionList<CandidateOptions> make_search_options() {
     using Of = CandidateOptions;
     return {
         choice("broad_phase", &Of::broad_phase, broad_phase_words(),
@@ -76,7 +76,7 @@ Options<CandidateOptions> make_search_options() {
                                     .named = Named::changed}))};
 }
 
-Options<ContactOptions> make_contact_options() {
+OptionList<ContactOptions> make_contact_options() {
     using Of = ContactOptions;
     const auto of_search = [](const char* name) { return within(&Of::search, named(search_options(), name)); };
     Option<Of> facing_cosine = of_search("facing_cosine");
@@ -109,7 +109,7 @@ Options<ContactOptions> make_contact_options() {
             of_search("max_pairs")};
 }
 
-Options<geometry::FacingFade> make_facing_options() {
+OptionList<geometry::FacingFade> make_facing_options() {
     using Of = geometry::FacingFade;
     return {option("facing_full", &Of::full,
                    {.help = "of the pair potential: cosine between the normals of two faces up to which their pair has its "
@@ -125,10 +125,10 @@ Options<geometry::FacingFade> make_facing_options() {
                     .named = Named::changed})};
 }
 
-Options<NodalOptions> make_nodal_options() {
+OptionList<NodalOptions> make_nodal_options() {
     using Of = NodalOptions;
     const auto of_search = [](const char* name) { return within(&Of::search, named(search_options(), name)); };
-    const Options<Of> facing = within(&Of::facing, facing_options());
+    const OptionList<Of> facing = within(&Of::facing, facing_options());
     return {of_search("skin"),       of_search("largest_motion"),
             of_search("max_pairs"),  compression_warning<Of>(),
             compression_limit<Of>(), facing.front(),
@@ -137,20 +137,20 @@ Options<NodalOptions> make_nodal_options() {
 
 }  // namespace
 
-const Options<CandidateOptions>& search_options() {
-    static const Options<CandidateOptions> options = make_search_options();
+const OptionList<CandidateOptions>& search_options() {
+    static const OptionList<CandidateOptions> options = make_search_options();
     return options;
 }
-const Options<ContactOptions>& contact_options() {
-    static const Options<ContactOptions> options = make_contact_options();
+const OptionList<ContactOptions>& contact_options() {
+    static const OptionList<ContactOptions> options = make_contact_options();
     return options;
 }
-const Options<geometry::FacingFade>& facing_options() {
-    static const Options<geometry::FacingFade> options = make_facing_options();
+const OptionList<geometry::FacingFade>& facing_options() {
+    static const OptionList<geometry::FacingFade> options = make_facing_options();
     return options;
 }
-const Options<NodalOptions>& nodal_options() {
-    static const Options<NodalOptions> options = make_nodal_options();
+const OptionList<NodalOptions>& nodal_options() {
+    static const OptionList<NodalOptions> options = make_nodal_options();
     return options;
 }
 

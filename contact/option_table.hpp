@@ -18,9 +18,9 @@ inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
 
 /// The options of contact, as tables. A law that an option names in OptionTraits::laws is a word of solid::ContactLaw.
 /// Of a search alone `facing_cosine` may be up to 1; contact needs one below 0.
-[[nodiscard]] const Options<CandidateOptions>& search_options();
-[[nodiscard]] const Options<ContactOptions>& contact_options();
-[[nodiscard]] const Options<geometry::FacingFade>& facing_options();
-[[nodiscard]] const Options<NodalOptions>& nodal_options();
+[[nodiscard]] const OptionList<CandidateOptions>& search_options();
+[[nodiscard]] const OptionList<ContactOptions>& contact_options();
+[[nodiscard]] const OptionList<geometry::FacingFade>& facing_options();
+[[nodiscard]] const OptionList<NodalOptions>& nodal_options();
 
 }  // namespace abut::contact

@@ -10,7 +10,7 @@ namespace abut::run {
 namespace {
 
 using Of = RunOptions;
-using List = Options<RunOptions>;
+using List = OptionList<RunOptions>;
 
 /// Where scenes and help texts show them, unless they say so themselves.
 List in(const char* table, const char* group, List options) {
@@ -159,7 +159,7 @@ List of_output() {
 
 }  // namespace
 
-const Options<RunOptions>& run_options() {
+const OptionList<RunOptions>& run_options() {
     static const List options = [] {
         List all = in("run", "Time", of_time());
         for (List more : {in("contact", "Contact", of_contact()), in("output", "Output", of_output())})

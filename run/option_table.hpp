@@ -21,11 +21,11 @@ inline constexpr std::array<Word<bool>, 2> filter_words{{{"none", false}, {"neut
 
 /// All options of a run, in the order of help texts, keys and summaries: command lines, the tables [run], [contact] and
 /// [output] of scenes, abut.solid of Python, summaries, and the checks of single values are made from this list.
-[[nodiscard]] const Options<RunOptions>& run_options();
+[[nodiscard]] const OptionList<RunOptions>& run_options();
 
 /// Names and values for a summary, as OptionTraits::named says. `scheme`: that of the owner.
 template <class Owner>
-[[nodiscard]] NamedValues named_values(const Options<Owner>& options, const Owner& owner, const std::string& scheme);
+[[nodiscard]] NamedValues named_values(const OptionList<Owner>& options, const Owner& owner, const std::string& scheme);
 /// Those of the options of a run; of `dt` and `cfl` the one that decided. The end of the run, the skin and the threads are in
 /// RunResult.
 [[nodiscard]] NamedValues named_values(const RunOptions& options);
@@ -42,7 +42,7 @@ template <class Owner>
                             const std::string& scheme);
 
 template <class Owner>
-NamedValues named_values(const Options<Owner>& options, const Owner& owner, const std::string& scheme) {
+NamedValues named_values(const OptionList<Owner>& options, const Owner& owner, const std::string& scheme) {
     const Owner plain{};
     NamedValues values;
     for (const Option<Owner>& option : options)

@@ -17,7 +17,7 @@ bool is_of(const OptionFacts& option, ContactLaw law) {
 
 /// Keys of the options with other values than both owners have that the law alone reads.
 template <class Owner>
-void append_made(std::vector<std::string>& keys, ContactLaw law, const Options<Owner>& options, const Owner& given,
+void append_made(std::vector<std::string>& keys, ContactLaw law, const OptionList<Owner>& options, const Owner& given,
                  const Owner& plain, const Owner& also_plain) {
     for (const Option<Owner>& option : options) {
         const OptionValue value = option.get(given);
@@ -27,7 +27,7 @@ void append_made(std::vector<std::string>& keys, ContactLaw law, const Options<O
 }
 
 template <class Owner>
-void take_back(const Options<Owner>& options, Owner& given) {
+void take_back(const OptionList<Owner>& options, Owner& given) {
     const Owner plain;
     for (const Option<Owner>& option : options)
         if (!option.laws.empty()) option.set(given, option.get(plain));

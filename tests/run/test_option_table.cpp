@@ -40,7 +40,7 @@ OptionValue another(const OptionFacts& option, const OptionValue& by_default) {
 }
 
 template <class Owner>
-void check_members(const Options<Owner>& options) {
+void check_members(const OptionList<Owner>& options) {
     std::set<std::string> names;
     for (const Option<Owner>& option : options) {
         CAPTURE(option.name);

@@ -19,9 +19,9 @@ struct Soil {
     std::filesystem::path map;
 };
 
-inline const Options<Soil>& soil_options() {
-    static const Options<Soil> options = [] {
-        Options<Soil> made = {
+inline const OptionList<Soil>& soil_options() {
+    static const OptionList<Soil> options = [] {
+        OptionList<Soil> made = {
             option("soil_stiffness", &Soil::stiffness,
                    {.help = "of the soil", .limits = {.unit = "Pa", .above = 0.0}, .laws = {"pair_potential"}}),
             option("soil_layers", &Soil::layers,
