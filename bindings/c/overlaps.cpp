@@ -50,8 +50,8 @@ void find_all_overlaps(const abut_array& x, const abut_faces& faces, double dist
         contact::face_distances<Dim>(facets.view(), facets.vertices, std::span(near.found).first(n_wanted));
     copy_entries(near.found, overlaps, entry_size, capacity, n, [&](const contact::Overlap<Dim>& overlap) {
         abut_overlap entry{};
-        entry.face_1 = number_of(surface.face_of(overlap.face_1)) + faces.index_base;
-        entry.face_2 = number_of(surface.face_of(overlap.face_2)) + faces.index_base;
+        entry.face_1 = number_of(surface.face_of(contact::Facet{overlap.face_1})) + faces.index_base;
+        entry.face_2 = number_of(surface.face_of(contact::Facet{overlap.face_2})) + faces.index_base;
         entry.area = overlap.area;
         entry.gap = overlap.gap;
         entry.distance = distances[static_cast<std::size_t>(&overlap - near.found.data())];
