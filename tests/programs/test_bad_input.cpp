@@ -72,7 +72,8 @@ const std::vector<Refusal> bad_options_of_the_strip = {
 };
 
 const std::vector<std::pair<std::string, Refusal>> bad_options_of_comparisons = {
-    {"study fpu", {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
+    {"study fpu",
+     {"--integrator euler", {"--integrator", "euler", "all, memm, leapfrog, bilbao, energy_momentum, memm_async"}}},
     {"study fpu", {"--mean 4", {"--mean", "4", "system, 1, 2, 3"}}},
     {"study fpu", {"--dt 0", {"--dt", "0 s", "above 0 s"}}},
     {"study fpu", {"--dt 1e-300", {"steps of 1e-300 s", "1 to 1e+15 are allowed"}}},
@@ -206,8 +207,11 @@ TEST_CASE("a run that breaks off says at which step, and leaves no result", "[pr
 }
 
 TEST_CASE("an output folder with a file in its place is refused before the run", "[programs]") {
-    const auto [program, arguments] = GENERATE(table<std::string, std::string>(
-        {{"abut", slip("")}, {"study bouncing_strip", ""}, {"study bouncing_bar", ""}, {"study fpu", ""}, {"study slow_fast_wave", ""}}));
+    const auto [program, arguments] = GENERATE(table<std::string, std::string>({{"abut", slip("")},
+                                                                                {"study bouncing_strip", ""},
+                                                                                {"study bouncing_bar", ""},
+                                                                                {"study fpu", ""},
+                                                                                {"study slow_fast_wave", ""}}));
     const Folder folder("in_the_way");
     const std::string file = (folder.path() / "results").string();
     std::ofstream(file) << "something\n";

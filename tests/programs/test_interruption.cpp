@@ -19,8 +19,9 @@ using namespace abut;
 using namespace abut::test::programs;
 
 std::vector<std::string> long_detection(const fs::path& out) {
-    return {"torus:n=500", "torus:n=500,x=2.6", "--translate", "1:-0.5,0,0", "--steps", "100000000", "--distance",
-            "0.3",         "--write-every",     "3",           "--threads",  "1",       "--out",     out.string()};
+    return {"detect",     "torus:n=500", "torus:n=500,x=2.6", "--translate", "1:-0.5,0,0", "--steps", "100000000",
+            "--distance", "0.3",         "--write-every",     "3",           "--threads",  "1",       "--out",
+            out.string()};
 }
 
 void (*action_of(int signal))(int) {
@@ -62,7 +63,7 @@ TEST_CASE("detect: a run ends after its present step at SIGINT and SIGTERM, and 
           "[programs][detect][interruption]") {
     const int signal = GENERATE(SIGINT, SIGTERM);
     const Folder folder("interrupted_detection");
-    Child child("detect", long_detection(folder.path()));
+    Child child("abut", long_detection(folder.path()));
     child.wait_until([&] { return lines_in(folder.path() / "steps.csv.partial") > 5; });
     child.send(signal);
     CHECK(child.wait() == 128 + signal);
@@ -81,7 +82,7 @@ TEST_CASE("detect: a run ends after its present step at SIGINT and SIGTERM, and 
 TEST_CASE("detect: a run that is killed leaves the rows of all steps but the one under way",
           "[programs][detect][interruption]") {
     const Folder folder("killed_detection");
-    Child child("detect", long_detection(folder.path()));
+    Child child("abut", long_detection(folder.path()));
     child.wait_until([&] { return fs::exists(folder.path() / "overlaps_000009.vtp"); });
     child.send(SIGKILL);
     CHECK(child.wait() == -SIGKILL);
