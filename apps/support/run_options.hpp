@@ -4,6 +4,7 @@
 #include <string>
 
 #include "abut/run/options.hpp"
+#include "abut/run/value.hpp"
 #include "apps/support/cli.hpp"
 
 namespace abut::apps {
