@@ -310,7 +310,7 @@ int run(int argc, char** argv) {
     const Shared shared(all, choices);
     double dt = 0.0;
     {
-        solid::Solid<3> of_part(shared.part.mesh, options_of(choices), &shared.points);
+        solid::Solid<3> of_part(shared.part.mesh, options_of(choices), shared.points);
         dt = 0.9 * dynamics::stable_step(of_part).dt;
     }
     benchmark::RecordedRanks recorded(shared.points, static_cast<std::size_t>(shared.part.mesh.n_cells()));

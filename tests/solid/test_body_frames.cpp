@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <array>
 #include <catch2/catch.hpp>
 #include <numeric>
 #include <optional>
@@ -7,7 +8,9 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/kinematics/body_frames.hpp"
+#include "abut/solid/rank_part.hpp"
 #include "support/worst.hpp"
 
 using namespace abut;
@@ -17,6 +20,25 @@ using solid::BodyFrames;
 using solid::BodyPush;
 
 namespace {
+
+/// The whole of a solid of one body with n cells, for points that have their own places and masses.
+template <int Dim>
+struct WholePart {
+    explicit WholePart(int n)
+        : mesh(row(n)), bodies(mesh, {.materials = {solid::Material{}}}, {}), part(dynamics::one_rank(), bodies) {}
+
+    static mesh::Mesh<Dim> row(int n) {
+        std::array<int, Dim> cells;
+        cells.fill(1);
+        cells[0] = n;
+        return mesh::structured_box<Dim>(Vector<Dim>::Zero(), Vector<Dim>::Ones(), cells,
+                                         Dim == 2 ? mesh::CellShape::quadrangle : mesh::CellShape::hexahedron);
+    }
+
+    mesh::Mesh<Dim> mesh;
+    solid::Bodies<Dim> bodies;
+    solid::RankPart<Dim> part;
+};
 
 /// A body of some points with any energy u.K u/2 in its frame, and corners w + R u in it that are pushed by constant forces:
 /// the potential of these is sum p.x. Neither K nor R knows of rigid motions.
@@ -38,7 +60,7 @@ struct AnyBody {
             reconstruction.push_back(Eigen::MatrixXd::NullaryExpr(Dim, Dim * n, [&] { return any(1.0); }));
         }
         frames.emplace(rest, masses, std::vector<std::int32_t>{0, n}, std::vector<bool>{true},
-                       std::vector<std::string>{"any"});
+                       std::vector<std::string>{"any"}, whole.part);
     }
 
     double any(double size) { return std::uniform_real_distribution<double>(-size, size)(random); }
@@ -111,6 +133,7 @@ struct AnyBody {
     Eigen::MatrixXd stiffness;
     std::vector<Vector<Dim>> corner, push;
     std::vector<Eigen::MatrixXd> reconstruction;
+    WholePart<Dim> whole{n};
     std::optional<BodyFrames<Dim>> frames;
 };
 
@@ -199,8 +222,10 @@ TEMPLATE_TEST_CASE_SIG("a rigid motion shows no displacement in the frame of a b
 TEST_CASE("a body whose cells lie on a line cannot turn in space", "[solid][frame]") {
     const std::vector<Vector<3>> rest{{0.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {2.0, 2.0, 0.0}};
     const std::vector<double> masses(3, 1.0);
-    CHECK_THROWS_AS(BodyFrames<3>(rest, masses, {0, 3}, {true}, std::vector<std::string>{"rod"}), BadInput);
-    CHECK_NOTHROW(BodyFrames<3>(rest, masses, {0, 3}, {false}, std::vector<std::string>{"rod"}));
+    const std::vector<std::string> names{"rod"};
+    const WholePart<3> whole(3);
+    CHECK_THROWS_AS(BodyFrames<3>(rest, masses, {0, 3}, {true}, names, whole.part), BadInput);
+    CHECK_NOTHROW(BodyFrames<3>(rest, masses, {0, 3}, {false}, names, whole.part));
     const std::vector<Vector<2>> in_plane{{0.0, 0.0}, {1.0, 1.0}};
-    CHECK_NOTHROW(BodyFrames<2>(in_plane, std::vector<double>(2, 1.0), {0, 2}, {true}, std::vector<std::string>{"rod"}));
+    CHECK_NOTHROW(BodyFrames<2>(in_plane, std::vector<double>(2, 1.0), {0, 2}, {true}, names, WholePart<2>(2).part));
 }
