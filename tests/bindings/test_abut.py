@@ -134,7 +134,7 @@ class Contact(unittest.TestCase):
             return go_on.wait(10.0)
 
         shared = made(wanted=waits)
-        stepping = threading.Thread(target=shared.step, args=(REST, lowered(0.15)))
+        stepping = threading.Thread(target=shared.step, args=(1.0, REST, lowered(0.15)))
         stepping.start()
         inside.wait(10.0)
         for call in (lambda: shared.step(1.0, REST, REST), lambda: shared.pairs, shared.state, lambda: shared.evaluate(REST)):

@@ -78,7 +78,7 @@ TEST_CASE("a frozen overlap does not keep the energy", "[programs]") {
 }
 
 TEST_CASE("each choice of the method changes the motion", "[programs]") {
-    const std::string choice = GENERATE("--weights half", "--neumann extrapolate", "--neumann adjacent",
+    const std::string choice = GENERATE(as<std::string>(), "--weights half", "--neumann extrapolate", "--neumann adjacent",
                                         set_both("eta", 0.5, 0.5), set_both("poisson", 0.1, 0.1));
     CAPTURE(choice);
     // unequal bodies: between equal ones the weights are halves
