@@ -64,6 +64,7 @@ public:
 
     const NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, contact::TakenForce take) {
         const Look seen = look(dt, x_0, x_1);
+        check_length(dt);
         if (!contact_.is_valid_for(seen.motion)) {
             all_.bring<Dim>(communicator_, {{x_0, x_0_}, {x_1, x_1_}}, traffic_);
             search([&] { contact_.search(x_0_, x_1_); }, x_0, x_1);
@@ -150,9 +151,17 @@ private:
     }
     [[nodiscard]] Face number_of_face(Face face) const { return Face{numbers_.face[static_cast<std::size_t>(face)]}; }
 
+    /// Before a search, which a step that is refused must not leave behind; `look` has found all ranks to give the same.
+    static void check_length(double dt) {
+        if (!(dt > 0.0) || !std::isfinite(dt))
+            throw BadInput("shared nodal contact: a step has the length dt = " + number(dt) +
+                               " s; it must be finite and > 0. Give the time from the start of the step to its end.",
+                           {.value = dt});
+    }
+
     /// A call of all ranks, one reduction; throws on all what is wrong on one.
     Look look(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1) {
-        const double length = std::isfinite(dt) ? dt : no_step;  // contact refuses both
+        const double length = std::isfinite(dt) ? dt : no_step;  // both are refused
         // 1: not a number, 2: an error; motion; whether it begins elsewhere; longest step; shortest step, negative
         std::array<double, 5> found{0.0, 0.0, 0.0, length, -length};
         std::exception_ptr error;
