@@ -126,7 +126,7 @@ private:
     [[nodiscard]] Matrix<Dim> mean_slope(std::size_t body, std::span<const Vector<Dim>> of_mesh_cells, std::int32_t on,
                                          const PositionOf& x_of) const;
     std::vector<std::optional<CellPoints<Dim>>> cell_points_;  // by body that deforms; none: at the centroids
-    const RankPart<Dim>* rank_part_ = nullptr;  // null until `take_part`
+    const RankPart<Dim>* rank_part_ = nullptr;                 // null until `take_part`
     SolidOptions<Dim> part_options_;
     std::vector<std::int32_t> deformable_bodies_;
     std::optional<RigidBodies<Dim>> rigid_;

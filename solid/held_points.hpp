@@ -33,9 +33,9 @@ public:
 
 private:
     std::vector<std::int32_t> numbers_;
-    std::vector<std::int32_t> position_;  // of each among the points here; -1: it is on another rank
+    std::vector<std::int32_t> position_;   // of each among the points here; -1: it is on another rank
     const RankPart<Dim>* part_ = nullptr;  // null: there are no such points
-    std::vector<std::size_t> gathered_;  // as `gather` brings those of all ranks
+    std::vector<std::size_t> gathered_;    // as `gather` brings those of all ranks
 };
 
 }  // namespace abut::solid

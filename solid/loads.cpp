@@ -52,8 +52,8 @@ BoundaryLoad<Dim> Loads<Dim>::mean() const {
 template <int Dim>
 bool Loads<Dim>::begin_step(double time, double dt, const std::function<double()>& potential,
                             const std::function<void()>& follow_jump, double& work) {
-    auto [changed, next] = dynamics::agreed(
-        part_.ranks(), [&] { return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time)); });
+    auto [changed, next] =
+        dynamics::agreed(part_.ranks(), [&] { return std::pair(ccg_.load_at(time, time), ccg_.load_at(time + dt, time)); });
     is_half_done_ = true;
     start_ = end_;
     const bool jumps = part_.any(changed.traction != end_.traction);

@@ -20,8 +20,8 @@ class Loads {
 public:
     /// `masses` are those of the cells. Mesh, operators and part must outlive the loads. Throws
     /// BadInput for a body force that is not finite, and where a boundary condition gives such a value.
-    Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::span<const double> masses,
-          const Ccg<Dim>& ccg, const RankPart<Dim>& part);
+    Loads(const mesh::Mesh<Dim>& mesh, const SolidOptions<Dim>& options, std::span<const double> masses, const Ccg<Dim>& ccg,
+          const RankPart<Dim>& part);
 
     /// Whether a boundary condition has a history.
     [[nodiscard]] bool vary() const { return ccg_.load_varies(); }

@@ -100,8 +100,7 @@ void RankPart<Dim>::set_cell_numbers(const mesh::Mesh<Dim>& mesh) {
 template <int Dim>
 void RankPart<Dim>::fill_only(std::span<const std::int32_t> cells) {
     std::vector<std::int32_t> filled(cells.begin(), cells.end());
-    for (auto point = cell_numbers_.size(); point < n_points_; ++point)
-        filled.push_back(static_cast<std::int32_t>(point));
+    for (auto point = cell_numbers_.size(); point < n_points_; ++point) filled.push_back(static_cast<std::int32_t>(point));
     copies_ = ranks_.copy_set(filled);
 }
 

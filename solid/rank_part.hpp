@@ -93,7 +93,8 @@ public:
         if (is_whole_) return constrain(q, p);
         spread_rigid(q, rigid_q_);
         spread_rigid(p, rigid_p_);
-        dynamics::agreed(ranks_, [&] { constrain(std::span<const Vector<Dim>>(rigid_q_), std::span<Vector<Dim>>(rigid_p_)); });
+        dynamics::agreed(ranks_,
+                         [&] { constrain(std::span<const Vector<Dim>>(rigid_q_), std::span<Vector<Dim>>(rigid_p_)); });
         take_rigid(rigid_p_, p);
     }
 
@@ -184,7 +185,7 @@ private:
     std::vector<std::size_t> gathered_body_;     // as `gather` brings the first cells of all ranks
     std::vector<std::int32_t> own_rigid_;
     std::vector<std::size_t> gathered_rigid_;  // as `gather` brings the rigid bodies of all ranks
-    std::span<const Vector<Dim>> rest_;  // of own points, as below; of a whole those of the bodies
+    std::span<const Vector<Dim>> rest_;        // of own points, as below; of a whole those of the bodies
     std::span<const double> masses_, inverse_masses_;
     std::span<const std::int32_t> body_;
     std::vector<Vector<Dim>> rest_here_;
