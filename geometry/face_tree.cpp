@@ -6,23 +6,10 @@
 #include <utility>
 
 #include "abut/geometry/convex_distance.hpp"
+#include "abut/geometry/points.hpp"
 
 namespace abut::geometry {
 namespace {
-
-template <int Dim>
-Vector<Dim> mean_of(std::span<const Vector<Dim>> points) {
-    Vector<Dim> sum = Vector<Dim>::Zero();
-    for (const Vector<Dim>& x : points) sum += x;
-    return sum / static_cast<double>(points.size());
-}
-
-template <int Dim>
-Box<Dim> box_of(std::span<const Vector<Dim>> points) {
-    Box<Dim> box;
-    for (const Vector<Dim>& x : points) box.extend(x);
-    return box;
-}
 
 template <int Dim>
 double distance(const Box<Dim>& a, const Box<Dim>& b) {

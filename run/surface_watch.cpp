@@ -13,6 +13,7 @@
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_proximity.hpp"
 #include "abut/geometry/face_tree.hpp"
+#include "abut/geometry/points.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/cell_velocity.hpp"
 
@@ -20,6 +21,8 @@ namespace abut::run {
 namespace {
 
 using geometry::Box;
+using geometry::box_of;
+using geometry::mean_of;
 
 // What a look costs, in times that a step takes for a cell, and a step beside its cells: measured on the scenes of `scenes/`.
 constexpr std::int64_t cost_of_part = 8, cost_of_pair = 25, cost_of_acting_pair = 100, cost_of_step = 200;
@@ -29,20 +32,6 @@ constexpr std::int64_t steps_per_cost = 100;  // a look takes a hundredth of the
 constexpr double touching_cells = 1e-6;
 /// Bodies slide along each other where their speed along the faces is more than this part of the largest speed.
 constexpr double sliding_share = 0.1;
-
-template <int Dim>
-Vector<Dim> mean_of(std::span<const Vector<Dim>> points) {
-    Vector<Dim> sum = Vector<Dim>::Zero();
-    for (const Vector<Dim>& x : points) sum += x;
-    return sum / static_cast<double>(points.size());
-}
-
-template <int Dim>
-Box<Dim> box_of(std::span<const Vector<Dim>> points) {
-    Box<Dim> box;
-    for (const Vector<Dim>& x : points) box.extend(x);
-    return box;
-}
 
 /// Perpendicular to a face with these corners, of any length and sense.
 template <int Dim>

@@ -23,17 +23,6 @@ using namespace abut::c_layer;
 
 namespace {
 
-OptionValue value_of(const abut_options& options, const OptionField& field) {
-    return std::visit(
-        [&](auto member) {
-            if constexpr (std::is_same_v<decltype(member), std::int32_t abut_options::*>)
-                return OptionValue(options.*member != 0);
-            else
-                return OptionValue(options.*member);
-        },
-        field.field);
-}
-
 void set_value(abut_options& options, const OptionField& field, const OptionValue& value) {
     std::visit(
         [&](auto member) {

@@ -53,15 +53,7 @@ TEST_CASE("abut_options_init sets the defaults of the table", "[bindings][option
     const contact::NodalOptions plain;
     for (const c_layer::OptionField& field : option_fields) {
         CAPTURE(field.name);
-        const OptionValue value = std::visit(
-            [&](auto member) {
-                if constexpr (std::is_same_v<decltype(member), std::int32_t abut_options::*>)
-                    return OptionValue(options.*member != 0);
-                else
-                    return OptionValue(options.*member);
-            },
-            field.field);
-        CHECK(value == named(contact::nodal_options(), field.name).get(plain));
+        CHECK(c_layer::value_of(options, field) == named(contact::nodal_options(), field.name).get(plain));
     }
     CHECK(options.struct_size == sizeof(options));
     CHECK(options.wanted == nullptr);
