@@ -16,7 +16,7 @@
 #include "abut/contact/option_table.hpp"
 #include "arguments.hpp"
 #include "handle.hpp"
-#include "option_fields.hpp"
+#include "option_values.hpp"
 
 using namespace abut;
 using namespace abut::c_layer;

@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "abut.h"
-#include "abut/base/option.hpp"
 
 /// The fields of abut_options that are options of contact::nodal_options, by the names that they have there. That none is
 /// missing, their order and their defaults are tested.
@@ -23,17 +22,5 @@ inline constexpr OptionField option_fields[] = {{"skin", &abut_options::skin},
                                                 {"facing_full", &abut_options::facing_full},
                                                 {"facing_none", &abut_options::facing_none},
                                                 {"events", &abut_options::events}};
-
-/// Value of a field, as the table of options has it.
-inline OptionValue value_of(const abut_options& options, const OptionField& field) {
-    return std::visit(
-        [&](auto member) {
-            if constexpr (std::is_same_v<decltype(member), std::int32_t abut_options::*>)
-                return OptionValue(options.*member != 0);
-            else
-                return OptionValue(options.*member);
-        },
-        field.field);
-}
 
 }  // namespace abut::c_layer

@@ -8,7 +8,7 @@
 #include "abut.h"
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/option_table.hpp"
-#include "option_fields.hpp"
+#include "option_values.hpp"
 
 using namespace abut;
 using c_layer::option_fields;
