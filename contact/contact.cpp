@@ -8,8 +8,10 @@
 namespace abut::contact {
 namespace {
 
-const ContactOptions& checked(const ContactOptions& options) {
+template <int Dim>
+const ContactOptions& checked(const SurfaceView<Dim>& surface, const ContactOptions& options) {
     check_options(options);
+    check_friction(options.friction, !surface.shear_stiffness.empty());
     return options;
 }
 
@@ -18,7 +20,7 @@ const ContactOptions& checked(const ContactOptions& options) {
 template <int Dim>
 struct Contact<Dim>::Implementation {
     Implementation(const SurfaceView<Dim>& surface, const ContactOptions& options, Sharing* sharing)
-        : engine(FaceLaw<Dim>(surface, checked(options), sharing), options.search,
+        : engine(FaceLaw<Dim>(surface, checked(surface, options), sharing), options.search,
                  {options.compression_warning, options.compression_limit}, sharing) {}
 
     Engine<FaceLaw<Dim>> engine;

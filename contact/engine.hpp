@@ -46,6 +46,7 @@ struct CompressionLimits {
 /// - `list`: takes on the pairs of a new list, and may leave out those that cannot act; `list_remembered`: takes on pairs to
 ///   ask about, of a list that is not valid; `drop_list`;
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
+/// - `stored_energy`: what the memory of facets holds [J];
 /// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
 ///   without being contacts; `evaluate`: forces of one state.
 template <class Law>
@@ -125,7 +126,7 @@ public:
         require_list();
         facets_.begin_step();
         report_.inadmissible_overlaps = law_.step(dt, path, pairs_.memory(), facets_, step_);
-        count_step(report_, step_, limits_.warning);
+        count_step(report_, step_, dt, limits_.warning);
         if (step_.report.compression > limits_.limit) refuse_depth();
         facets_.end_step();
         return step_;
@@ -188,6 +189,7 @@ public:
         PairStore pairs =
             pairs_.carried_over(old_of_new, [&, facets = law.facets()](FacetPair pair) { return may_touch(facets, pair); });
         FacetStore facets = facets_.carried_over(old_of_new);
+        const double lost = law_.stored_energy(facets_) - law.stored_energy(facets);
         std::vector<Facet> new_facets;
         for (std::size_t i = 0; i < old_of_new.size(); ++i)
             if (old_of_new[i] < 0 || is_new(Facet{old_of_new[i]})) new_facets.push_back(Facet(i));
@@ -197,6 +199,7 @@ public:
         pairs_ = std::move(pairs);
         facets_ = std::move(facets);
         new_facets_ = std::move(new_facets);
+        report_.friction_dissipated += lost;
         drop_list();
     }
 

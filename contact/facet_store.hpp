@@ -14,6 +14,7 @@ namespace abut::contact {
 /// a list. A law without memory of facets has a store without numbers, which costs neither time nor space.
 ///
 /// A law reads where the last step ended, and writes where this one ends; a step that is refused leaves the memory as it was.
+/// A step costs as much as the facets that it writes.
 class FacetStore {
 public:
     FacetStore() = default;
@@ -25,12 +26,14 @@ public:
     [[nodiscard]] std::span<const double> operator[](Facet facet) const {
         return {now_.data() + begin(facet), static_cast<std::size_t>(size_)};
     }
-    /// Memory where the present step ends; the same as at its start until a law writes to it.
-    [[nodiscard]] std::span<double> next(Facet facet) {
-        return {next_.data() + begin(facet), static_cast<std::size_t>(size_)};
-    }
-    void begin_step() { next_ = now_; }
-    void end_step() { now_.swap(next_); }
+    /// Facets that have ever been written to, increasing.
+    [[nodiscard]] std::span<const Facet> used() const { return used_; }
+
+    void begin_step();
+    /// Memory where the present step ends, `size` numbers: that of facets without stays as it is. At most once per facet and
+    /// step.
+    void set_next(Facet facet, std::span<const double> memory);
+    void end_step();
 
     /// Memory of facets that have got other numbers. `old_of_new`: the old number of each, -1 for a facet that was not there,
     /// which remembers nothing.
@@ -41,13 +44,16 @@ public:
     [[nodiscard]] static FacetStore restored(StateReader& state, std::int32_t n_facets, std::int32_t size);
 
 private:
+    void find_used();
     [[nodiscard]] std::size_t begin(Facet facet) const {
         return static_cast<std::size_t>(facet) * static_cast<std::size_t>(size_);
     }
 
     std::int32_t size_ = 0;
     std::vector<double> now_;  // of each facet
-    std::vector<double> next_;
+    std::vector<Facet> used_;
+    std::vector<Facet> written_;  // in this step
+    std::vector<double> next_;    // of these
 };
 
 }  // namespace abut::contact

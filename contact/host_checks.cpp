@@ -125,6 +125,15 @@ private:
 void check_options(const ContactOptions& options) { check_options("contact options: ", contact_options(), options); }
 void check_options(const NodalOptions& options) { check_options("nodal contact: ", nodal_options(), options); }
 
+void check_friction(const FrictionOptions& friction, bool has_shear_stiffness) {
+    check(friction);
+    if (friction.any() && !has_shear_stiffness)
+        throw BadInput(
+            "contact: friction needs the shear stiffness of faces, by which they stick: give `shear_stiffness` of the "
+            "surface, "
+            "and `face_shear_stiffness` where `face_stiffness` is given.");
+}
+
 void check_step_length(double dt) {
     if (!(dt > 0.0) || !std::isfinite(dt))
         throw BadInput("contact: a step has the length dt = " + number(dt) +

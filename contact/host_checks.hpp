@@ -12,6 +12,8 @@ struct NodalOptions;
 /// Checks of a host's input. All throw BadInput; `check_path` throws Diverged where a value is not finite.
 void check_options(const ContactOptions& options);
 void check_options(const NodalOptions& options);
+/// `has_shear_stiffness`: of the surface.
+void check_friction(const FrictionOptions& friction, bool has_shear_stiffness);
 /// `dt` [s] must be finite and > 0.
 void check_step_length(double dt);
 /// An array that should have one entry per listed face.

@@ -14,12 +14,13 @@
 namespace abut::contact {
 namespace {
 
-NodalOptions checked(NodalOptions options) {
+NodalOptions checked(NodalOptions options, bool has_shear_stiffness) {
     if (options.search.self_contact)
         throw BadInput(
             "nodal contact: faces of one body do not touch each other; leave `self_contact` off, or number the "
             "parts of a body that may touch as bodies.");
     check_options(options);
+    check_friction(options.friction, has_shear_stiffness);
     const geometry::FacingFade& facing = options.facing;
     if (!(facing.full >= -1.0 && facing.full < facing.none && facing.none <= 0.0))
         throw BadInput("nodal contact: pairs fade out from n_1 . n_2 = " + number(facing.full) + " to " +
@@ -71,7 +72,10 @@ struct NodalContact<Dim>::Implementation {
 
 template <int Dim>
 NodalContact<Dim>::NodalContact(NodalSurface<Dim> surface, NodalOptions options, Sharing* sharing)
-    : implementation_(std::make_unique<Implementation>(std::move(surface), checked(std::move(options)), sharing)) {}
+    : implementation_([&] {
+          options = checked(std::move(options), surface.has_shear_stiffness());
+          return std::make_unique<Implementation>(std::move(surface), options, sharing);
+      }()) {}
 template <int Dim>
 NodalContact<Dim>::~NodalContact() = default;
 template <int Dim>

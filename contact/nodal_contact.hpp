@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "abut/contact/blind_corners.hpp"
+#include "abut/contact/friction.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/options.hpp"
@@ -28,6 +29,7 @@ struct NodalOptions {
     bool events = true;                ///< follow what begins and ends inside a step (geometry::PairPathOptions)
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
+    FrictionOptions friction;          ///< needs `NodalFaces::shear_stiffness`
     /// Which pairs of faces of the host may touch, beside the bodies they belong to; empty: all
     std::function<bool(Face, Face)> wanted;
 };

@@ -19,23 +19,6 @@ double admission_depth(double stiffness, double depth) {
     return stiffness == std::numeric_limits<double>::infinity() ? 0.0 : depth;
 }
 
-template <int Dim>
-NodalPair<Dim> make_pair(const Surface<Dim>& facets, const FacetPair& of_facets, const geometry::FacingFade& facing) {
-    const std::int32_t facet_1 = number_of(of_facets.facet_1), facet_2 = number_of(of_facets.facet_2);
-    NodalPair<Dim> pair{.facet_1 = facet_1, .facet_2 = facet_2};
-    for (int v = 0; v < Dim; ++v) {
-        pair.node[v] = facets.face_vertices[Dim * facet_1 + v];
-        pair.node[Dim + v] = facets.face_vertices[Dim * facet_2 + v];
-    }
-    const double k_1 = facets.stiffness[facet_1], k_2 = facets.stiffness[facet_2];
-    pair.law.stiffness = series_stiffness(k_1, k_2);
-    pair.law.facing = facing;
-    if constexpr (Dim == 2) pair.law.length = {facets.area[facet_1], facets.area[facet_2]};
-    pair.admission_depth =
-        admission_depth(k_1, facets.cell_depth[facet_1]) + admission_depth(k_2, facets.cell_depth[facet_2]);
-    return pair;
-}
-
 /// One that may not act says nothing of pairs that are deeper.
 template <int Dim>
 geometry::PairOutlook<Dim> outlook_of(const geometry::PairOutlook<Dim>& found) {
@@ -77,12 +60,32 @@ std::int32_t index_in(const std::vector<T>& sorted, const T& value) {
 }  // namespace
 
 template <int Dim>
+NodalPair<Dim> NodalPairs<Dim>::make_pair(const NodalSurface<Dim>& surface, const FacetPair& of_facets) const {
+    const Surface<Dim>& facets = surface.facets();
+    const std::int32_t facet_1 = number_of(of_facets.facet_1), facet_2 = number_of(of_facets.facet_2);
+    NodalPair<Dim> pair{.facet_1 = facet_1, .facet_2 = facet_2};
+    for (int v = 0; v < Dim; ++v) {
+        pair.node[v] = facets.face_vertices[Dim * facet_1 + v];
+        pair.node[Dim + v] = facets.face_vertices[Dim * facet_2 + v];
+    }
+    const double k_1 = facets.stiffness[facet_1], k_2 = facets.stiffness[facet_2];
+    pair.law.stiffness = series_stiffness(k_1, k_2);
+    pair.law.facing = facing_;
+    if constexpr (Dim == 2) pair.law.length = {facets.area[facet_1], facets.area[facet_2]};
+    pair.admission_depth =
+        admission_depth(k_1, facets.cell_depth[facet_1]) + admission_depth(k_2, facets.cell_depth[facet_2]);
+    if (friction_.any())
+        pair.friction = friction_.law_between(surface.face_of(of_facets.facet_1), surface.face_of(of_facets.facet_2));
+    return pair;
+}
+
+template <int Dim>
 void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<FacetPair>& facets,
                              std::span<const FacetPair> in_contact, PointsView<Dim> x_0, PointsView<Dim> x_1, double reach,
                              double compression) {
     compression_ = compression;
     pairs_.clear();
-    for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
+    for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
     look_ahead(x_0, x_1, reach);
     std::size_t n = 0;
     for (std::size_t p = 0; p < facets.size(); ++p) {
@@ -101,7 +104,7 @@ void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::vector<Facet
 template <int Dim>
 void NodalPairs<Dim>::assign(const NodalSurface<Dim>& surface, std::span<const FacetPair> facets) {
     pairs_.clear();
-    for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface.facets(), of_facets, facing_));
+    for (const FacetPair& of_facets : facets) pairs_.push_back(make_pair(surface, of_facets));
     index(surface);
 }
 

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "abut/base/ids.hpp"
 #include "abut/contact/admission.hpp"
+#include "abut/contact/friction.hpp"
 #include "abut/contact/nodal_surface.hpp"
 #include "abut/contact/pair_store.hpp"
 #include "abut/contact/shared_work.hpp"
@@ -32,6 +34,7 @@ struct NodalPair {
     std::int32_t memory;     ///< index of what it remembers
     geometry::PairLaw<Dim> law;
     double admission_depth;                ///< D = d_1 + d_2 [m]
+    std::int32_t friction = -1;            ///< index of its law of friction; -1: none
     geometry::PairOutlook<Dim> outlook{};  ///< while the list holds
 
     [[nodiscard]] geometry::PairCorners<Dim> at(PointsView<Dim> x) const {
@@ -51,8 +54,8 @@ struct BodyPair {
 template <int Dim>
 class NodalPairs {
 public:
-    explicit NodalPairs(const geometry::FacingFade& facing, Sharing* sharing = nullptr)
-        : facing_(facing), shared_(sharing) {}
+    explicit NodalPairs(const geometry::FacingFade& facing, FrictionOptions friction = {}, Sharing* sharing = nullptr)
+        : facing_(facing), friction_(std::move(friction)), shared_(sharing) {}
 
     /// For a step from x_0 to x_1, and for all positions in which no node is farther than `reach` from x_0 [m]. Leaves out
     /// of `facets` what cannot act there with |g| up to `compression` D, except those `in_contact` (increasing): boxes know
@@ -76,6 +79,7 @@ public:
     [[nodiscard]] const std::vector<BodyPair>& body_pairs() const { return body_pairs_; }  ///< increasing
 
 private:
+    [[nodiscard]] NodalPair<Dim> make_pair(const NodalSurface<Dim>& surface, const FacetPair& facets) const;
     /// Lists nodes, bodies and pairs of bodies, and the indices of the pairs in these.
     void index(const NodalSurface<Dim>& surface);
     /// Fills `outlooks_` for the step from x_0 to x_1, and for nodes that are not farther than `reach` from x_0.
@@ -84,6 +88,7 @@ private:
     [[nodiscard]] bool is_pruned_at(PointsView<Dim> x) const;
 
     geometry::FacingFade facing_;
+    FrictionOptions friction_;
     SharedWork shared_;
     std::vector<NodalPair<Dim>> pairs_;
     double compression_ = 0.0;  // |g|/D up to which pairs can act

@@ -47,6 +47,13 @@ public:
         if (!faces.face_stiffness.empty() && faces.face_stiffness.size() != n)
             refuse("`face_stiffness` has " + std::to_string(faces.face_stiffness.size()) + " entries for " +
                    std::to_string(n) + " faces in `body`; give one each, or none.");
+        const auto require_all = [](const std::string& name, std::size_t size, std::size_t wanted, const std::string& of) {
+            if (size != 0 && size != wanted)
+                refuse("`" + name + "` has " + std::to_string(size) + " entries for " + std::to_string(wanted) + " " + of +
+                       "; give one each, or none.");
+        };
+        require_all("shear_stiffness", faces.shear_stiffness.size(), faces.stiffness.size(), "bodies");
+        require_all("face_shear_stiffness", faces.face_shear_stiffness.size(), n, "faces in `body`");
         if (faces.offsets.empty() ? faces.nodes.size() != Dim * n : faces.offsets.size() != n + 1)
             refuse(faces.offsets.empty()
                        ? "`nodes` has " + std::to_string(faces.nodes.size()) + " entries, " + std::to_string(Dim * n) +
@@ -96,6 +103,21 @@ public:
                             " Pa/m, or infinity.",
                         {.value = stiffness, .allowed = of_body});
         return stiffness;
+    }
+
+    [[nodiscard]] bool has_shear_stiffness() const {
+        return !faces_.shear_stiffness.empty() && faces_.face_stiffness.empty() == faces_.face_shear_stiffness.empty();
+    }
+    [[nodiscard]] double shear_stiffness(std::int32_t face) const {
+        if (stiffness(face) == rigid) return rigid;
+        const double shear =
+            faces_.face_shear_stiffness.empty() ? faces_.shear_stiffness[body(face)] : faces_.face_shear_stiffness[face];
+        if (!is_stiffness(shear))
+            refuse_face(face,
+                        "has the shear stiffness " + number(shear) + " Pa/m; it must be > 0, from " + stiffness_range() +
+                            ". Give mu/(lambda + 2 mu) of its stiffness.",
+                        {.value = shear});
+        return shear;
     }
 
     [[nodiscard]] double depth(std::int32_t face) const {
@@ -194,6 +216,7 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
             facets_.cell_depth.push_back(host.depth(face));
             facets_.body.push_back(host.body(face));
             facets_.stiffness.push_back(host.stiffness(face));
+            if (host.has_shear_stiffness()) facets_.shear_stiffness.push_back(host.shear_stiffness(face));
         };
         if (corners.size() == Dim) append({0, 1, 2});
         if (corners.size() != Dim)

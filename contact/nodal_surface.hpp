@@ -28,6 +28,11 @@ struct NodalFaces {
     /// of its body then bounds it, or infinity of one that the host holds or moves on a path. Empty: that of its body. Not
     /// read for rigid bodies
     std::span<const double> face_stiffness = {};
+    /// (n_bodies) [Pa/m], needed with friction alone, else empty: mu/(lambda + 2 mu) of `stiffness`, with the shear modulus mu;
+    /// infinity of a rigid body. Faces that stick hold each other by it, with the depth that `stiffness` has
+    std::span<const double> shear_stiffness = {};
+    /// (n_faces) the same of `face_stiffness`; needed with friction where that is given
+    std::span<const double> face_shear_stiffness = {};
 };
 
 /// One k for a whole body [Pa/m]: (lambda + 2 mu) over the mean of the given depths of its faces. A k for each face fails
@@ -60,6 +65,8 @@ public:
     [[nodiscard]] const Surface<Dim>& facets() const { return facets_; }
     /// Face of the host that a facet belongs to.
     [[nodiscard]] Face face_of(Facet facet) const { return face_of_[static_cast<std::size_t>(facet)]; }
+    /// Whether it has all that friction needs.
+    [[nodiscard]] bool has_shear_stiffness() const { return facets_.shear_stiffness.size() == facets_.area.size(); }
     /// Facets of a face of the host: one, or two that follow each other.
     [[nodiscard]] std::span<const std::int32_t> facet_offsets() const { return facet_offsets_; }  ///< (n_faces + 1)
     /// Bodies whose faces close a volume and all look into it: the walls of a cavity that is filled, or faces with their

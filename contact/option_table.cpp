@@ -125,6 +125,35 @@ OptionList<geometry::FacingFade> make_facing_options() {
                     .named = Named::changed})};
 }
 
+OptionList<Friction> make_friction_options() {
+    using Of = Friction;
+    const Limits from_zero{.above = 0.0, .from = true};
+    return {
+        option("friction", &Of::coefficient,
+               {.help = "coefficient of friction between faces that touch; 0: none", .limits = from_zero}),
+        option("sliding_friction", &Of::sliding_coefficient,
+               {.help = "coefficient of fast sliding, where it is another than at rest: give decay_speed or decay_slip, too",
+                .limits = from_zero,
+                .named = Named::changed}),
+        option("decay_speed", &Of::decay_speed,
+               {.help = "speed of sliding at which friction has gone 1 - 1/e of the way from rest to fast sliding",
+                .limits = {.unit = "m/s", .above = 0.0, .endless = true},
+                .named = Named::changed}),
+        option("decay_slip", &Of::decay_slip,
+               {.help = "path of sliding after which friction is that of fast sliding",
+                .limits = {.unit = "m", .above = 0.0, .endless = true},
+                .named = Named::changed}),
+        option("shear_strength", &Of::strength,
+               {.help = "shear stress that faces in contact bear beside friction, whatever presses them (Tresca)",
+                .limits = {.unit = "Pa", .above = 0.0, .from = true},
+                .named = Named::changed}),
+        option("relaxation_time", &Of::relaxation_time,
+               {.help = "time in which a force by which faces stick falls by 1/e: damps rigid bodies that flutter, and lets "
+                        "all creep",
+                .limits = {.unit = "s", .above = 0.0, .endless = true},
+                .named = Named::changed})};
+}
+
 OptionList<NodalOptions> make_nodal_options() {
     using Of = NodalOptions;
     const auto of_search = [](const char* name) { return within(&Of::search, named(search_options(), name)); };
@@ -147,6 +176,10 @@ const OptionList<ContactOptions>& contact_options() {
 }
 const OptionList<geometry::FacingFade>& facing_options() {
     static const OptionList<geometry::FacingFade> options = make_facing_options();
+    return options;
+}
+const OptionList<Friction>& friction_options() {
+    static const OptionList<Friction> options = make_friction_options();
     return options;
 }
 const OptionList<NodalOptions>& nodal_options() {

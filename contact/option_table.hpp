@@ -2,6 +2,7 @@
 #include <array>
 
 #include "abut/base/option.hpp"
+#include "abut/contact/friction.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
 
@@ -22,5 +23,6 @@ inline constexpr std::array<Word<geometry::AreaMethod>, 2> area_words{
 [[nodiscard]] const OptionList<ContactOptions>& contact_options();
 [[nodiscard]] const OptionList<geometry::FacingFade>& facing_options();
 [[nodiscard]] const OptionList<NodalOptions>& nodal_options();
+[[nodiscard]] const OptionList<Friction>& friction_options();
 
 }  // namespace abut::contact

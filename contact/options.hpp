@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "abut/contact/friction.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/overlap/overlap.hpp"
 #include "abut/geometry/planarity.hpp"
@@ -59,6 +60,7 @@ struct ContactOptions {
     int quadrature = 0;                ///< Gauss-Legendre points per subinterval, 1 to 3; 0 means Dim, the exact number
     double compression_warning = 0.3;  ///< |g|/D above which a step is counted as strongly compressed
     double compression_limit = 2.0;    ///< |g|/D above which the step is refused with an error
+    FrictionOptions friction = {};     ///< needs `SurfaceView::shear_stiffness`
 };
 
 }  // namespace abut::contact

@@ -40,7 +40,7 @@ void append_projected(const SurfaceView<Dim>& surface, std::int32_t face, const 
 
 template <int Dim>
 void PairList<Dim>::append(const SurfaceView<Dim>& surface, std::int32_t first, std::int32_t second,
-                           InterfaceWeighting weighting) {
+                           InterfaceWeighting weighting, std::int32_t friction) {
     const double theta_1 = share_of_first(surface, first, second, weighting);
     ContactPair<Dim> pair{.face_1 = first,
                           .face_2 = second,
@@ -49,6 +49,7 @@ void PairList<Dim>::append(const SurfaceView<Dim>& surface, std::int32_t first, 
                           .theta_2 = 1.0 - theta_1,
                           .interaction_radius = 0.0,
                           .admission_depth = surface.cell_depth[first] + surface.cell_depth[second]};
+    pair.friction = friction;
     pair.corners_1 = static_cast<std::int32_t>(corners_.size());
     append_projected(surface, first, pair.frame, corners_);
     pair.corners_2 = static_cast<std::int32_t>(corners_.size());

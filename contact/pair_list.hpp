@@ -26,6 +26,7 @@ struct ContactPair {
     std::int32_t corners_1 = 0;  ///< where the projected corners of face 1 begin in the corners of the PairList
     std::int32_t corners_2 = 0;
     std::int32_t corners_end = 0;
+    std::int32_t friction = -1;  ///< index of its law of friction; -1: none
 };
 
 /// Relative position of the two faces of a pair.
@@ -40,7 +41,8 @@ template <int Dim>
 class PairList {
 public:
     /// Pairs come in increasing order.
-    void append(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, InterfaceWeighting weighting);
+    void append(const SurfaceView<Dim>& surface, std::int32_t face_1, std::int32_t face_2, InterfaceWeighting weighting,
+                std::int32_t friction = -1);
     void clear();
     /// The faces of all pairs, increasing; then `number_faces`.
     void list_faces(std::vector<Face>& faces);

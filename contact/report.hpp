@@ -20,6 +20,15 @@ struct ContactReport {
     double slipped_compression_max = 0.0;  ///< their largest |g|/D
     std::int64_t tilted_pairs_max = 0;     ///< the most in a step (StepReport)
     double correction_max = 0.0;           ///< of the pair potential, the largest of a step (StepReport)
+    double friction_dissipated = 0.0;      ///< D so far [J]
+    double least_dissipated = 0.0;         ///< of one face in one step [J]: < 0 by rounding alone under MEMM
+    double friction_ratio_max = 0.0;       ///< largest force of a face over its limit [-]
+    double sliding_force = 0.0;            ///< sum over faces that slide and all steps, times dt [N s]
+    double sliding_limit = 0.0;            ///< the same of their limits [N s]
+    std::int64_t sticking_faces = 0;       ///< in the last step
+    std::int64_t sliding_faces = 0;
+    std::int64_t sticking_faces_max = 0;  ///< the most in a step
+    std::int64_t sliding_faces_max = 0;
 };
 
 }  // namespace abut::contact

@@ -16,11 +16,15 @@ void for_each_counter(Report& report, const Visit& visit) {
     visit(report.compressed_steps), visit(report.compression_max), visit(report.sliding_ratio_max);
     visit(report.slipped_pairs), visit(report.slipped_compression_max);
     visit(report.tilted_pairs_max), visit(report.correction_max);
+    visit(report.friction_dissipated), visit(report.least_dissipated), visit(report.friction_ratio_max);
+    visit(report.sliding_force), visit(report.sliding_limit);
+    visit(report.sticking_faces), visit(report.sliding_faces);
+    visit(report.sticking_faces_max), visit(report.sliding_faces_max);
 }
 
-/// Adds what a step did.
+/// Adds what a step of `dt` [s] did.
 template <class Step>
-void count_step(ContactReport& report, const Step& step, double compression_warning) {
+void count_step(ContactReport& report, const Step& step, double dt, double compression_warning) {
     const StepReport& of_step = step.report;
     report.active_pairs = static_cast<std::int64_t>(step.pairs.size());
     report.active_pairs_max = std::max(report.active_pairs_max, report.active_pairs);
@@ -32,6 +36,16 @@ void count_step(ContactReport& report, const Step& step, double compression_warn
     report.tilted_pairs_max = std::max(report.tilted_pairs_max, of_step.tilted_pairs);
     report.correction_max = std::max(report.correction_max, of_step.correction);
     if (of_step.compression > compression_warning) ++report.compressed_steps;
+    const FrictionFigures& friction = of_step.friction;
+    report.friction_dissipated += friction.dissipated;
+    report.least_dissipated = std::min(report.least_dissipated, friction.least_dissipated);
+    report.friction_ratio_max = std::max(report.friction_ratio_max, friction.largest_ratio);
+    report.sliding_force += dt * friction.sliding_force;
+    report.sliding_limit += dt * friction.sliding_limit;
+    report.sticking_faces = friction.sticking;
+    report.sliding_faces = friction.sliding;
+    report.sticking_faces_max = std::max(report.sticking_faces_max, friction.sticking);
+    report.sliding_faces_max = std::max(report.sliding_faces_max, friction.sliding);
 }
 
 }  // namespace abut::contact

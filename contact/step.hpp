@@ -45,10 +45,36 @@ struct PairStep {
     double gap_1;         ///< g at its end [m]
     double area;          ///< A_12, mean over the step, 0 where the pair is not active [m^(Dim-1)]
     double normal_force;  ///< -beta A, mean over the step [N], > 0 in compression
-    Vector<Dim> force;    ///< on face 2, mean over the step [N]; face 1 feels the opposite
+    Vector<Dim> force;    ///< on face 2, mean over the step, friction included [N]; face 1 feels the opposite
     std::int32_t events;  ///< openings, closings and changes of the overlap inside the step
     double active_share;  ///< part of the step in which the pair is active [-], 0 to 1
     double compression;   ///< largest |g|/D at the ends of the step [-]
+    Vector<Dim> friction = Vector<Dim>::Zero();  ///< part of `force` that is friction [N]
+    Vector<Dim> slip = Vector<Dim>::Zero();      ///< motion of face 2 past face 1 along both, where there is friction [m]
+    Vector<Dim> point = Vector<Dim>::Zero();     ///< where friction acts, at the middle of the step [m]
+};
+
+/// Friction of one face in a step: of a facet, where a face has two.
+struct FaceFriction {
+    Face face;
+    double normal_force;  ///< that its friction is of [N]: half of that on the face, all of it where the partner is rigid
+    double force;         ///< along the face, mean over the step [N]
+    double limit;         ///< at which it slides [N]
+    double slip;          ///< in this step [m]; 0: it sticks
+    double dissipated;    ///< in this step [J]
+};
+
+/// Figures of friction in a step; all 0 without any. Energy and dissipation close the balance of a host: H~ with `energy` in V,
+/// plus the sum of `dissipated`, less the work from outside, stays what it was.
+struct FrictionFigures {
+    double energy = 0.0;            ///< E of all springs by which faces stick, at the end of the step [J]
+    double dissipated = 0.0;        ///< D in the step [J]
+    double least_dissipated = 0.0;  ///< of one face [J]: < 0 by rounding alone under MEMM
+    std::int64_t sticking = 0;      ///< faces
+    std::int64_t sliding = 0;       ///< faces
+    double largest_ratio = 0.0;     ///< of the force of a face over its limit [-]
+    double sliding_force = 0.0;     ///< sum over the faces that slide [N]
+    double sliding_limit = 0.0;     ///< the same of their limits [N]; far above: their slip alternates from step to step
 };
 
 /// Figures of a step as a whole.
@@ -70,6 +96,7 @@ struct StepReport {
     /// Of the pair potential: what closes the balance of energy, over the forces of all pairs. Beyond 1e-3 the step is too
     /// long to follow the pairs.
     double correction = 0.0;
+    FrictionFigures friction;
 };
 
 /// What contact did in one step, as a value: arrays by listed face, active pairs, figures. Without an active pair all is
@@ -84,6 +111,7 @@ struct ContactStep {
     std::vector<PairStep<Dim>> pairs;                ///< the active ones, by (face_1, face_2)
     /// What the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q delta [J].
     double energy = 0.0;
+    std::vector<FaceFriction> friction;  ///< of each face with friction, increasing
     StepReport report;
 
     [[nodiscard]] bool is_active() const { return !pairs.empty(); }

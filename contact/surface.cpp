@@ -74,6 +74,10 @@ void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
         refuse(surface, face,
                "is said to be " + std::to_string(surface.steps_to_edge(face)) + " steps away from a sharp edge, at most " +
                    std::to_string(far_from_sharp_edge) + " are counted. Take contact::steps_to_sharp_edge.");
+    if (!surface.shear_stiffness.empty() && !(surface.shear_stiffness[face] > 0.0))
+        refuse(surface, face,
+               "has the shear stiffness " + number(surface.shear_stiffness[face]) +
+                   " Pa/m; it must be > 0, and infinity for a rigid face. Give mu |f|/|c|.");
     if (!(surface.cell_depth[face] >= 0.0) || (surface.cell_depth[face] == 0.0 && !surface.is_rigid(face)))
         refuse(surface, face,
                "has the cell depth " + number(surface.cell_depth[face]) +
@@ -148,7 +152,8 @@ void check_face(const SurfaceView<Dim>& surface, std::int32_t face, double plana
 
 template <int Dim>
 SurfaceView<Dim> Surface<Dim>::view() const {
-    return {vertices, face_offsets, face_vertices, centroid, normal, area, cell_depth, stiffness, body, steps_to_sharp_edge};
+    return {vertices,  face_offsets, face_vertices,       centroid,       normal, area, cell_depth,
+            stiffness, body,         steps_to_sharp_edge, shear_stiffness};
 }
 
 template <int Dim>
@@ -167,6 +172,7 @@ void Surface<Dim>::append(std::span<const Vector<Dim>> corners, double face_cell
     stiffness.push_back(face_stiffness);
     body.push_back(face_body);
     if (!steps_to_sharp_edge.empty()) steps_to_sharp_edge.push_back(far_from_sharp_edge);
+    if (!shear_stiffness.empty()) shear_stiffness.push_back(std::numeric_limits<double>::infinity());
 }
 
 template <int Dim>
@@ -185,6 +191,7 @@ void check_sizes(const SurfaceView<Dim>& surface) {
     require_size(surface.stiffness.size(), n, "stiffness");
     require_size(surface.body.size(), n, "body");
     if (!surface.steps_to_sharp_edge.empty()) require_size(surface.steps_to_sharp_edge.size(), n, "steps_to_sharp_edge");
+    if (!surface.shear_stiffness.empty()) require_size(surface.shear_stiffness.size(), n, "shear_stiffness");
     const auto refuse_offsets = [](const std::string& what) {
         throw BadInput("contact surface: `face_offsets` " + what + "; it must rise from 0 to the size of `face_vertices`.");
     };
@@ -225,6 +232,7 @@ std::uint64_t fingerprint(const SurfaceView<Dim>& surface) {
     checksum.add_values(surface.stiffness);
     checksum.add_values(surface.body);
     checksum.add_values(surface.steps_to_sharp_edge);
+    checksum.add_values(surface.shear_stiffness);
     return checksum.value();
 }
 

@@ -41,6 +41,10 @@ struct SurfaceView {
     /// of both
     std::span<const std::uint8_t> steps_to_sharp_edge = {};
 
+    /// (n) [Pa/m], needed with friction alone, else empty: shear stiffness of the boundary half-cell, mu |f|/|c|; infinity: a
+    /// rigid face
+    std::span<const double> shear_stiffness = {};
+
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }
     [[nodiscard]] std::span<const std::int32_t> vertices_of(std::int32_t face) const {
         return face_vertices.subspan(static_cast<std::size_t>(face_offsets[face]),
@@ -67,6 +71,7 @@ struct Surface {
     std::vector<double> stiffness;
     std::vector<std::int32_t> body;
     std::vector<std::uint8_t> steps_to_sharp_edge;  ///< empty until it is set; faces appended later are far
+    std::vector<double> shear_stiffness;            ///< empty until it is set; faces appended later are rigid
 
     [[nodiscard]] SurfaceView<Dim> view() const;
     [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(area.size()); }

@@ -34,6 +34,7 @@ void for_each_value(Entry& entry, const Visit& visit) {
     visit_vector(entry.rest_angular_momentum);
     visit_all(entry.restarts.restarts, entry.restarts.shortened, entry.restarts.skipped, entry.restarts.paid);
     visit_vector(entry.pseudo_angular_momentum);
+    visit_all(entry.dissipated, entry.friction_energy, entry.sticking_faces, entry.sliding_faces);
 }
 
 /// Sum of term(i) over all points of a run.
@@ -54,6 +55,7 @@ std::vector<std::string> ledger_columns() {
     append_names<Dim>(names, "rest_angular_momentum", n_rotations<Dim>);
     names.insert(names.end(), {"restarts", "restarts_shortened", "restarts_skipped", "restart_paid"});
     append_names<Dim>(names, "pseudo_angular_momentum", n_rotations<Dim>);
+    names.insert(names.end(), {"dissipated", "friction_energy", "sticking_faces", "sliding_faces"});
     return names;
 }
 
@@ -115,9 +117,10 @@ void Ledger<Dim>::record(const LedgerEntry<Dim>& entry) {
     entries_.push_back(entry);
     const LedgerEntry<Dim>& first = entries_.front();
     const auto raise = [](double& so_far, double value) { so_far = larger(so_far, value); };
-    const auto kept = [](const LedgerEntry<Dim>& e) { return e.pseudo_energy - e.work - e.restart_jumps; };
+    const auto kept = [](const LedgerEntry<Dim>& e) { return e.pseudo_energy - e.received(); };
+    const auto true_energy = [](const LedgerEntry<Dim>& e) { return e.energy - e.work + e.dissipated; };
     raise(pseudo_energy_drift_, std::abs(kept(entry) - kept(first)));
-    raise(energy_drift_, std::abs((entry.energy - entry.work) - (first.energy - first.work)));
+    raise(energy_drift_, std::abs(true_energy(entry) - true_energy(first)));
     raise(energy_excess_, entry.energy - entry.pseudo_energy);
     raise(parasitic_, entry.parasitic);
     raise(momentum_drift_, (entry.linear_momentum - first.linear_momentum).norm());

@@ -14,6 +14,11 @@ namespace abut::dynamics {
 struct ContactCounts {
     std::int64_t active_pairs = 0;  ///< in the last step
     std::int64_t events = 0;        ///< so far
+    // Of friction; all 0 without any.
+    double dissipated = 0.0;          ///< D so far [J]
+    double friction_energy = 0.0;     ///< E, held by faces that stick: a part of V [J]
+    std::int64_t sticking_faces = 0;  ///< in the last step
+    std::int64_t sliding_faces = 0;   ///< the same
 };
 
 /// What neutral restarts have done so far; all zero without any. dynamics/neutral_restart.hpp
@@ -46,6 +51,13 @@ struct LedgerEntry {
     RestartReport restarts;                      ///< so far
     /// J~, which MEMM conserves where bodies may turn [kg m^2/s]: see `pseudo_angular_momentum`
     AngularMomentum<Dim> pseudo_angular_momentum;
+    double dissipated;            ///< by friction so far [J]
+    double friction_energy;       ///< part of `potential` that friction holds [J]
+    std::int64_t sticking_faces;  ///< in the last step
+    std::int64_t sliding_faces;   ///< the same
+
+    /// What H~ has got since the start: work, jumps of restarts, less what friction has taken [J].
+    [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }
 };
 
 /// Names of the columns of an entry, in its order; vectors by component (linear_momentum_x, ...).
@@ -129,6 +141,10 @@ template <class Scheme, PointSystem S>
         const ContactCounts counts = system.contact_counts();
         entry.active_pairs = counts.active_pairs;
         entry.events = counts.events;
+        entry.dissipated = counts.dissipated;
+        entry.friction_energy = counts.friction_energy;
+        entry.sticking_faces = counts.sticking_faces;
+        entry.sliding_faces = counts.sliding_faces;
     }
     if constexpr (requires { system.rotations(integrator.q()); })
         entry.rotation = detail::largest_angle(system.rotations(integrator.q()));
@@ -145,9 +161,9 @@ public:
     void record(const LedgerEntry<Dim>& entry);
 
     [[nodiscard]] const std::vector<LedgerEntry<Dim>>& entries() const { return entries_; }
-    /// max |H~ - H~0 - work - restart_jumps|, H~ being the pseudo-energy of the scheme [J]
+    /// max |H~ - H~0 - LedgerEntry::received|, H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double pseudo_energy_drift() const { return pseudo_energy_drift_; }
-    /// max |H - H0 - work| [J]: the true error
+    /// max |H - H0 - work + dissipated| [J]: the true error
     [[nodiscard]] double energy_drift() const { return energy_drift_; }
     /// max (H - H~), H~ being the pseudo-energy of the scheme [J]
     [[nodiscard]] double energy_excess() const { return energy_excess_; }

@@ -27,6 +27,7 @@ struct Variety {
 [[nodiscard]] const Keys<ProbeSettings>& probe_keys();
 [[nodiscard]] const Keys<BodySettings>& body_keys();  ///< of all bodies
 [[nodiscard]] const Keys<BodySettings>& part_keys();  ///< of a body of a file with several
+[[nodiscard]] const Keys<PairSettings>& pair_keys();
 [[nodiscard]] const Keys<ObstacleSettings>& obstacle_keys();
 [[nodiscard]] const Keys<SupportSettings>& support_keys();
 [[nodiscard]] const Keys<TractionSettings>& traction_keys();

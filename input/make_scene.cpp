@@ -88,22 +88,38 @@ void check_apart(const mesh::Mesh<Dim>& mesh, const Settings& settings, mesh::Ig
     }
 }
 
-/// Bodies by their number, and obstacles behind them. Those that are not there because of a fault are left out.
+/// Pairs of bodies by their number, and obstacles behind them. Those that are not there because of a fault are left out.
 template <int Dim>
-void add_ignored_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
+void add_pairs(run::Scene<Dim>& scene, const Settings& settings, std::vector<Fault>& faults) {
     const Names<Dim> names(scene.mesh, settings.bodies, faults);
     const auto obstacle = [&](const std::string& name) -> std::optional<std::int32_t> {
         const auto found = std::ranges::find(settings.obstacles, name, &ObstacleSettings::name);
         if (found == settings.obstacles.end()) return std::nullopt;
         return scene.mesh.n_bodies() + static_cast<std::int32_t>(found - settings.obstacles.begin());
     };
-    for (const IgnoredPair& pair : settings.ignored_pairs) {
+    const auto numbers_of = [&](const std::array<std::string, 2>& of, const std::string& where,
+                                const std::string& key) -> std::optional<std::array<std::int32_t, 2>> {
         std::array<std::optional<std::int32_t>, 2> numbers;
         for (std::size_t i = 0; i < 2; ++i) {
-            numbers[i] = names.has_body(pair.names[i]) ? std::nullopt : obstacle(pair.names[i]);
-            if (!numbers[i]) numbers[i] = names.body(pair.names[i], pair.where, "contact.ignored_pairs");
+            numbers[i] = names.has_body(of[i]) ? std::nullopt : obstacle(of[i]);
+            if (!numbers[i]) numbers[i] = names.body(of[i], where, key);
         }
-        if (numbers[0] && numbers[1]) scene.solid.ignored_pairs.push_back({*numbers[0], *numbers[1]});
+        if (!numbers[0] || !numbers[1]) return std::nullopt;
+        return std::array{*numbers[0], *numbers[1]};
+    };
+    for (const IgnoredPair& pair : settings.ignored_pairs)
+        if (const auto numbers = numbers_of(pair.names, pair.where, "contact.ignored_pairs"))
+            scene.solid.ignored_pairs.push_back(*numbers);
+    for (const PairSettings& pair : settings.pairs) {
+        const auto numbers = numbers_of(pair.names, pair.where, "contact.pairs.bodies");
+        if (!numbers) continue;
+        const auto is_same_pair = [&](const solid::BodyFriction& other) {
+            return other.bodies == *numbers || other.bodies == std::array{(*numbers)[1], (*numbers)[0]};
+        };
+        if (std::ranges::any_of(scene.solid.body_friction, is_same_pair))
+            faults.push_back({pair.where, fmt::format("contact.pairs: '{}' and '{}' have two laws of friction; give one.",
+                                                      pair.names[0], pair.names[1])});
+        scene.solid.body_friction.push_back({*numbers, pair.friction});
     }
 }
 
@@ -134,7 +150,7 @@ template <int Dim>
 run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults) {
     run::Scene<Dim> scene;
     add_bodies(scene, settings, faults);
-    add_ignored_pairs(scene, settings, faults);
+    add_pairs(scene, settings, faults);
     add_loads(scene, settings, faults);
     add_obstacles(scene, settings, faults);
     add_outputs(scene, settings, faults);
@@ -142,6 +158,7 @@ run::Scene<Dim> make_scene(const Settings& settings, std::vector<Fault>& faults)
     if (!scene.contact) {
         scene.solid.obstacles.clear();
         scene.solid.ignored_pairs.clear();
+        scene.solid.body_friction.clear();
     }
     if (scene.contact) check_apart<Dim>(scene.mesh, settings, scene.solid.ignored_pairs, faults);
     if (settings.energy_scale > 0.0) scene.energy_scale = {"H0", settings.energy_scale};

@@ -49,12 +49,13 @@ public:
     /// "x", "y", "z"
     [[nodiscard]] std::optional<std::array<bool, 3>> components(const Node& node, const std::string& key);
     [[nodiscard]] bool is_table(const Node& node, const std::string& key);
+    /// A fault for a value of another type than `wanted`.
+    void wrong_type(const Node& node, const std::string& key, const std::string& wanted);
 
 private:
     /// Whether it is about z: a number, not a list.
     [[nodiscard]] bool is_in_plane(const Node& node) const;
     [[nodiscard]] bool has_components(const Node& node, const std::string& key, const std::string& of_what);
-    void wrong_type(const Node& node, const std::string& key, const std::string& wanted);
 
     std::vector<Fault> faults_;
 };

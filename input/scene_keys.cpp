@@ -1,5 +1,9 @@
+#include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 
+#include "abut/contact/option_table.hpp"
 #include "abut/input/keys.hpp"
 #include "abut/input/option_keys.hpp"
 #include "abut/run/option_table.hpp"
@@ -35,6 +39,33 @@ Key<TractionSettings> follows() {
     return key;
 }
 
+std::optional<std::array<std::string, 2>> two_names(Reader& reader, const Node& node, const std::string& key) {
+    if (node.type != Node::Type::array || node.items.size() != 2 ||
+        std::ranges::any_of(node.items, [](const Node& name) { return name.type != Node::Type::text; })) {
+        reader.wrong_type(node, key, "two names such as [\"left\", \"floor\"]");
+        return std::nullopt;
+    }
+    return std::array{node.items[0].text, node.items[1].text};
+}
+
+Key<Settings> pairs() {
+    const auto take = [](Settings& settings, const Node& node, const std::string& key, Reader& reader) {
+        if (node.type != Node::Type::array) return reader.wrong_type(node, key, "tables [[contact.pairs]]");
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            const std::string path = key + "[" + std::to_string(i) + "]";
+            if (!reader.is_table(node.items[i], path)) continue;
+            PairSettings pair;
+            pair.where = node.items[i].where;
+            read_table(pair, node.items[i], path, pair_keys(), reader);
+            settings.pairs.push_back(std::move(pair));
+        }
+    };
+    return {.name = "pairs",
+            .value = "tables",
+            .help = "two bodies, or a body and an obstacle, with a law of friction of their own, [[contact.pairs]]",
+            .take = take};
+}
+
 }  // namespace
 
 const Keys<Settings>& top_keys() {
@@ -60,8 +91,21 @@ const Keys<Settings>& contact_keys() {
          key_of<Settings>("ignored_pairs", "list of pairs of names",
                           "bodies, or a body and an obstacle, that pass through each other: [[\"left\", \"floor\"]]",
                           &Settings::ignored_pairs,
-                          [](Reader& reader, const Node& node, const std::string& key) { return reader.pairs(node, key); })},
+                          [](Reader& reader, const Node& node, const std::string& key) { return reader.pairs(node, key); }),
+         pairs()},
         "contact");
+    return keys;
+}
+
+const Keys<PairSettings>& pair_keys() {
+    static const Keys<PairSettings> keys = [] {
+        Keys<PairSettings> all{required(key_of<PairSettings>("bodies", "two names", "bodies, or a body and an obstacle",
+                                                             &PairSettings::names, two_names))};
+        const Keys<PairSettings> of_friction = keys_of_options<PairSettings>(
+            contact::friction_options(), "", [](PairSettings& pair) -> contact::Friction& { return pair.friction; });
+        all.insert(all.end(), of_friction.begin(), of_friction.end());
+        return all;
+    }();
     return keys;
 }
 

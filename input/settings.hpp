@@ -147,6 +147,13 @@ struct IgnoredPair {
     std::string where;  ///< Fault::where
 };
 
+/// A law of friction between two bodies or obstacles.
+struct PairSettings {
+    std::array<std::string, 2> names;
+    std::string where;  ///< Fault::where
+    contact::Friction friction;
+};
+
 struct ProbeSettings : Named {
     std::string body;
     std::optional<Vector<3>> point;  ///< [m]
@@ -160,6 +167,7 @@ struct Settings {
     double energy_scale = 0.0;              ///< [J]
     bool contact = true;
     std::vector<IgnoredPair> ignored_pairs;
+    std::vector<PairSettings> pairs;
     std::vector<MaterialSettings> materials;
     std::vector<BodySettings> bodies;
     std::vector<ObstacleSettings> obstacles;

@@ -21,12 +21,12 @@ struct Accounts {
     /// `speed_now` of this entry [m/s]; `given`: I until then.
     void record(const dynamics::LedgerEntry<Dim>& entry, double speed_now, const Vector<Dim>& given) {
         if (is_first) {
-            first_energy = entry.pseudo_energy - entry.work - entry.restart_jumps;
+            first_energy = entry.pseudo_energy - entry.received();
             first_momentum = entry.linear_momentum - given;
             energy_in_play = entry.kinetic;
             is_first = false;
         }
-        const double to_share = first_energy + entry.work + entry.restart_jumps;
+        const double to_share = first_energy + entry.received() + entry.dissipated;
         for (const double energy : {std::abs(entry.work), to_share, to_share - entry.potential, -entry.potential})
             energy_in_play = std::max(energy_in_play, energy);
         speed = std::max(speed, speed_now);

@@ -15,7 +15,7 @@ constexpr double divergence_factor = 1e3;
 
 template <int Dim>
 double own_energy(const dynamics::LedgerEntry<Dim>& entry) {
-    return entry.energy - entry.work - entry.restart_jumps;
+    return entry.energy - entry.received();
 }
 
 }  // namespace

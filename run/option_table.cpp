@@ -74,7 +74,7 @@ List of_time() {
                {.help = "energy-neutral filter of the parasitic mode, after each step in contact", .schemes = memm}),
         option("restart", &Of::restart,
                {.help = "of memm: steps between neutral restarts, which clear the parasitic mode of whole bodies; 0: none",
-                .by_default = "50 where a body is finite, else 0",
+                .by_default = "10 and the filter with friction, 50 where a body is finite, else 0",
                 .schemes = memm}),
         choice(
             "kinematics", &Of::kinematics, kinematics_words,
@@ -116,6 +116,7 @@ List of_contact() {
                         "for all, and by default"})};
     const auto append = [&](const List& more) { options.insert(options.end(), more.begin(), more.end()); };
     append(within(&Of::contact, contact::contact_options()));
+    append(within(&Of::friction, contact::friction_options()));
     append(within(&Of::facing, contact::facing_options()));
     append(
         {choice(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "abut/contact/friction.hpp"
 #include "abut/contact/options.hpp"
 #include "abut/dynamics/scheme.hpp"
 #include "abut/geometry/pair_potential/pair_potential.hpp"
@@ -18,6 +19,7 @@ namespace abut::run {
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 inline constexpr int restart_not_given = std::numeric_limits<int>::min();
 inline constexpr int restart_of_finite = 50;
+inline constexpr int restart_with_friction = 10;
 
 /// A solid with contact runs under those of integrator_words (run/option_table.hpp); `simulate` refuses others. docs/integrators.md says which to choose.
 using SolidIntegrator = dynamics::Scheme;
@@ -37,6 +39,7 @@ struct RunOptions {
     BodyKinematics kinematics = BodyKinematics::scene;
     solid::ContactLaw law = solid::ContactLaw::automatic;
     contact::ContactOptions contact;
+    contact::Friction friction;   ///< between all bodies and obstacles for which the scene has no law
     geometry::FacingFade facing;  ///< of the pair potential: how pairs fade out as faces turn away from each other
     solid::FreeFaceRule neumann = solid::FreeFaceRule::local_equilibrium;
     solid::CornerRule corners = solid::CornerRule::relaxed;
@@ -48,8 +51,8 @@ struct RunOptions {
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
     bool filter = false;       ///< energy-neutral filter of the parasitic mode, near the contact
-    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given: 50 with memm where a body is finite,
-    /// whose forces feed the mode, else none
+    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given, with memm: 10 and the filter where
+    /// there is friction, which is lost without; 50 where a body is finite, whose forces feed the mode; else none
     int restart = restart_not_given;
     int threads = 0;    ///< at most; 0: all. The results do not depend on it
     int ranks = 0;      ///< that the programs start; 0: none but those of mpirun. The results do not depend on it

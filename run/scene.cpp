@@ -83,7 +83,16 @@ solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions
     constexpr geometry::FacingFade plain;
     if (options.facing.full != plain.full || options.facing.none != plain.none) solid.facing = options.facing;
     solid.contact = scene.contact ? std::optional(options.contact) : std::nullopt;
+    solid.friction = options.friction;
     return solid;
+}
+
+template <int Dim>
+bool has_friction(const Scene<Dim>& scene, const RunOptions& options) {
+    solid::SolidOptions<Dim> solid;
+    solid.friction = options.friction;
+    solid.body_friction = scene.solid.body_friction;
+    return scene.contact && solid.has_friction();
 }
 
 template <int Dim>
@@ -95,6 +104,10 @@ RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
                                    : options.kinematics == BodyKinematics::scene &&
                                          std::ranges::find(kinematics, solid::Kinematics::finite) != kinematics.end();
     options.restart = any_finite && options.integrator == SolidIntegrator::memm ? restart_of_finite : 0;
+    if (has_friction(scene, options) && options.integrator == SolidIntegrator::memm) {
+        options.filter = true;
+        options.restart = restart_with_friction;
+    }
     return options;
 }
 
@@ -135,6 +148,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);           \
+    template bool has_friction<Dim>(const Scene<Dim>&, const RunOptions&);                                \
     template RunOptions with_restart<Dim>(RunOptions, const Scene<Dim>&);                                 \
     template solid::Kinematics kinematics_of<Dim>(const Scene<Dim>&, const RunResult<Dim>&, std::size_t); \
     template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&); \

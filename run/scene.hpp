@@ -114,7 +114,10 @@ struct RunResult {
 /// Options of the solid of a scene. Throws BadInput for BodyKinematics::automatic, which choose_kinematics resolves.
 template <int Dim>
 [[nodiscard]] solid::SolidOptions<Dim> solid_options(const Scene<Dim>& scene, const RunOptions& options);
-/// With `restart` filled in, by the kinematics that the bodies are run with.
+/// Whether some bodies or obstacles of a run rub.
+template <int Dim>
+[[nodiscard]] bool has_friction(const Scene<Dim>& scene, const RunOptions& options);
+/// With `restart` filled in, by friction and the kinematics that the bodies are run with; with friction the filter, too.
 template <int Dim>
 [[nodiscard]] RunOptions with_restart(RunOptions options, const Scene<Dim>& scene);
 /// Displacements of the points of the scene's solid, on several ranks of those of this one, (n_points, Dim) [m].

@@ -174,6 +174,17 @@ void Bodies<Dim>::check() const {
                        ": contact is to be ignored by bodies of its surface, which a solid numbers as it likes. Give "
                        "SolidOptions::ignored_pairs instead.");
     const std::int64_t n_all = mesh_.n_bodies() + std::ssize(options_.obstacles);
+    if (options_.contact && options_.contact->friction.any())
+        throw BadInput(mesh_.name +
+                       ": friction is given by faces of the surface of contact, which a solid numbers as it likes. Give "
+                       "SolidOptions::friction and body_friction instead.");
+    for (const BodyFriction& one : options_.body_friction)
+        for (const std::int32_t body : one.bodies)
+            if (body < 0 || body >= n_all)
+                throw BadInput(mesh_.name + ": friction is given for body " + std::to_string(body) +
+                                   "; bodies and obstacles are counted from 0 to " + std::to_string(n_all - 1) +
+                                   ". Correct SolidOptions::body_friction.",
+                               {.value = static_cast<double>(body), .allowed = static_cast<double>(n_all - 1)});
     for (const auto& pair : options_.ignored_pairs)
         for (const std::int32_t body : pair)
             if (body < 0 || body >= n_all)

@@ -99,6 +99,10 @@ public:
         return values;
     }
     /// lambda + 2 mu of a rigid body's material, of which its skin is [Pa].
+    /// Material of a body that deforms, or of a rigid one behind these, as contact numbers them.
+    [[nodiscard]] const Material& material_of_contact_body(std::int32_t body) const {
+        return options_.materials[static_cast<std::size_t>(mesh_body(body))];
+    }
     [[nodiscard]] double rigid_skin(std::size_t rigid) const {
         return options_.materials[static_cast<std::size_t>(rigid_->mesh_body(rigid))].wave_modulus();
     }

@@ -100,7 +100,9 @@ public:
     /// On each rigid body, with moments about arms at rest; empty where there is none.
     [[nodiscard]] virtual std::span<const BodyPush<Dim>> rigid_pushes() const { return {}; }
     /// What V has beside the energy of the cells with these corrections [J].
-    [[nodiscard]] virtual double energy() const { return 0.0; }
+    [[nodiscard]] virtual double energy() const = 0;
+    /// Of the last step or evaluation.
+    [[nodiscard]] virtual const contact::FrictionFigures& friction() const = 0;
     /// Sets the forces on the obstacles, and adds the work of these in the step: `share` of it [J].
     virtual void take_obstacle_forces(double share, double& work) = 0;
     /// Adds what bodies did to each other on the path of the step, or in a part of it this long [s].

@@ -25,7 +25,9 @@ struct ActingPair {
     double gap;           ///< [m], < 0 pressed in
     double area;          ///< that they share [m^(Dim-1)]
     double normal_force;  ///< [N], > 0 in compression
-    Vector<Dim> force;    ///< on face 2 [N]; face 1 feels the opposite
+    Vector<Dim> force;    ///< on face 2, friction included [N]; face 1 feels the opposite
+    Vector<Dim> friction;  ///< part of it that is friction [N]
+    Vector<Dim> slip;      ///< motion of face 2 past face 1 in the last step, where there is friction [m]
 };
 
 /// What two bodies have done to each other by contact since the first step. Obstacles count as bodies behind those of the

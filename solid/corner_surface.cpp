@@ -139,7 +139,27 @@ template <int Dim>
 contact::NodalSurface<Dim> CornerSurface<Dim>::for_contact() const {
     contact::NodalFaces<Dim> view = faces_.view();
     view.face_stiffness = stiffness_;
+    if (!bodies_.deformable_options().has_friction()) return contact::NodalSurface<Dim>(rest_, view);
+    const auto ratio_of = [&](std::int32_t body) {
+        return static_cast<std::size_t>(body) < faces_.stiffness.size() - obstacles_.size()
+                   ? bodies_.material_of_contact_body(body).shear_ratio()
+                   : 1.0;  // of infinity
+    };
+    std::vector<double> of_bodies, of_faces;
+    for (std::size_t body = 0; body < faces_.stiffness.size(); ++body)
+        of_bodies.push_back(ratio_of(static_cast<std::int32_t>(body)) * faces_.stiffness[body]);
+    for (std::size_t face = 0; face < stiffness_.size(); ++face)
+        of_faces.push_back(ratio_of(faces_.body[face]) * stiffness_[face]);
+    view.shear_stiffness = of_bodies;
+    view.face_shear_stiffness = of_faces;
     return contact::NodalSurface<Dim>(rest_, view);
+}
+
+template <int Dim>
+std::vector<std::int32_t> CornerSurface<Dim>::bodies_of_faces() const {
+    std::vector<std::int32_t> bodies;
+    for (const std::int32_t body : faces_.body) bodies.push_back(bodies_.mesh_body(body));
+    return bodies;
 }
 
 template <int Dim>

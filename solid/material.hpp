@@ -15,6 +15,8 @@ struct Material {
     [[nodiscard]] double mu() const { return 0.5 * young / (1.0 + poisson); }
     /// lambda + 2 mu, the modulus of a wave of compression [Pa].
     [[nodiscard]] double wave_modulus() const { return lambda() + 2.0 * mu(); }
+    /// Shear over normal stiffness of half a cell, mu / (lambda + 2 mu) [-].
+    [[nodiscard]] double shear_ratio() const { return mu() / wave_modulus(); }
     /// `eta`, or E where none is given [Pa].
     [[nodiscard]] double stabilisation() const { return eta > 0.0 ? eta : young; }
 };

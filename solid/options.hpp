@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,12 @@
 
 namespace abut::solid {
 
+/// Friction between two bodies.
+struct BodyFriction {
+    std::array<std::int32_t, 2> bodies;  ///< in either order; obstacle i is body n_bodies + i
+    contact::Friction law;
+};
+
 /// What a scene holds beside its mesh.
 template <int Dim>
 struct SolidOptions {
@@ -34,8 +41,14 @@ struct SolidOptions {
     std::vector<contact::RigidObstacle<Dim>> obstacles;  ///< with contact only
     /// Pairs of bodies, in either order, that pass through each other; obstacle i is body n_bodies + i
     std::vector<std::array<std::int32_t, 2>> ignored_pairs = {};
+    contact::Friction friction = {};  ///< between all bodies and obstacles that have no law of their own
+    std::vector<BodyFriction> body_friction = {};
     Precision precision = Precision::double_precision;  ///< of the bulk in steps: `mean_force` and `end_force`
     StepDevice device = StepDevice::host;               ///< of the same
+
+    [[nodiscard]] bool has_friction() const {
+        return friction.acts() || std::ranges::any_of(body_friction, [](const BodyFriction& one) { return one.law.acts(); });
+    }
 };
 
 /// Where the time of all steps of a Solid went [s].

@@ -12,6 +12,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/geometry/box.hpp"
 #include "abut/geometry/polygon.hpp"
+#include "abut/solid/friction.hpp"
 
 namespace abut::solid {
 namespace {
@@ -33,7 +34,7 @@ std::vector<std::array<std::int32_t, 2>> ignored_pairs(const Bodies<Dim>& bodies
 }
 
 template <int Dim>
-contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
+contact::NodalOptions nodal_options(const Bodies<Dim>& bodies, const CornerSurface<Dim>& corners) {
     const SolidOptions<Dim>& options = bodies.deformable_options();
     const contact::ContactOptions& contact = *options.contact;
     contact::CandidateOptions search = contact.search;
@@ -43,6 +44,7 @@ contact::NodalOptions nodal_options(const Bodies<Dim>& bodies) {
             .events = contact.events,
             .compression_warning = contact.compression_warning,
             .compression_limit = contact.compression_limit,
+            .friction = friction_between(options, corners.bodies_of_faces()),
             .wanted = {}};
 }
 
@@ -60,7 +62,7 @@ PairPotentialDriver<Dim>::PairPotentialDriver(const Bodies<Dim>& bodies, Ccg<Dim
       sharing_(part.is_whole() ? std::nullopt : std::optional<RankSharing>(ranks_)),
       obstacles_(bodies.deformable_options().obstacles),
       corners_(bodies, ccg, frames, obstacles_, part),
-      contact_(corners_.for_contact(), nodal_options(bodies), sharing_ ? &*sharing_ : nullptr),
+      contact_(corners_.for_contact(), nodal_options(bodies, corners_), sharing_ ? &*sharing_ : nullptr),
       all_(corners_.list_all()),
       x_0_(corners_.rest()),
       x_1_(x_0_),

@@ -42,7 +42,10 @@ public:
     [[nodiscard]] FaceCorrections<Dim> corrections() const override;
     [[nodiscard]] std::span<const BodyPush<Dim>> pushes() const override { return pushes_; }
     [[nodiscard]] std::span<const BodyPush<Dim>> rigid_pushes() const override { return rigid_pushes_; }
-    [[nodiscard]] double energy() const override { return contact_.last().energy; }
+    [[nodiscard]] double energy() const override {
+        return contact_.last().energy + contact_.last().report.friction.energy;
+    }
+    [[nodiscard]] const contact::FrictionFigures& friction() const override { return contact_.last().report.friction; }
     void take_obstacle_forces(double share, double& work) override;
     void add_impulses(double dt) override;
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }

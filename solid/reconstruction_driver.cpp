@@ -12,6 +12,7 @@
 #include "abut/contact/sharp_edges.hpp"
 #include "abut/solid/contact_faces.hpp"
 #include "abut/solid/contact_patches.hpp"
+#include "abut/solid/friction.hpp"
 
 namespace abut::solid {
 namespace {
@@ -40,17 +41,22 @@ ReconstructionDriver<Dim>::ReconstructionDriver(const mesh::Mesh<Dim>& mesh, con
       ranks_(part.is_whole() ? nullptr : std::make_unique<RankFaces<Dim>>(part, mesh, ccg)),
       watch_(ccg, part.ranks()) {
     if (ranks_) sharing_.emplace(part.ranks());
-    build_surface();
+    build_surface(options);
+    options_.friction = friction_between(options, surface_.body);
     make_contact();
 }
 
 template <int Dim>
-void ReconstructionDriver<Dim>::build_surface() {
+void ReconstructionDriver<Dim>::build_surface(const SolidOptions<Dim>& options) {
     if (ranks_) {
         ranks_->append_to(surface_, boundary_of_surface_);
     } else {
         append_faces();
     }
+    if (options.has_friction())
+        for (std::int32_t face = 0; face < surface_.size(); ++face)
+            surface_.shear_stiffness.push_back(options.materials[static_cast<std::size_t>(surface_.body[face])].shear_ratio() *
+                                               surface_.stiffness[face]);
     obstacles_.append_to(surface_, mesh_.n_bodies());
     surface_.steps_to_sharp_edge = contact::steps_to_sharp_edge(surface_.view());
 }

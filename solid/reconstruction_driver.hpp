@@ -47,7 +47,7 @@ public:
     void evaluate_last_end(std::span<const Vector<Dim>> q) override;
     void evaluate(std::span<const Vector<Dim>> q, double time) override;
 
-    [[nodiscard]] bool makes_parts() const override { return true; }
+    [[nodiscard]] bool makes_parts() const override { return !options_.friction.any(); }
     void begin_parts(double dt) override { obstacles_.begin_parts(dt); }
     bool integrate_part(PartOfStep<Dim>& part, double time, double dt, double& work) override;
     [[nodiscard]] std::span<const std::int32_t> input_cells() const override { return region_.input_cells; }
@@ -55,6 +55,8 @@ public:
     // Results
 
     [[nodiscard]] FaceCorrections<Dim> corrections() const override;
+    [[nodiscard]] double energy() const override { return contact_->last().report.friction.energy; }
+    [[nodiscard]] const contact::FrictionFigures& friction() const override { return contact_->last().report.friction; }
     void take_obstacle_forces(double share, double& work) override;
     void add_impulses(double dt) override;
     [[nodiscard]] const Obstacles<Dim>& obstacles() const override { return obstacles_; }
@@ -81,7 +83,7 @@ private:
     void search(std::span<const Vector<Dim>> q_0, std::span<const Vector<Dim>> q_1, double time, double dt);
     void set_start(std::span<const Vector<Dim>> q_0, double time);
     void set_end(std::span<const Vector<Dim>> q_1, double time);
-    void build_surface();
+    void build_surface(const SolidOptions<Dim>& options);
     void make_contact() { contact_.emplace(surface_.view(), options_, sharing_ ? &*sharing_ : nullptr); }
     void append_faces();
     [[nodiscard]] contact::FaceCoupling<Dim> list_faces(std::span<const contact::Face> faces);
@@ -106,7 +108,7 @@ private:
     }
 
     const mesh::Mesh<Dim>& mesh_;
-    const contact::ContactOptions options_;
+    contact::ContactOptions options_;
     Ccg<Dim>& ccg_;
     const Loads<Dim>& loads_;
     SolidTimes& times_;

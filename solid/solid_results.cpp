@@ -66,7 +66,7 @@ std::vector<ActingPair<Dim>> Solid<Dim>::acting_pairs(std::span<const double> q)
     for (const contact::PairStep<Dim>& pair : contact_->pairs())
         if (pair.force != Vector<Dim>::Zero())
             acting.push_back({contact_->mesh_boundary(pair.face_1), contact_->mesh_boundary(pair.face_2), pair.normal,
-                              pair.gap_1, pair.area, pair.normal_force, pair.force});
+                              pair.gap_1, pair.area, pair.normal_force, pair.force, pair.friction, pair.slip});
     return acting;
 }
 
@@ -137,7 +137,15 @@ contact::ContactReport Solid<Dim>::contact_report() const {
 template <int Dim>
 dynamics::ContactCounts Solid<Dim>::contact_counts() const {
     const contact::ContactReport report = contact_report();
-    return {.active_pairs = report.active_pairs, .events = report.events};
+    dynamics::ContactCounts counts{.active_pairs = report.active_pairs, .events = report.events};
+    if (contact_) {
+        const contact::FrictionFigures& friction = contact_->friction();
+        counts.dissipated = report.friction_dissipated;
+        counts.friction_energy = friction.energy;
+        counts.sticking_faces = report.sticking_faces;
+        counts.sliding_faces = report.sliding_faces;
+    }
+    return counts;
 }
 
 template <int Dim>

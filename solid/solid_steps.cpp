@@ -195,7 +195,7 @@ void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t>
     dynamics::refuse_ranks(ranks(), {{"local steps"}});
     if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !contact_->makes_parts()))
         throw BadInput(mesh_.name +
-                       ": local steps are for bodies of Kinematics::small under the modified reconstruction: the frame of a "
+                       ": local steps are for bodies of Kinematics::small under the modified reconstruction, without friction: the frame of a "
                        "body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. Take "
                        "one step for all (memm), or other kinematics and law.");
     if (options_.precision == Precision::single_precision)

@@ -14,7 +14,8 @@ FaceLaw<Dim>::FaceLaw(const SurfaceView<Dim>& surface, const ContactOptions& opt
       area_(options.area),
       weighting_(options.weighting),
       pieces_(options, sharing),
-      law_(options, sharing) {}
+      law_(options, sharing),
+      friction_(options.friction) {}
 
 // The list -----------------------------------------------------------------------------------------------------------
 
@@ -28,7 +29,11 @@ void FaceLaw<Dim>::list(std::span<const FacetPair> pairs, std::span<const FacetP
 template <int Dim>
 void FaceLaw<Dim>::list_remembered(std::span<const FacetPair> pairs) {
     list_.clear();
-    for (const auto& [face_1, face_2] : pairs) list_.append(surface_, number_of(face_1), number_of(face_2), weighting_);
+    for (const auto& [face_1, face_2] : pairs) {
+        const std::int32_t first = number_of(face_1), second = number_of(face_2);
+        list_.append(surface_, first, second, weighting_,
+                     friction_.any() ? friction_.law_between(Face{first}, Face{second}) : -1);
+    }
 }
 
 template <int Dim>
@@ -67,26 +72,30 @@ void FaceLaw<Dim>::clear(ContactStep<Dim>& step) const {
     step.mean_gradient.assign(faces_.size(), Vector<Dim>::Zero());
     step.mean_normal_force.assign(faces_.size(), 0.0);
     step.energy = 0.0;
+    step.friction.clear();
     step.report = {};
 }
 
-/// Without friction nothing depends on the time that a step takes, and no face remembers anything.
 template <int Dim>
-std::int64_t FaceLaw<Dim>::step(double, const Path& path, std::span<PairMemory> memory, FacetStore&,
+std::int64_t FaceLaw<Dim>::step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets,
                                 ContactStep<Dim>& step) {
     const auto& [u_0, u_1, y_0, y_1] = path.faces;
     const bool is_mean = path.take == TakenForce::mean;
     check_path<Dim>(surface_, faces_, {u_0, u_1, is_mean ? y_0 : y_1, y_1});
     const std::int64_t inadmissible_overlaps = update_admission(memory, u_0);
-    apply(is_mean ? path.faces : FacePath<Dim>{u_1, u_1, y_1, y_1}, memory, step);
+    const ActivePairs<Dim>& active = apply(is_mean ? path.faces : FacePath<Dim>{u_1, u_1, y_1, y_1}, memory, step);
+    if (friction_.any()) friction_.apply(surface_, list_, active, dt, u_0, u_1, path.take, facets, step);
+    check_forces<Dim>(surface_, step);
     return inadmissible_overlaps;
 }
 
 template <int Dim>
-void FaceLaw<Dim>::evaluate(const FacePath<Dim>& state, std::span<const PairMemory> memory, const FacetStore&,
+void FaceLaw<Dim>::evaluate(const FacePath<Dim>& state, std::span<const PairMemory> memory, const FacetStore& facets,
                             ContactStep<Dim>& step) {
     check_path<Dim>(surface_, faces_, state);
     apply(state, memory, step);
+    if (friction_.any()) friction_.evaluate(surface_, facets, step);
+    check_forces<Dim>(surface_, step);
 }
 
 template <int Dim>
@@ -108,11 +117,12 @@ std::int64_t FaceLaw<Dim>::update_admission(std::span<PairMemory> memory, std::s
 }
 
 template <int Dim>
-void FaceLaw<Dim>::apply(const FacePath<Dim>& path, std::span<const PairMemory> memory, ContactStep<Dim>& step) {
+const ActivePairs<Dim>& FaceLaw<Dim>::apply(const FacePath<Dim>& path, std::span<const PairMemory> memory,
+                                            ContactStep<Dim>& step) {
     const ActivePairs<Dim>& active = pieces_.find(surface_, list_, memory, path.displacement_0, path.displacement_1);
     measures_.fill(surface_, list_, active, step);
     law_.apply(surface_, list_, active, coupling_, path, step);
-    check_forces<Dim>(surface_, step);
+    return active;
 }
 
 template <int Dim>

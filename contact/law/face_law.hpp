@@ -8,6 +8,7 @@
 
 #include "abut/contact/admission.hpp"
 #include "abut/contact/facet_store.hpp"
+#include "abut/contact/law/face_friction.hpp"
 #include "abut/contact/law/reconstruction.hpp"
 #include "abut/contact/messages.hpp"
 #include "abut/contact/pair_list.hpp"
@@ -36,7 +37,8 @@ public:
     [[nodiscard]] std::string name() const { return "contact"; }
     [[nodiscard]] const SurfaceView<Dim>& facets() const { return surface_; }
     [[nodiscard]] std::string face_name(Face face) const { return contact::face_name(surface_, number_of(face)); }
-    [[nodiscard]] std::int32_t facet_memory() const { return 0; }
+    [[nodiscard]] std::int32_t facet_memory() const { return friction_.memory(); }
+    [[nodiscard]] double stored_energy(const FacetStore& facets) const { return friction_.stored_energy(facets); }
     [[nodiscard]] std::ptrdiff_t n_watched() const { return surface_.size(); }
     [[nodiscard]] const Vector<Dim>& position(State u, std::ptrdiff_t face) const {
         return u[static_cast<std::size_t>(face)];
@@ -46,7 +48,10 @@ public:
     [[nodiscard]] bool is_wanted(FacetPair) const { return true; }
     void list(std::span<const FacetPair> pairs, std::span<const FacetPair> in_contact, State u_0, State u_1, double reach);
     void list_remembered(std::span<const FacetPair> pairs);
-    void drop_list() { faces_.clear(); }
+    void drop_list() {
+        faces_.clear();
+        friction_.forget();
+    }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
 
@@ -70,7 +75,8 @@ private:
     /// Where A min(g, 0) = 0 the flag of a pair may change without a change of the potential: there, and only there, it is
     /// decided again. `u`: of the listed faces [m]. Returns how many pairs are pressed in without being contacts.
     std::int64_t update_admission(std::span<PairMemory> memory, std::span<const Vector<Dim>> u) const;
-    void apply(const FacePath<Dim>& path, std::span<const PairMemory> memory, ContactStep<Dim>& step);
+    /// All but friction; gives the pairs of the step.
+    const ActivePairs<Dim>& apply(const FacePath<Dim>& path, std::span<const PairMemory> memory, ContactStep<Dim>& step);
 
     SurfaceView<Dim> surface_;
     geometry::AreaMethod area_;
@@ -81,6 +87,7 @@ private:
     PieceFinder<Dim> pieces_;
     PathMeasures<Dim> measures_;
     Reconstruction<Dim> law_;
+    FaceFrictionLaw<Dim> friction_;
 };
 
 }  // namespace abut::contact

@@ -14,8 +14,8 @@ NodeLaw<Dim>::NodeLaw(NodalSurface<Dim> surface, const NodalOptions& options, Sh
       options_(options),
       sharing_(sharing),
       sides_(surface_.facets().view()),
-      pairs_(options_.facing, sharing),
-      law_(options_.events, sharing) {
+      pairs_(options_.facing, options_.friction, sharing),
+      law_(options_.events, options_.friction, sharing) {
     const Surface<Dim>& facets = surface_.facets();
     for (std::int32_t facet = 0; facet < facets.size(); ++facet)
         if (!surface_.is_rigid(facets.body[facet]))
@@ -61,15 +61,15 @@ void NodeLaw<Dim>::clear(NodalStep<Dim>& step) const {
     clear_step(pairs_, step);
 }
 
-/// Without friction nothing depends on the time that a step takes, and no facet remembers anything.
 template <int Dim>
-std::int64_t NodeLaw<Dim>::step(double, const Path& path, std::span<PairMemory> memory, FacetStore&, NodalStep<Dim>& step) {
-    return law_.apply(surface_, sides_, pairs_, memory, path.x_0, path.x_1, path.take, step);
+std::int64_t NodeLaw<Dim>::step(double dt, const Path& path, std::span<PairMemory> memory, FacetStore& facets,
+                                NodalStep<Dim>& step) {
+    return law_.apply(surface_, sides_, pairs_, memory, facets, dt, path.x_0, path.x_1, path.take, step);
 }
 
 template <int Dim>
-void NodeLaw<Dim>::evaluate(State x, std::span<const PairMemory> memory, const FacetStore&, NodalStep<Dim>& step) {
-    law_.evaluate(surface_, pairs_, memory, x, step);
+void NodeLaw<Dim>::evaluate(State x, std::span<const PairMemory> memory, const FacetStore& facets, NodalStep<Dim>& step) {
+    law_.evaluate(surface_, pairs_, memory, facets, x, step);
 }
 
 template class NodeLaw<2>;

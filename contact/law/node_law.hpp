@@ -38,7 +38,8 @@ public:
     [[nodiscard]] std::string name() const { return "nodal contact"; }
     [[nodiscard]] SurfaceView<Dim> facets() const { return surface_.facets().view(); }
     [[nodiscard]] std::string face_name(Face face) const;
-    [[nodiscard]] std::int32_t facet_memory() const { return 0; }
+    [[nodiscard]] std::int32_t facet_memory() const { return law_.friction().memory(); }
+    [[nodiscard]] double stored_energy(const FacetStore& facets) const { return law_.friction().stored_energy(facets); }
     [[nodiscard]] std::ptrdiff_t n_watched() const { return std::ssize(surface_.nodes()); }
     [[nodiscard]] Vector<Dim> position(State x, std::ptrdiff_t i) const {
         return x[surface_.nodes()[static_cast<std::size_t>(i)]];
@@ -52,7 +53,10 @@ public:
         pairs_.assign(surface_, pairs, in_contact, x_0, x_1, reach, options_.compression_limit);
     }
     void list_remembered(std::span<const FacetPair> pairs) { pairs_.assign(surface_, pairs); }
-    void drop_list() { pairs_.assign(surface_, {}); }
+    void drop_list() {
+        pairs_.assign(surface_, {});
+        law_.forget_friction();
+    }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const {
         return contact::decide_first<Dim>(pairs_.pairs()[pair], x, sides_, run_begins);

@@ -20,7 +20,7 @@ constexpr double far_tilted = -0.76604444311897803;  // n_1 . n_2 of faces that 
 /// visit(value) for all that a mean gradient has.
 template <class MeanGradient, class Visit>
 void for_each_value(MeanGradient& found, const Visit& visit) {
-    auto& [energy_0, energy_1, gap_0, gap_1, gradient, area, active_share, correction, events] = found;
+    auto& [energy_0, energy_1, gap_0, gap_1, gradient, area, active_share, pressure, correction, events] = found;
     visit(energy_0);
     visit(energy_1);
     visit(gap_0);
@@ -28,6 +28,7 @@ void for_each_value(MeanGradient& found, const Visit& visit) {
     visit(gradient);
     visit(area);
     visit(active_share);
+    visit(pressure);
     visit(correction);
     visit(events);
 }
@@ -64,6 +65,7 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
     for (const auto& [body_1, body_2] : listed.body_pairs())
         step.body_pairs.push_back({body_1, body_2, 0, Vector<Dim>::Zero(), 0.0});
     step.energy_0 = step.energy = step.work = 0.0;
+    step.friction.clear();
     step.report = {};
 }
 
@@ -114,6 +116,7 @@ void PairPotential<Dim>::take_force(const NodalPair<Dim>& pair, const geometry::
         found.gradient = at_end.gradient;
         found.area = at_end.area;
         found.active_share = at_end.energy > 0.0 ? 1.0 : 0.0;
+        found.pressure = at_end.pressure;
     }
     const auto is_none = [](double energy) { return energy <= 0.0; };  // false for what is no number
     outcome.active = found.active_share > 0.0 || !is_none(found.energy_0) || !is_none(found.energy_1);
@@ -171,20 +174,23 @@ void PairPotential<Dim>::read(ShareReader& in, Outcome& outcome) {
 
 template <int Dim>
 std::int64_t PairPotential<Dim>::apply(const NodalSurface<Dim>& surface, const SideOutlines<Dim>& sides,
-                                       NodalPairs<Dim>& listed, std::span<PairMemory> memory, PointsView<Dim> x_0,
-                                       PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
+                                       NodalPairs<Dim>& listed, std::span<PairMemory> memory, FacetStore& facets, double dt,
+                                       PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x_0, x_1, memory);
     const auto admitted = [&](std::size_t p) -> bool& { return memory[pairs[p].memory].admitted; };
     find_outcomes(
         pairs.size(), [&](std::size_t p) { follow(pairs[p], sides, admitted(p), x_0, x_1, take, outcomes_[p]); },
         [&](std::size_t p) { admitted(p) = outcomes_[p].admitted; });
     add_up(surface, listed, pairs, x_0, x_1, step);
+    if (friction_.any()) add_friction(surface, pairs, facets, dt, x_0, x_1, take, step);
+    finish(surface, step);
     return std::ranges::count_if(outcomes_, [](const Outcome& outcome) { return outcome.inadmissible; });
 }
 
 template <int Dim>
 void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed,
-                                  std::span<const PairMemory> memory, PointsView<Dim> x, NodalStep<Dim>& step) {
+                                  std::span<const PairMemory> memory, const FacetStore& facets, PointsView<Dim> x,
+                                  NodalStep<Dim>& step) {
     const auto pairs = listed.in_reach(x);
     find_outcomes(
         pairs.size(),
@@ -200,6 +206,8 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
         },
         [](std::size_t) {});
     add_up(surface, listed, pairs, x, x, step);
+    if (friction_.any()) friction_.evaluate(surface, facets, x, step);
+    finish(surface, step);
 }
 
 template <int Dim>
@@ -222,6 +230,21 @@ void PairPotential<Dim>::add_up(const NodalSurface<Dim>& surface, const NodalPai
         forces += step.pairs.back().force.norm();
     }
     if (forces > 0.0) step.report.correction /= forces;
+}
+
+template <int Dim>
+void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs,
+                                      FacetStore& facets, double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                                      TakenForce take, NodalStep<Dim>& step) {
+    friction_.begin(dt, x_0, x_1, take);
+    for (std::size_t p = 0; p < outcomes_.size(); ++p)
+        if (const auto& found = outcomes_[p].found; outcomes_[p].active)
+            friction_.add(surface, pairs[p], found.pressure, found.area, found.active_share);
+    friction_.apply(surface, facets, step);
+}
+
+template <int Dim>
+void PairPotential<Dim>::finish(const NodalSurface<Dim>& surface, NodalStep<Dim>& step) {
     check_bodies(step);
     for (const BodyStep<Dim>& body : step.bodies)
         if (surface.is_rigid(body.body)) step.work += body.work;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "abut/contact/law/node_friction.hpp"
 #include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
 #include "abut/contact/shared_work.hpp"
@@ -15,21 +16,27 @@ namespace abut::contact {
 template <int Dim>
 void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step);
 
-/// The law of contact on nodes: every pair by itself, docs/method.md, The potential of a pair.
+/// The law of contact on nodes: every pair by itself, docs/method.md, The potential of a pair; then friction between those that
+/// press.
 template <int Dim>
 class PairPotential {
 public:
-    explicit PairPotential(bool events, Sharing* sharing = nullptr) : events_(events), shared_(sharing) {}
+    explicit PairPotential(bool events, FrictionOptions friction = {}, Sharing* sharing = nullptr)
+        : events_(events), friction_(std::move(friction)), shared_(sharing) {}
+
+    [[nodiscard]] const NodeFriction<Dim>& friction() const { return friction_; }
+    /// What friction did in the last step has no part in evaluations any more.
+    void forget_friction() { friction_.forget(); }
 
     /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
     /// how many pairs are pressed in at x_0 without being contacts.
     std::int64_t apply(const NodalSurface<Dim>& surface, const SideOutlines<Dim>& sides, NodalPairs<Dim>& listed,
-                       std::span<PairMemory> memory, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take,
-                       NodalStep<Dim>& step);
+                       std::span<PairMemory> memory, FacetStore& facets, double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
+                       TakenForce take, NodalStep<Dim>& step);
 
     /// The forces of one state, with the admission as it stands.
     void evaluate(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const PairMemory> memory,
-                  PointsView<Dim> x, NodalStep<Dim>& step);
+                  const FacetStore& facets, PointsView<Dim> x, NodalStep<Dim>& step);
 
 private:
     struct Outcome {
@@ -57,10 +64,16 @@ private:
     void add_up(const NodalSurface<Dim>& surface, const NodalPairs<Dim>& listed, std::span<const NodalPair<Dim>> pairs,
                 PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) const;
 
+    void add_friction(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs, FacetStore& facets, double dt,
+                      PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
+    /// What the sums of a step say of bodies.
+    static void finish(const NodalSurface<Dim>& surface, NodalStep<Dim>& step);
+
     static void add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
                          NodalStep<Dim>& step);
 
     bool events_;
+    NodeFriction<Dim> friction_;
     SharedWork shared_;
     std::vector<Outcome> outcomes_;  // of the pairs in reach
 };

@@ -30,9 +30,10 @@ template <int Dim>
 template <int Dim>
 struct PairEnergy {
     double energy = 0.0;
-    double area = 0.0;            ///< where g < 0
-    double gap = 0.0;             ///< the least of g, 0 without such a part
-    PairCorners<Dim> gradient{};  ///< dW/dz
+    double area = 0.0;             ///< where g < 0
+    double gap = 0.0;              ///< the least of g, 0 without such a part
+    PairCorners<Dim> gradient{};   ///< dW/dz
+    PairPressure<Dim> pressure{};  ///< with the gradient
 };
 
 /// All that the directions of two faces decide.

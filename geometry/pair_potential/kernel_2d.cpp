@@ -107,6 +107,7 @@ PairEnergy<2> pair_energy(const PairNormals<2>& normals, const PairCorners<2>& z
         const double integral =
             law.stiffness * (q - p) / 6.0 *
             (g_p * strip.shape(corner, p) + 4.0 * g_m * strip.shape(corner, m) + g_q * strip.shape(corner, q));
+        result.pressure[corner] = -weight.chi * integral;
         result.gradient[corner] = weight.chi * sign * integral * Vector<2>(-normals.slope[corner < 2 ? 0 : 1], 1.0);
     }
     const auto add_end = [&](const End& end, double gap, double sign) {

@@ -61,6 +61,7 @@ Moments moments_of(const PlanePolygon& polygon, const Vector<2>& gap_slope) {
 struct PlaneGradient {
     std::array<double, 6> height{};
     std::array<Vector<2>, 6> plane;
+    PairPressure<3> pressure{};  ///< int k |g| N_v
 };
 
 /// Adds the gradient of g over the inside: I_v = k int g N_v.
@@ -77,6 +78,7 @@ void add_inside(const PairNormals<3>& normals, const Seen& seen, const Moments& 
         const std::array<double, 3> integral{stiffness * moments.gap - of_b - of_c, of_b, of_c};
         const double sign = face == 0 ? -1.0 : 1.0;
         for (int i = 0; i < 3; ++i) {
+            gradient.pressure[a + i] = -integral[i];
             gradient.height[a + i] = sign * integral[i];
             gradient.plane[a + i] = -sign * integral[i] * normals.slope[face];
         }
@@ -184,6 +186,7 @@ PairEnergy<3> pair_energy(const PairNormals<3>& normals, const PairCorners<3>& z
     add_inside(normals, seen, moments, law.stiffness, plane);
     add_edges(polygon, law.stiffness, seen, plane);
     result.gradient = in_space(normals, seen, plane, energy, weight);
+    for (std::size_t v = 0; v < plane.pressure.size(); ++v) result.pressure[v] = weight.chi * plane.pressure[v];
     return result;
 }
 

@@ -144,7 +144,10 @@ void add_mean(const PairPath<Dim>& path, const Cuts& cuts, const PairNormals<Dim
                                                           : pair_energy<Dim>(PairNormals<Dim>(z), z, law, true);
             if (found.energy == 0.0) continue;
             const double weight = rule.weight[k] * length;
-            for (std::size_t v = 0; v < phi.size(); ++v) phi[v] += weight * found.gradient[v];
+            for (std::size_t v = 0; v < phi.size(); ++v) {
+                phi[v] += weight * found.gradient[v];
+                result.pressure[v] += weight * found.pressure[v];
+            }
             result.area += weight * found.area;
             result.active_share += weight;
         }

@@ -189,6 +189,7 @@ PairGradient<Dim> pair_gradient(const PairCorners<Dim>& corners, const PairLaw<D
     result.energy = energy.energy;
     result.area = energy.area;
     result.gap = energy.gap;
+    result.pressure = energy.pressure;
     if (energy.energy != 0.0) result.gradient = in_mean_frame<Dim>(frame, frame, law, energy.gradient);
     return result;
 }

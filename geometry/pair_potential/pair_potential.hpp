@@ -11,6 +11,12 @@ namespace abut::geometry {
 template <int Dim>
 using PairCorners = std::array<Vector<Dim>, 2 * Dim>;
 
+/// Normal force of a pair by corner, chi int k |g| N_v dA with the linear shape function N_v of a corner on its face [N], >= 0.
+/// The corners of one face together have the whole normal force, and so have those of the other; the point of face i at which
+/// the pair presses is the mean of its corners with these weights.
+template <int Dim>
+using PairPressure = std::array<double, 2 * Dim>;
+
 /// The weight chi of a pair as its faces turn away from each other: 1 up to n_1 . n_2 = `full`, 0 from `none` on, smooth in
 /// between. -1 <= full < none <= 0.
 struct FacingFade {
@@ -101,6 +107,7 @@ struct PairGradient {
     double gap = 0.0;             ///< least g of the overlap, 0 where W = 0 [m]
     PairCorners<Dim> gradient{};  ///< dW/dx of each corner [N]; zero where W is
     double area = 0.0;            ///< of the part of the overlap where g < 0 [m^(Dim-1)]
+    PairPressure<Dim> pressure{};
 };
 
 /// W and dW/dx. The sum of the gradients and of their moments is zero.
@@ -117,13 +124,14 @@ struct PairPathOptions {
 
 template <int Dim>
 struct PairMeanGradient {
-    double energy_0 = 0.0;        ///< W at the start [J]
-    double energy_1 = 0.0;        ///< W at the end [J]
-    double gap_0 = 0.0;           ///< least g of the overlap at the start, 0 where W = 0 [m]
-    double gap_1 = 0.0;           ///< the same at the end
-    PairCorners<Dim> gradient{};  ///< the discrete gradient: what stands for the mean of dW/dx [N]
-    double area = 0.0;            ///< mean of the area where g < 0 [m^(Dim-1)]
-    double active_share = 0.0;    ///< of the step, in which W > 0
+    double energy_0 = 0.0;         ///< W at the start [J]
+    double energy_1 = 0.0;         ///< W at the end [J]
+    double gap_0 = 0.0;            ///< least g of the overlap at the start, 0 where W = 0 [m]
+    double gap_1 = 0.0;            ///< the same at the end
+    PairCorners<Dim> gradient{};   ///< the discrete gradient: what stands for the mean of dW/dx [N]
+    double area = 0.0;             ///< mean of the area where g < 0 [m^(Dim-1)]
+    double active_share = 0.0;     ///< of the step, in which W > 0
+    PairPressure<Dim> pressure{};  ///< mean over the step
     /// The part of the gradient that closes the balance of energy, as a force [N]. Large ones say that the step is too long
     /// to follow the pair.
     double correction = 0.0;

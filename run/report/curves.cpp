@@ -47,7 +47,7 @@ template <int Dim>
 Plot errors(Entries<Dim> entries, const EnergyScale& scale) {
     const double start = entries.front().pseudo_energy;
     const auto drift = [=, &scale](const auto& entry) {
-        return scale.over(std::abs(entry.pseudo_energy - start - entry.work - entry.restart_jumps));
+        return scale.over(std::abs(entry.pseudo_energy - start - entry.received()));
     };
     const auto excess = [&scale](const auto& entry) { return scale.over(entry.energy - entry.pseudo_energy); };
     return {.title = "Errors of the energies over time",

@@ -1,0 +1,61 @@
+#include "abut/contact/friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "abut/base/error.hpp"
+#include "abut/base/messages.hpp"
+
+namespace abut::contact {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, double value, const std::string& allowed) {
+    throw BadInput("friction: " + name + " is " + number(value) + "; " + allowed, {.value = value});
+}
+
+void check(const Friction& law) {
+    const auto not_negative = [](const std::string& name, double value, const std::string& unit) {
+        if (!(value >= 0.0) || !std::isfinite(value)) refuse(name, value, "it must be finite and >= 0" + unit + ".");
+    };
+    const auto positive = [](const std::string& name, double value, const std::string& unit) {
+        if (!(value > 0.0)) refuse(name, value, "it must be > 0" + unit + "; leave it out where it has no part.");
+    };
+    not_negative("coefficient", law.coefficient, "");
+    if (!std::isnan(law.sliding_coefficient)) not_negative("sliding_coefficient", law.sliding_coefficient, "");
+    positive("decay_speed", law.decay_speed, " m/s");
+    positive("decay_slip", law.decay_slip, " m");
+    not_negative("strength", law.strength, " Pa");
+    positive("relaxation_time", law.relaxation_time, " s");
+    const bool decays = std::isfinite(law.decay_speed) || std::isfinite(law.decay_slip);
+    if (!std::isnan(law.sliding_coefficient) && law.sliding_coefficient != law.coefficient && !decays)
+        refuse("sliding_coefficient", law.sliding_coefficient,
+               "say when it is reached: give `decay_speed` [m/s] or `decay_slip` [m].");
+}
+
+}  // namespace
+
+double coefficient_of(const Friction& law, const Sliding& sliding) {
+    if (law.own_coefficient) {
+        const double mu = law.own_coefficient(sliding);
+        if (!(mu >= 0.0) || !std::isfinite(mu))
+            refuse("own_coefficient", mu,
+                   "at a speed of " + number(sliding.speed) + " m/s, after " + number(sliding.slid) +
+                       " m: it must give a number that is finite and >= 0.");
+        return mu;
+    }
+    if (std::isnan(law.sliding_coefficient)) return law.coefficient;
+    const double left = std::exp(-sliding.speed / law.decay_speed) * std::max(0.0, 1.0 - sliding.slid / law.decay_slip);
+    return law.sliding_coefficient + (law.coefficient - law.sliding_coefficient) * left;
+}
+
+std::int32_t FrictionOptions::law_between(Face face_1, Face face_2) const {
+    if (laws.empty()) return -1;
+    return law_of ? law_of(face_1, face_2) : 0;
+}
+
+void check(const FrictionOptions& options) {
+    for (const Friction& law : options.laws) check(law);
+}
+
+}  // namespace abut::contact

@@ -1,0 +1,149 @@
+#include "abut/contact/law/friction_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "abut/base/ids.hpp"
+
+namespace abut::contact {
+namespace {
+
+template <int N>
+using Memory = std::array<double, friction_memory<N>>;
+
+template <int N>
+Memory<N> memory_of(const StickState<N>& state) {
+    Memory<N> memory;
+    for (int i = 0; i < N; ++i) {
+        memory[i] = state.stretch[i];
+        memory[N + i] = state.direction[i];
+    }
+    memory[2 * N] = state.stiffness;
+    memory[2 * N + 1] = state.slid;
+    return memory;
+}
+
+/// Nothing presses on the facet any more: what its spring holds is lost, and the direction is kept.
+template <int N>
+double let_go(StickState<N>& state) {
+    const double lost = state.energy();
+    state = {.direction = state.direction};
+    return lost;
+}
+
+}  // namespace
+
+template <int N>
+StickState<N> stick_state(std::span<const double> memory) {
+    StickState<N> state;
+    for (int i = 0; i < N; ++i) {
+        state.stretch[i] = memory[i];
+        state.direction[i] = memory[N + i];
+    }
+    state.stiffness = memory[2 * N];
+    state.slid = memory[2 * N + 1];
+    return state;
+}
+
+template <int N>
+double stick_energy(const FacetStore& facets) {
+    double energy = 0.0;
+    for (const Facet facet : facets.used()) energy += stick_state<N>(facets[facet]).energy();
+    return energy;
+}
+
+template <int N>
+void FrictionPass<N>::apply(double dt, TakenForce take, std::span<FrictionHalf<N>> halves, FacetStore& facets,
+                            FrictionFigures& figures, std::vector<FaceFriction>& of_facets) {
+    figures = {};
+    of_facets.clear();
+    order_.resize(halves.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(halves[i].facet, i); });
+
+    const auto book = [&](double dissipated) {
+        figures.dissipated += dissipated;
+        figures.least_dissipated = std::min(figures.least_dissipated, dissipated);
+    };
+    const auto release = [&](Facet facet) {
+        StickState<N> state = stick_state<N>(facets[facet]);
+        if (state.stiffness == 0.0) return;
+        book(let_go(state));
+        facets.set_next(facet, memory_of(state));
+    };
+    auto used = facets.used().begin();
+    const auto end_of_used = facets.used().end();
+    for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
+        const Facet facet = halves[order_[begin]].facet;
+        while (end < order_.size() && halves[order_[end]].facet == facet) ++end;
+        for (; used != end_of_used && *used < facet; ++used) release(*used);
+        if (used != end_of_used && *used == facet) ++used;
+
+        StickState<N> state = stick_state<N>(facets[facet]);
+        const FaceFriction found = advance(dt, take, halves, std::span(order_).subspan(begin, end - begin), state);
+        facets.set_next(facet, memory_of(state));
+        of_facets.push_back(found);
+        book(found.dissipated);
+        figures.energy += state.energy();
+        if (found.limit > 0.0) figures.largest_ratio = std::max(figures.largest_ratio, found.force / found.limit);
+        if (found.slip > 0.0) {
+            ++figures.sliding;
+            figures.sliding_force += found.force;
+            figures.sliding_limit += found.limit;
+        } else {
+            ++figures.sticking;
+        }
+    }
+    for (; used != end_of_used; ++used) release(*used);
+}
+
+template <int N>
+FaceFriction FrictionPass<N>::advance(double dt, TakenForce take, std::span<FrictionHalf<N>> halves,
+                                      std::span<const std::size_t> of_facet, StickState<N>& state) {
+    const auto sum = [&](const auto& term) {
+        double result = 0.0;
+        for (const std::size_t i : of_facet) result += term(halves[i]);
+        return result;
+    };
+    const double normal_force = sum([](const auto& half) { return half.normal_force; });
+    const auto share = [&](const FrictionHalf<N>& half) { return half.normal_force / normal_force; };
+    const double active = sum([&](const auto& half) { return share(half) * half.active_share; });
+    const double area = sum([](const auto& half) { return half.area; });
+    Along<N> motion = Along<N>::Zero();
+    for (const std::size_t i : of_facet) motion += (share(halves[i]) * halves[i].active_share) * halves[i].motion;
+    if (state.stiffness == 0.0) {  // fixed from here on, as long as something presses
+        const double pair_area = sum([](const auto& half) { return half.pair_area; });
+        state.stiffness =
+            halves[of_facet[0]].facet_area * sum([](const auto& half) { return half.area * half.stiffness; }) / pair_area;
+    }
+
+    const Sliding sliding{motion.norm() / (active * dt), state.slid, area > 0.0 ? normal_force / area : 0.0};
+    const double limit = sum([&](const auto& half) {
+                             return coefficient_of(*half.law, sliding) * half.normal_force + half.law->strength * half.area;
+                         }) /
+                         active;
+    const double creep = 0.5 * active * dt * sum([&](const auto& half) { return share(half) / half.law->relaxation_time; });
+    const FrictionStep<N> step = take == TakenForce::mean ? take_mean_step<N>(state, motion, limit, creep)
+                                                          : take_end_step<N>(state, motion, limit, creep);
+    for (const std::size_t i : of_facet) {
+        halves[i].weight = share(halves[i]) * halves[i].active_share;
+        halves[i].force = halves[i].weight * step.force;
+    }
+    return {.face = Face{number_of(halves[of_facet[0]].facet)},
+            .normal_force = normal_force,
+            .force = active * step.force.norm(),
+            .limit = active * limit,
+            .slip = step.slip,
+            .dissipated = step.dissipated};
+}
+
+#define ABUT_INSTANTIATE(N)                                         \
+    template StickState<N> stick_state<N>(std::span<const double>); \
+    template double stick_energy<N>(const FacetStore&);             \
+    template class FrictionPass<N>;
+ABUT_INSTANTIATE(1)
+ABUT_INSTANTIATE(2)
+#undef ABUT_INSTANTIATE
+
+}  // namespace abut::contact

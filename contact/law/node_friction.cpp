@@ -1,0 +1,172 @@
+#include "abut/contact/law/node_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "abut/base/ids.hpp"
+
+namespace abut::contact {
+namespace {
+
+/// How the slip of a pair, that of face 2 past face 1, is seen from a face (0 or 1).
+constexpr double sign_of(std::size_t face) { return face == 0 ? -1.0 : 1.0; }
+
+/// Index of a value in a sorted range; -1: it is not there.
+template <class Range, class Value, class Key>
+std::int32_t index_of(const Range& range, const Value& value, const Key& key) {
+    const auto at = std::ranges::lower_bound(range, value, {}, key);
+    return at != range.end() && key(*at) == value ? static_cast<std::int32_t>(at - range.begin()) : -1;
+}
+
+}  // namespace
+
+template <int Dim>
+void NodeFriction<Dim>::begin(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take) {
+    dt_ = dt;
+    x_0_ = x_0;
+    x_1_ = x_1;
+    take_ = take;
+    n_pairs_ = 0;
+    halves_.clear();
+    sliding_.clear();
+    last_.clear();
+}
+
+template <int Dim>
+void NodeFriction<Dim>::add(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair,
+                            const geometry::PairPressure<Dim>& pressure, double area, double active_share) {
+    const std::int32_t index = n_pairs_++;
+    double normal_force = 0.0;
+    for (int v = 0; v < Dim; ++v) normal_force += pressure[v];
+    if (pair.friction < 0 || !(normal_force > 0.0)) return;
+    const Surface<Dim>& facets = surface.facets();
+    const std::array<std::int32_t, 2> facet{pair.facet_1, pair.facet_2};
+    const std::array<bool, 2> rigid{!std::isfinite(facets.stiffness[facet[0]]), !std::isfinite(facets.stiffness[facet[1]])};
+
+    sliding_.push_back({.slip = geometry::PairSlip<Dim>(pair.at(x_0_), pair.at(x_1_), pressure),
+                        .place = {.listed = pair.listed,
+                                  .body = {pair.body_1, pair.body_2},
+                                  .body_pair = pair.body_pair,
+                                  .pair = index,
+                                  .bodies_in_order = pair.body_1 < pair.body_2}});
+    last_.push_back({.node = pair.node, .facet = {Facet{facet[0]}, Facet{facet[1]}}, .pressure = pressure});
+    Sliding& sliding = sliding_.back();
+    const Vector<Dim> motion = sliding.slip.motion();
+    for (std::size_t face = 0; face < 2; ++face) {
+        if (rigid[face]) continue;
+        const double share = rigid[1 - face] ? 1.0 : 0.5;
+        sliding.half[face] = static_cast<std::int32_t>(halves_.size());
+        halves_.push_back({.facet = Facet{facet[face]},
+                           .normal_force = share * normal_force,
+                           .active_share = active_share,
+                           .area = share * area,
+                           .pair_area = area,
+                           .facet_area = facets.area[facet[face]],
+                           .stiffness = series_stiffness(facets.shear_stiffness[facet[0]], facets.shear_stiffness[facet[1]]),
+                           .law = &options_.laws[static_cast<std::size_t>(pair.friction)],
+                           .motion = geometry::components<Dim>(sliding.slip.tangents(static_cast<int>(face)),
+                                                               Vector<Dim>(sign_of(face) * motion))});
+    }
+}
+
+template <int Dim>
+void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step) {
+    pass_.apply(dt_, take_, halves_, facets, step.report.friction, step.friction);
+    for (FaceFriction& of_facet : step.friction) of_facet.face = surface.face_of(Facet{number_of(of_facet.face)});
+    for (std::size_t s = 0; s < sliding_.size(); ++s) {
+        const Sliding& sliding = sliding_[s];
+        Last& last = last_[s];
+        const auto add = [&](const geometry::PairSlip<Dim>& slip, PointsView<Dim> x_0) {
+            Vector<Dim> force = Vector<Dim>::Zero();
+            for (std::size_t face = 0; face < 2; ++face) {
+                if (sliding.half[face] < 0) continue;
+                const Half& half = halves_[static_cast<std::size_t>(sliding.half[face])];
+                last.weight[face] = half.weight;
+                force -= sign_of(face) * geometry::in_space<Dim>(slip.tangents(static_cast<int>(face)), half.force);
+            }
+            add_force(last, sliding.place, slip, force, x_0, x_1_, step);
+        };
+        if (take_ == TakenForce::mean) {
+            add(sliding.slip, x_0_);
+        } else {
+            const Corners end = corners(last, x_1_);
+            add(geometry::PairSlip<Dim>(end, end, last.pressure), x_1_);
+        }
+        const Vector<Dim> motion = sliding.slip.motion(), normal = sliding.slip.normal();
+        step.pairs[static_cast<std::size_t>(sliding.place.pair)].slip = motion - normal * normal.dot(motion);
+    }
+}
+
+template <int Dim>
+void NodeFriction<Dim>::evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, PointsView<Dim> x,
+                                 NodalStep<Dim>& step) const {
+    step.report.friction.energy = stick_energy<n_tangents>(facets);
+    for (const Last& last : last_) {
+        const Corners at = corners(last, x);
+        const geometry::PairSlip<Dim> slip(at, at, last.pressure);
+        Vector<Dim> force = Vector<Dim>::Zero();
+        for (std::size_t face = 0; face < 2; ++face) {
+            if (last.weight[face] == 0.0) continue;
+            const auto state = stick_state<n_tangents>(facets[last.facet[face]]);
+            force -= (sign_of(face) * last.weight[face]) *
+                     geometry::in_space<Dim>(slip.tangents(static_cast<int>(face)), state.stiffness * state.stretch);
+        }
+        add_force(last, place_in(step, surface, last), slip, force, x, x, step);
+    }
+}
+
+template <int Dim>
+typename NodeFriction<Dim>::Corners NodeFriction<Dim>::corners(const Last& last, PointsView<Dim> x) {
+    Corners corners;
+    for (std::size_t v = 0; v < corners.size(); ++v) corners[v] = x[last.node[v]];
+    return corners;
+}
+
+template <int Dim>
+typename NodeFriction<Dim>::Place NodeFriction<Dim>::place_in(const NodalStep<Dim>& step, const NodalSurface<Dim>& surface,
+                                                              const Last& last) {
+    Place place;
+    for (std::size_t v = 0; v < last.node.size(); ++v)
+        place.listed[v] = index_of(step.nodes, last.node[v], [](std::int32_t node) { return node; });
+    const std::vector<std::int32_t>& body = surface.facets().body;
+    const std::int32_t body_1 = body[number_of(last.facet[0])], body_2 = body[number_of(last.facet[1])];
+    const auto number_of_body = [](const BodyStep<Dim>& of) { return of.body; };
+    place.body = {index_of(step.bodies, body_1, number_of_body), index_of(step.bodies, body_2, number_of_body)};
+    place.bodies_in_order = body_1 < body_2;
+    place.body_pair = index_of(step.body_pairs, std::pair(std::min(body_1, body_2), std::max(body_1, body_2)),
+                               [](const BodyPairStep<Dim>& of) { return std::pair(of.body_1, of.body_2); });
+    place.pair = index_of(step.pairs, std::pair(surface.face_of(last.facet[0]), surface.face_of(last.facet[1])),
+                          [](const PairStep<Dim>& of) { return std::pair(of.face_1, of.face_2); });
+    return place;
+}
+
+template <int Dim>
+void NodeFriction<Dim>::add_force(const Last& last, const Place& place, const geometry::PairSlip<Dim>& slip,
+                                  const Vector<Dim>& force, PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) {
+    const Corners on_corners = slip.on_corners(force);
+    for (std::size_t v = 0; v < on_corners.size(); ++v) {
+        if (place.listed[v] >= 0) step.gradient[static_cast<std::size_t>(place.listed[v])] -= on_corners[v];
+        if (const std::int32_t b = place.body[v / Dim]; b >= 0) {
+            BodyStep<Dim>& body = step.bodies[static_cast<std::size_t>(b)];
+            const Vector<Dim> start = x_0[last.node[v]], end = x_1[last.node[v]], middle = 0.5 * (start + end);
+            body.force += on_corners[v];
+            body.moment += moment<Dim>(middle, on_corners[v]);
+            body.work -= on_corners[v].dot(end - start);
+        }
+    }
+    if (place.body_pair >= 0)
+        step.body_pairs[static_cast<std::size_t>(place.body_pair)].force +=
+            place.bodies_in_order ? force : Vector<Dim>(-force);
+    if (place.pair >= 0) {
+        PairStep<Dim>& pair = step.pairs[static_cast<std::size_t>(place.pair)];
+        pair.force += force;
+        pair.friction += force;
+        pair.point = slip.point();
+    }
+}
+
+template class NodeFriction<2>;
+template class NodeFriction<3>;
+
+}  // namespace abut::contact
