@@ -175,6 +175,22 @@ Json counts_json(const RunResult<Dim>& result) {
             {"boundary_stencil_worst_weight", result.boundary_stencils.worst_weight}};
 }
 
+/// Nothing without friction.
+template <int Dim>
+Json friction_json(const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact;
+    if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return Json::object();
+    const auto& last = result.ledger.entries().back();
+    return {{"friction",
+             {{"dissipated", last.dissipated},
+              {"energy", last.friction_energy},
+              {"least_dissipated", contact.least_dissipated},
+              {"sticking_faces_max", contact.sticking_faces_max},
+              {"sliding_faces_max", contact.sliding_faces_max},
+              {"force_over_limit_max", contact.friction_ratio_max},
+              {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()}}}};
+}
+
 Json encounter_json(const Encounter& met) {
     if (met.body_1.empty()) return {};
     return {{"body_1", met.body_1},
@@ -256,6 +272,25 @@ std::string contact_lines(const RunResult<Dim>& result) {
            table_line("compression of the skin, max |g|/D", fmt::format("{:.3g}", contact.compression_max));
 }
 
+/// Nothing without friction.
+template <int Dim>
+std::string friction_lines(const RunResult<Dim>& result) {
+    const contact::ContactReport& contact = result.contact;
+    if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return "";
+    const auto& last = result.ledger.entries().back();
+    const std::string& name = result.scale.name;
+    std::string text =
+        table_line(fmt::format("dissipated by friction, / {}", name),
+                   fmt::format("{:.4g}; held by faces that stick {:.2e}", result.scale.over(last.dissipated),
+                               result.scale.over(last.friction_energy))) +
+        table_line("faces that stick, that slide, at most",
+                   fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
+    if (contact.sliding_limit > 0.0)
+        text += table_line("force of sliding faces over its limit",
+                           fmt::format("{:.3g}", contact.sliding_force / contact.sliding_limit));
+    return text;
+}
+
 template <int Dim>
 std::string body_lines(const Scene<Dim>& scene, const RunResult<Dim>& result) {
     std::string text;
@@ -289,6 +324,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(energies_json(result));
     json.update(restarts_json(result));
     json.update(counts_json(result));
+    json.update(friction_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
     json.update({{"mesh", mesh_json(scene.mesh.report)},
@@ -312,7 +348,7 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
         text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
-    text += energy_lines(result) + restart_line(result) + contact_lines(result);
+    text += energy_lines(result) + restart_line(result) + contact_lines(result) + friction_lines(result);
     for (const Finding& finding : result.findings) text += table_line(finding.text, value_text(finding.value));
     return text + body_lines(scene, result) + time_line(result) + table_line("verdict", verdict(scene, result).text);
 }

@@ -22,6 +22,8 @@ inline constexpr double enough_inertia = 0.98;
 /// |E| above which the strain of a finite body is worth a word [-]: its material is one of small strains. docs/limits.md.
 inline constexpr double large_strain = 0.2;
 
+/// Force of sliding faces over the limit at which they slide: far below it their slip alternates from step to step [-].
+inline constexpr double least_sliding_share = 0.7;
 /// (H - H~) over the energy in play above which the motion swings from step to step by more than belongs to it [-].
 inline constexpr double large_energy_excess = 0.02;
 /// Limits of |e|/m over the largest speed [-]: a note from the first, a warning from the second. Good impacts have 0.2 to
@@ -66,6 +68,7 @@ enum class WarningKind {
     rotation,        ///< Ledger::rotation [rad] where a body is small; threshold: far_rotation
     local_rotation,  ///< the largest of RunResult::local_rotations [rad] where none is; threshold: far_rotation
     finite_strain,   ///< FiniteExtremes::strain [-] of bodies of Kinematics::finite; threshold: large_strain
+    alternating_slip,  ///< force of sliding faces over its limit [-]; threshold: least_sliding_share
     energy_excess,   ///< Ledger::energy_excess over the energy in play [-]; threshold: large_energy_excess
     parasitic,       ///< Ledger::parasitic over Accounts::speed [-]; threshold: large_parasitic_share
     moment_drift,    ///< of J~ where it is conserved [-]; threshold: large_moment_drift
@@ -83,7 +86,7 @@ struct Warning {
     Severity severity;
     std::string text;  ///< a sentence without its full stop: what, how much, how much is safe, what to do
     double value;      ///< see WarningKind; NaN: none
-    double threshold;  ///< above which (unseen_edges, missing_inertia: below which) `value` is worth a word
+    double threshold;  ///< above which (unseen_edges, missing_inertia, alternating_slip: below which) `value` is worth a word
 };
 
 /// Known once all is set up, before the first step: of the mesh, the reconstruction, the surface. For Observer::begin.

@@ -107,6 +107,17 @@ Markup contact_part(const Figures& figures, const Scene<Dim>& scene, const RunRe
                                         figure_row(figures, "lists of candidates", "rebuilds", "")}));
 }
 
+/// Nothing without friction.
+Markup friction_part(const Figures& figures) {
+    if (!figures.summary().contains("friction")) return {};
+    return section("Friction", table({"", ""}, {figure_row(figures, "dissipated", "friction.dissipated", "J"),
+                                                figure_row(figures, "held by faces that stick", "friction.energy", "J"),
+                                                figure_row(figures, "faces that stick, at most", "friction.sticking_faces_max", ""),
+                                                figure_row(figures, "faces that slide, at most", "friction.sliding_faces_max", ""),
+                                                figure_row(figures, "force of sliding faces over its limit",
+                                                           "friction.sliding_share", "")}));
+}
+
 Markup findings_part(const Figures& figures, const std::vector<Finding>& findings) {
     std::vector<Markup> rows;
     for (const Finding& finding : findings) rows.push_back(row({finding.text, figures.at(finding.key)}));
@@ -187,7 +198,7 @@ std::string report_html(const std::string& program, const Scene<Dim>& scene, con
     const std::vector<Warning> warnings = all_warnings(scene, result);
     const Markup body = heading(program, figures, result) + verdict_part(scene, result) + warnings_part(warnings) +
                         energies_part(figures, result) + bodies_part(figures, scene, result) +
-                        contact_part(figures, scene, result) + findings_part(figures, result.findings) +
+                        contact_part(figures, scene, result) + friction_part(figures) + findings_part(figures, result.findings) +
                         settings_part(figures, scene, result) + seconds_part(figures) + files_part(files);
     return "<!DOCTYPE html>\n" + page(program + ": report of a run", body).html() + "\n";
 }
