@@ -8,13 +8,15 @@ A claim passes where the result is right. Where a claim says so, a run may also 
 warns. The right values come from momentum and energy balances and from closed forms, which stand beside each claim; none is
 a figure of an earlier run.
 """
-import csv
-import json
 import math
 import pathlib
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import abut_runs  # noqa: E402
+from abut_runs import main, near, require  # noqa: E402
 
 INPUTS = pathlib.Path(__file__).parent / "inputs"
 CLAIMS = {}
@@ -25,41 +27,9 @@ def claim(function):
     return function
 
 
-class Run:
-    """A run of `abut run` and what it left."""
-
-    def __init__(self, programs, scene, *options, seconds=240):
-        self._folder = tempfile.TemporaryDirectory()
-        self.out = pathlib.Path(self._folder.name) / "out"
-        command = [programs / "abut", "run", INPUTS / scene, "--out", self.out, *options]
-        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=seconds)
-        self.code, self.said = done.returncode, done.stdout + done.stderr
-        summary = self.out / "summary.json"
-        self.summary = json.loads(summary.read_text()) if summary.exists() else None
-
-    def require_end(self):
-        require(self.code == 0 and self.summary is not None and self.summary["complete"], f"it did not end:\n{self.said}")
-        return self
-
-    def body(self, name):
-        return next(body for body in self.summary["bodies"] if body["name"] == name)
-
-    def rows(self, file="energy.csv"):
-        with open(self.out / file, newline="") as lines:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
-
-    def warns_of(self, *words):
-        """Whether a warning, or the message of an error, has all of these words."""
-        return all(word in self.said for word in words) and (self.code != 0 or "warning" in self.said.lower())
-
-
-def require(condition, otherwise):
-    if not condition:
-        raise AssertionError(otherwise)
-
-
-def near(value, expected, tolerance, what):
-    require(abs(value - expected) <= tolerance, f"{what} is {value:.6g}, {expected:.6g} +- {tolerance:.2g} is right")
+class Run(abut_runs.Run):
+    def __init__(self, programs, scene, *options, **more):
+        super().__init__(programs, INPUTS / scene, *options, **more)
 
 
 def check_mesh(programs, scene, *options):
@@ -269,22 +239,5 @@ def what_is_too_large_is_refused_before_it_is_made(programs):
             require(done.returncode == 1 and "cells" in done.stderr, f"{command} {scene}: {done.stdout}{done.stderr}")
 
 
-def main():
-    programs = pathlib.Path(sys.argv[1])
-    wanted = sys.argv[2:] or list(CLAIMS)
-    if wanted == ["--list"]:
-        print("\n".join(CLAIMS))
-        return 0
-    failed = 0
-    for name in wanted:
-        try:
-            CLAIMS[name](programs)
-            print(f"{name}: holds")
-        except (AssertionError, subprocess.TimeoutExpired) as fault:
-            failed += 1
-            print(f"{name}: FAILS: {str(fault)[-1500:]}")
-    return 1 if failed else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(CLAIMS))

@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+"""What friction must do, each claim by runs of `abut run`.
+
+    check_friction.py build/dev/bin --list
+    check_friction.py build/dev/bin slide_at_30_degrees
+
+The right values come from balances of energy, momentum and moments, and from closed forms, which stand beside each claim.
+"""
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "support"))
+import abut_runs  # noqa: E402
+from abut_runs import main, near, require  # noqa: E402
+
+INPUTS = pathlib.Path(__file__).parent / "inputs"
+CLAIMS = {}
+G, MU = 10.0, 0.3
+# The law of contact and the kinematics of the body: every way in which a body may rub.
+WAYS = [("reconstruction", "small"), ("pair_potential", "small"), ("pair_potential", "floating"), ("pair_potential", "finite"),
+        ("pair_potential", "rigid")]
+
+
+def claim(function):
+    CLAIMS[function.__name__] = function
+    return function
+
+
+def run(programs, scene, *options, **more):
+    return abut_runs.Run(programs, INPUTS / scene, "--frames", "0", *options, **more)
+
+
+def keys(**values):
+    """keys(bodies__block__velocity="[1, 0]") sets bodies.block.velocity."""
+    return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+
+
+def way(law, kinematics):
+    return ["--law", law, "--kinematics", kinematics]
+
+
+def balance(rows, scale=None):
+    """Largest |H~ + D - W| from its start, over the energies that moved, or over `scale` [J]."""
+    kept = [row["pseudo_energy"] + row["dissipated"] - row["work"] for row in rows]
+    scale = scale or sum(max(abs(row[name] - rows[0][name]) for row in rows) for name in ("kinetic", "potential", "work", "dissipated"))
+    return max(abs(value - kept[0]) for value in kept) / scale
+
+
+def excess(rows):
+    return max(row["energy"] - row["pseudo_energy"] for row in rows)
+
+
+def slope(times, values):
+    mean_t, mean_v = sum(times) / len(times), sum(values) / len(values)
+    return (sum((t - mean_t) * (v - mean_v) for t, v in zip(times, values)) /
+            sum((t - mean_t) ** 2 for t in times))
+
+
+def acceleration(rows, mass, begin=0.3):
+    part = rows[int(begin * len(rows)):]
+    return slope([row["time"] for row in part], [row["linear_momentum_x"] / mass for row in part])
+
+
+def on_incline(degrees):
+    angle = math.radians(degrees)
+    return keys(bodies__block__velocity="[0, 0]", gravity=f"[{G * math.sin(angle)}, {-G * math.cos(angle)}]")
+
+
+# --- A block on a plane ---------------------------------------------------------------------------------------------
+
+
+@claim
+def slide_at_30_degrees(programs):
+    """a = g (sin - mu cos), within 1 % g; a rigid body within 0.2 %."""
+    right = G * (math.sin(math.pi / 6) - MU * math.cos(math.pi / 6))
+    for law, kinematics in WAYS:
+        done = run(programs, "block.toml", *way(law, kinematics), *on_incline(30)).require_end()
+        rows = done.rows()
+        allowed = 0.002 if kinematics == "rigid" else 0.01
+        near(acceleration(rows, done.body("block")["mass"]), right, allowed * G, f"{law}, {kinematics}: the acceleration")
+        require(balance(rows) <= 1e-11, f"{law}, {kinematics}: the balance is open by {balance(rows):.2g}")
+
+
+@claim
+def stick_at_10_degrees(programs):
+    """tan 10 degrees is less than mu: the block, let go from no contact, swings on its own stiffness and does not slide."""
+    for law, kinematics in WAYS:
+        done = run(programs, "block.toml", *way(law, kinematics), *on_incline(10)).require_end()
+        rows, mass = done.rows(), done.body("block")["mass"]
+        half = len(rows) // 2
+        drift = (sum(row["linear_momentum_x"] for row in rows[half:]) / len(rows[half:])) / mass
+        near(drift, 0.0, 1e-3, f"{law}, {kinematics}: the mean velocity of the second half")
+        weight = mass * G * 1.0  # [J], lifted by 1 m
+        require(balance(rows, weight) <= 1e-12, f"{law}, {kinematics}: the balance is open by {balance(rows, weight):.2g}")
+        fallen = mass * G * G * math.sin(math.radians(10)) ** 2 / 2  # what gravity would have done in 1 s without friction
+        require(rows[-1]["dissipated"] <= 1e-2 * fallen, f"{law}, {kinematics}: {rows[-1]['dissipated']:.3g} J are lost")
+
+
+@claim
+def slide_stop_stay(programs):
+    """All of the kinetic energy is dissipated, and nothing more once the block has stopped."""
+    for law, kinematics in WAYS:
+        rows = run(programs, "block.toml", *way(law, kinematics), *keys(run__time=4)).require_end().rows()
+        start, half = rows[0]["kinetic"], rows[len(rows) // 2]
+        near(rows[-1]["dissipated"] / start, 1.0, 5e-3, f"{law}, {kinematics}: D/K0")
+        require(rows[-1]["dissipated"] - half["dissipated"] <= 2e-3 * start, f"{law}, {kinematics}: it goes on losing")
+        require(balance(rows) <= 1e-11, f"{law}, {kinematics}: the balance is open by {balance(rows):.2g}")
+        require(excess(rows) <= 1e-2 * start, f"{law}, {kinematics}: H - H~ is {excess(rows) / start:.2g} K0")
+
+
+@claim
+def stopping_distance(programs):
+    """v^2/(2 mu g): to the first order in the step, since faces that vibrate reverse their slip within a step or two."""
+    for cfl, allowed in ((0.9, 0.05), (0.45, 0.025), (0.225, 0.0125)):
+        done = run(programs, "block.toml", "--cfl", cfl, "--interval", 1, *keys(run__time=0.9)).require_end()
+        rows, mass = done.rows(), done.body("block")["mass"]
+        path = sum(row["linear_momentum_x"] / mass * (row["time"] - before["time"]) for before, row in zip(rows, rows[1:]))
+        near(path / (4.0 / (2 * MU * G)), 1.0, allowed, f"cfl {cfl}: the path over v^2/(2 mu g)")
+
+
+@claim
+def shaken_table(programs):
+    """The block never loses more than the table gave; without restarts that is lost, and said."""
+    table = keys(bodies__block__velocity="[0, 0]", obstacles__floor__path='["0.5/(4*pi)*(1 - cos(4*pi*t))", "0"]',
+                 run__time=11.2)
+    for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating")):
+        done = run(programs, "block.toml", *way(law, kinematics), *table).require_end()
+        rows, start = done.rows(), 0.5 * done.body("block")["mass"] * 0.5**2
+        last = rows[-1]
+        require(20 * start < last["dissipated"] < last["work"], f"{law}: D is {last['dissipated']}, W {last['work']}")
+        require(balance(rows) <= 1e-11, f"{law}: the balance is open by {balance(rows):.2g}")
+        require(excess(rows) <= 1e-2 * (start + last["work"]), f"{law}: H - H~ is {excess(rows):.3g} J")
+        require("alternates" not in done.said, f"{law}: it warns of a slip that alternates")
+        lost = run(programs, "block.toml", *way(law, kinematics), *table, "--filter", "neutral", "--restart", "0")
+        require(lost.warns_of("H - H~ came to"),
+                f"{law}: without restarts nothing is said:\n{lost.said}")
+
+
+@claim
+def belt_and_floor(programs):
+    """A block that is put on a belt at 1 m/s ends with its velocity: D = m V^2/2, W = m V^2 on the belt."""
+    done = run(programs, "block.toml", *keys(bodies__block__velocity="[0, 0]", obstacles__floor__velocity="[1, 0]")).require_end()
+    mass, last = done.body("block")["mass"], done.rows()[-1]
+    near(done.body("block")["velocity_final"][0], 1.0, 5e-3, "the velocity")
+    near(last["dissipated"] / (0.5 * mass), 1.0, 1e-2, "D over m V^2/2")
+    near(last["work"] / mass, 1.0, 1e-2, "W over m V^2")
+
+
+@claim
+def block_in_space(programs):
+    """Friction is against the motion, whatever the mesh: the direction stays, a = mu g."""
+    done = run(programs, "block_3d.toml").require_end()
+    x, y, _ = done.body("block")["velocity_final"]
+    near(math.atan2(y, x), 0.4, 0.03, "the direction [rad]")
+    near((1.0 - math.hypot(x, y)) / 0.25, MU * G, 0.025 * MU * G, "the deceleration")
+    require(balance(done.rows()) <= 1e-11, "the balance is open")
+
+
+# --- Laws and pairs ---------------------------------------------------------------------------------------------------
+
+
+@claim
+def pairs_have_their_own_friction(programs):
+    """The lower block sticks to the floor (0.1 x 15,200 N) under the upper one (0.3 x 3,200 N), which slows down by mu g."""
+    done = run(programs, "two_blocks.toml").require_end()
+    near(done.body("upper")["velocity_final"][0], 2.0 - MU * G * 0.3, 0.02, "the velocity of the upper block")
+    near(done.body("lower")["velocity_final"][0], 0.0, 0.02, "that of the lower one")
+    require(balance(done.rows()) <= 1e-11, "the balance is open")
+
+
+@claim
+def no_friction_has_the_same_bits(programs):
+    plain = run(programs, "block.toml", *keys(contact__friction=0), "--filter", "neutral", "--restart", 10)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "block.toml"
+        scene.write_text((INPUTS / "block.toml").read_text().replace("friction = 0.3", ""))
+        other = abut_runs.Run(programs, scene, "--frames", "0", "--filter", "neutral", "--restart", 10)
+    require((plain.out / "energy.csv").read_bytes() == (other.out / "energy.csv").read_bytes(), "mu = 0 changes bits")
+    before, after = (plain.require_end().rows()[i]["linear_momentum_x"] for i in (0, -1))
+    near(after / before, 1.0, 1e-8, "momentum along the floor")
+
+
+@claim
+def tresca_takes_a_stress(programs):
+    """The force is c A, whatever presses: a = c A/m. The block stands on its whole side, 0.8 m."""
+    strength = 600.0
+    done = run(programs, "block.toml", *keys(contact__friction=0, contact__shear_strength=strength, run__time=0.5)).require_end()
+    mass = done.body("block")["mass"]
+    require(-strength * 0.8 / mass * 1.02 <= acceleration(done.rows(), mass, 0.2) <= -strength * 0.8 / mass * 0.7,
+            f"the acceleration is {acceleration(done.rows(), mass, 0.2)}")
+
+
+@claim
+def friction_falls_with_speed(programs):
+    """At 20 m/s and a decay speed of 1 m/s the coefficient is that of sliding."""
+    done = run(programs, "block.toml", *keys(bodies__block__velocity="[20, 0]", contact__friction=0.6,
+                                             contact__sliding_friction=0.1, contact__decay_speed=1)).require_end()
+    near(acceleration(done.rows(), done.body("block")["mass"]), -0.1 * G, 0.02 * G, "the acceleration")
+
+
+# --- Discs --------------------------------------------------------------------------------------------------------------
+
+
+@claim
+def wheel_on_a_belt_rolls(programs):
+    """Friction stops when v + omega R = V: v = V/3 for a disc."""
+    done = run(programs, "belt.toml").require_end()
+    near(done.body("wheel")["velocity_final"][0], 1 / 3, 0.02, "the velocity")
+    near(done.body("wheel")["spin_final"][0] * 0.2, 2 / 3, 0.02, "omega R")
+
+
+@claim
+def spinning_discs(programs):
+    """Free bodies keep momentum and J~ to round-off; at full slip J_T = mu J_N."""
+    for kinematics, allowed in (("floating", 0.005), ("rigid", 0.02)):
+        done = run(programs, "discs.toml", "--kinematics", kinematics).require_end()
+        left = done.body("left")
+        change = [after - before for before, after in zip(left["velocity_initial"], left["velocity_final"])]
+        near(-change[1] / (0.1 * -change[0]), 1.0, allowed, f"{kinematics}: J_T/(mu J_N)") if change[1] < 0 else require(
+            False, f"{kinematics}: friction pushes the wrong way")
+        spin = left["spin_final"][0] - left["spin_initial"][0]
+        near(spin * 0.2 / (2 * change[1]), 1.0, 0.06, f"{kinematics}: the change of spin over J_T R/I")
+        summary = done.summary
+        require(summary["momentum_drift_max"] <= 1e-13 * left["mass"] * 40, f"{kinematics}: momentum is not kept")
+        require(summary["pseudo_angular_momentum_drift_max"] <= 1e-13 * left["mass"] * 0.04 * 40, f"{kinematics}: J~ is not kept")
+        require(balance(done.rows()) <= 1e-12, f"{kinematics}: the balance is open")
+
+
+# --- Runs -----------------------------------------------------------------------------------------------------------------
+
+
+@claim
+def same_bits_after_a_restart(programs):
+    """A run that is stopped in mid-slip and goes on has the bits of one that was not."""
+    for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating"), ("pair_potential", "rigid")):
+        with tempfile.TemporaryDirectory() as folder:
+            options = [*way(law, kinematics), "--interval", 7]
+            whole = run(programs, "block.toml", *options, *keys(run__time=0.3)).require_end()
+            first = run(programs, "block.toml", *options, *keys(run__time=0.3), "--checkpoint-steps", 97, "--set",
+                        "output.keep_last_checkpoint=true", folder=folder).require_end()
+            require((whole.out / "energy.csv").read_bytes() == (first.out / "energy.csv").read_bytes(), "checkpoints change bits")
+            part = pathlib.Path(folder) / "part"
+            command = [programs / "abut", "run", INPUTS / "block.toml", "--frames", "0", *options, "--out", part]
+            subprocess.run(list(map(str, [*command, *keys(run__time=0.15), "--keep-last-checkpoint"])), check=True,
+                           capture_output=True)
+            done = subprocess.run(list(map(str, [programs / "abut", "restart", part, "--until", "0.3"])), capture_output=True,
+                                  text=True)
+            require(done.returncode == 0, done.stdout + done.stderr)
+            expected, got = whole.rows()[-1], list(abut_runs.rows_of(part / "energy.csv"))[-1]
+            require(expected == got, f"{law}, {kinematics}: {expected} became {got}")
+
+
+@claim
+def same_bits_on_ranks(programs):
+    for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating")):
+        options = [*way(law, kinematics), *keys(run__time=0.01, bodies__block__counts="[24, 12]")]
+        one = run(programs, "block.toml", *options).require_end()
+        for ranks in (2, 3):
+            more = run(programs, "block.toml", *options, "--ranks", ranks).require_end()
+            require((one.out / "energy.csv").read_bytes() == (more.out / "energy.csv").read_bytes(),
+                    f"{law}, {kinematics}: {ranks} ranks have other bits")
+
+
+@claim
+def what_cannot_be_is_refused(programs):
+    for options, word in ((keys(contact__friction=-0.1), "contact.friction"),
+                          (keys(contact__sliding_friction=0.1), "decay_speed"),
+                          (["--set", 'contact.pairs=[{bodies=["block", "roof"], friction=0.1}]'], "roof"),
+                          (["--set", 'contact.pairs=[{friction=0.1}]'], "bodies"),
+                          (["--integrator", "memm_async", "--kinematics", "small"], "friction")):
+        done = run(programs, "block.toml", *options)
+        require(done.code == 1 and word in done.said, f"{options}: {done.said}")
+
+
+if __name__ == "__main__":
+    sys.exit(main(CLAIMS))

@@ -1,0 +1,66 @@
+"""Runs of `abut run` for tests that claim something of their results."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+
+class Run:
+    """A run of `abut run` and what it left. `scene`: its file; `folder`: of the results, by default one that goes with this."""
+
+    def __init__(self, programs, scene, *options, seconds=240, folder=None):
+        self._folder = tempfile.TemporaryDirectory()
+        self.out = pathlib.Path(folder or self._folder.name) / "out"
+        command = [programs / "abut", "run", scene, "--out", self.out, *options]
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=seconds)
+        self.code, self.said = done.returncode, done.stdout + done.stderr
+        summary = self.out / "summary.json"
+        self.summary = json.loads(summary.read_text()) if summary.exists() else None
+
+    def require_end(self):
+        require(self.code == 0 and self.summary is not None and self.summary["complete"], f"it did not end:\n{self.said}")
+        return self
+
+    def body(self, name):
+        return next(body for body in self.summary["bodies"] if body["name"] == name)
+
+    def rows(self, file="energy.csv"):
+        return rows_of(self.out / file)
+
+    def warns_of(self, *words):
+        """Whether a warning, or the message of an error, has all of these words."""
+        return all(word in self.said for word in words) and (self.code != 0 or "warning" in self.said.lower())
+
+
+def rows_of(file):
+    with open(file, newline="") as lines:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(lines)]
+
+
+def require(condition, otherwise):
+    if not condition:
+        raise AssertionError(otherwise)
+
+
+def near(value, expected, tolerance, what):
+    require(abs(value - expected) <= tolerance, f"{what} is {value:.6g}, {expected:.6g} +- {tolerance:.2g} is right")
+
+
+def main(claims):
+    """FILE.py FOLDER_OF_PROGRAMS [CLAIM ...], or --list; the exit code of the program."""
+    programs = pathlib.Path(sys.argv[1])
+    wanted = sys.argv[2:] or list(claims)
+    if wanted == ["--list"]:
+        print("\n".join(claims))
+        return 0
+    failed = 0
+    for name in wanted:
+        try:
+            claims[name](programs)
+            print(f"{name}: holds")
+        except (AssertionError, subprocess.TimeoutExpired) as fault:
+            failed += 1
+            print(f"{name}: FAILS: {str(fault)[-1500:]}")
+    return 1 if failed else 0
