@@ -47,7 +47,7 @@ struct NodalStep {
     double energy_0 = 0.0;                      ///< W at the start of the step [J]
     double energy = 0.0;                        ///< W at its end [J]
     double work = 0.0;                          ///< what rigid bodies on their paths did on the rest [J]
-    std::vector<FaceFriction> friction;         ///< of each facet with friction, by face
+    std::vector<FaceFriction> friction;         ///< of each facet with friction in the last step, by face
     StepReport report;
     std::int32_t least_force_size = 0;  ///< how many nodes a force must have: up to the last one of a deformable face
 

@@ -130,7 +130,9 @@ OptionList<Friction> make_friction_options() {
     const Limits from_zero{.above = 0.0, .from = true};
     return {
         option("friction", &Of::coefficient,
-               {.help = "coefficient of friction between faces that touch; 0: none", .limits = from_zero}),
+               {.help = "coefficient of friction between faces that touch; 0: none",
+                    .limits = from_zero,
+                    .named = Named::changed}),
         option("sliding_friction", &Of::sliding_coefficient,
                {.help = "coefficient of fast sliding, where it is another than at rest: give decay_speed or decay_slip, too",
                 .limits = from_zero,

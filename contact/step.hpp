@@ -111,7 +111,7 @@ struct ContactStep {
     std::vector<PairStep<Dim>> pairs;                ///< the active ones, by (face_1, face_2)
     /// What the corrections add to the host's energy at the end of the step: sum y . delta + 1/2 sum delta . Q delta [J].
     double energy = 0.0;
-    std::vector<FaceFriction> friction;  ///< of each face with friction, increasing
+    std::vector<FaceFriction> friction;  ///< of each face with friction in the last step, increasing
     StepReport report;
 
     [[nodiscard]] bool is_active() const { return !pairs.empty(); }

@@ -10,11 +10,12 @@ namespace {
 using Of = Make<Settings>;
 using run::FrameFields;
 
-constexpr std::array<Word<bool FrameFields::*>, 6> field_words{{{"velocity", &FrameFields::velocity},
+constexpr std::array<Word<bool FrameFields::*>, 7> field_words{{{"velocity", &FrameFields::velocity},
                                                                 {"stress", &FrameFields::stress},
                                                                 {"von_mises", &FrameFields::von_mises},
                                                                 {"pressure", &FrameFields::pressure},
                                                                 {"gap", &FrameFields::gap},
+                                                                {"friction", &FrameFields::friction},
                                                                 {"pairs", &FrameFields::pairs}}};
 
 Key<Settings> fields() {
@@ -28,7 +29,7 @@ Key<Settings> fields() {
         for (const std::size_t index : *chosen) fields.*field_words[index].choice = true;
         return fields;
     };
-    Key<Settings> key = key_of<Settings>("fields", "list of velocity, stress, von_mises, pressure, gap, pairs",
+    Key<Settings> key = key_of<Settings>("fields", "list of velocity, stress, von_mises, pressure, gap, friction, pairs",
                                          "what frames hold beside the displacement", &Settings::fields, read);
     key.by_default = "all";
     return key;

@@ -61,6 +61,10 @@ public:
             if (!is_own_here[first_cell(part, b)]) continue;
             piece_.pressure.push_back(contact.pressure[b]);
             piece_.gap.push_back(gap_in_contact(contact.gap[b]));
+            if (contact.friction.empty()) continue;
+            piece_.friction.push_back(contact.friction[b]);
+            piece_.slip.push_back(contact.slip[b]);
+            piece_.sliding.push_back(contact.sliding[b]);
         }
         for (std::size_t b = 0; b < mesh_.boundary_faces.size(); ++b)
             if (is_own_[first_cell(mesh_, b)]) piece_.boundary.push_back(static_cast<std::int32_t>(b));

@@ -65,11 +65,15 @@ std::vector<mesh::Field<Dim>> cell_fields(const FrameFields& fields, std::span<c
 }
 
 template <int Dim>
-std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::span<const double> pressure,
-                                              std::span<const double> gap) {
+std::vector<mesh::Field<Dim>> boundary_fields(const FrameFields& fields, std::span<const double> gap, const auto& contact) {
     std::vector<mesh::Field<Dim>> chosen;
-    if (fields.pressure) chosen.push_back({"contact pressure [Pa]", pressure});
+    if (fields.pressure) chosen.push_back({"contact pressure [Pa]", contact.pressure});
     if (fields.gap) chosen.push_back({"gap [m]", gap});
+    if (fields.friction && !contact.friction.empty()) {
+        chosen.push_back({"friction [Pa]", contact.friction});
+        chosen.push_back({"slip [m]", contact.slip});
+        chosen.push_back({"sticks 1, slides 2", contact.sliding});
+    }
     return chosen;
 }
 
@@ -82,7 +86,7 @@ mesh::PieceFrame<Dim> shown(const FrameFields& fields, const FramePiece<Dim>& pi
             .displacement = piece.displacement,
             .vertex_displacement = piece.vertex_displacement,
             .cell_fields = cell_fields<Dim>(fields, piece.velocity, stresses),
-            .boundary_fields = boundary_fields<Dim>(fields, piece.pressure, piece.gap)};
+            .boundary_fields = boundary_fields<Dim>(fields, piece.gap, piece)};
 }
 
 template <int Dim>
@@ -128,26 +132,29 @@ public:
             body_2_.push_back(body_of(pair.face_2));
             normal_.push_back(pair.normal);
             force_.push_back(pair.force);
+            friction_.push_back(pair.friction);
             normal_force_.push_back(pair.normal_force);
             gap_.push_back(pair.gap);
             area_.push_back(pair.area);
         }
     }
 
-    [[nodiscard]] mesh::PointFrame<Dim> frame(double time) const {
-        return {.time = time,
-                .position = position_,
-                .fields = {{"body 1", body_1_},
-                           {"body 2", body_2_},
-                           {"normal", normal_},
-                           {"force [N]", force_},
-                           {"normal force [N]", normal_force_},
-                           {"gap [m]", gap_},
-                           {Dim == 2 ? "area [m]" : "area [m^2]", area_}}};
+    [[nodiscard]] mesh::PointFrame<Dim> frame(double time, bool with_friction) const {
+        mesh::PointFrame<Dim> frame{.time = time,
+                                    .position = position_,
+                                    .fields = {{"body 1", body_1_},
+                                               {"body 2", body_2_},
+                                               {"normal", normal_},
+                                               {"force [N]", force_},
+                                               {"normal force [N]", normal_force_},
+                                               {"gap [m]", gap_},
+                                               {Dim == 2 ? "area [m]" : "area [m^2]", area_}}};
+        if (with_friction) frame.fields.push_back({"friction [N]", friction_});
+        return frame;
     }
 
 private:
-    std::vector<Vector<Dim>> position_, normal_, force_;
+    std::vector<Vector<Dim>> position_, normal_, force_, friction_;
     std::vector<double> body_1_, body_2_, normal_force_, gap_, area_;
 };
 
@@ -230,7 +237,7 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
         const auto velocity = cell_velocity(run, solid);
         mesh::Frame<Dim> frame{.time = run.time, .displacement = displacement, .vertex_displacement = of_vertices};
         frame.cell_fields = cell_fields<Dim>(fields_, velocity, stresses);
-        frame.boundary_fields = boundary_fields<Dim>(fields_, contact.pressure, gap);
+        frame.boundary_fields = boundary_fields<Dim>(fields_, gap, contact);
         if (pairs_) write_pairs(run, solid, displacement, of_vertices);
         series_->write(frame);
     } else {
@@ -241,7 +248,8 @@ void Frames<Dim>::write(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& so
 template <int Dim>
 void Frames<Dim>::write_pairs(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid,
                               std::span<const Vector<Dim>> displacement, std::span<const Vector<Dim>> of_vertices) {
-    pairs_->write(PairPoints<Dim>(solid.acting_pairs(run.q), solid, displacement, of_vertices).frame(run.time));
+    pairs_->write(PairPoints<Dim>(solid.acting_pairs(run.q), solid, displacement, of_vertices)
+                      .frame(run.time, fields_.friction && solid.options().has_friction()));
 }
 
 template <int Dim>

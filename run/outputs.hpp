@@ -23,6 +23,7 @@ struct FrameFields {
     bool von_mises = true;
     bool pressure = true;  ///< of contact, on the surface
     bool gap = true;       ///< on the surface
+    bool friction = true;  ///< traction, slip and state on the surface, and of pairs; where there is friction
     bool pairs = true;     ///< of faces that push each other, as a series of points
 };
 

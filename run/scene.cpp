@@ -96,6 +96,15 @@ bool has_friction(const Scene<Dim>& scene, const RunOptions& options) {
 }
 
 template <int Dim>
+void check_friction(const Scene<Dim>& scene, const RunOptions& options) {
+    const bool has_scheme = options.integrator == SolidIntegrator::memm || options.integrator == SolidIntegrator::leapfrog;
+    if (!has_scheme && has_friction(scene, options))
+        throw BadInput(
+            "--integrator " + name_of(options.integrator) +
+            " has no friction. Take memm, which closes its balance of energy, or leapfrog; or leave friction out.");
+}
+
+template <int Dim>
 RunOptions with_restart(RunOptions options, const Scene<Dim>& scene) {
     if (options.restart != restart_not_given) return options;
     const auto of_all = kinematics_of_all(options.kinematics);
@@ -149,6 +158,7 @@ std::vector<double> momentum_at_start(const Scene<Dim>& scene, const solid::Soli
 #define ABUT_INSTANTIATE(Dim)                                                                             \
     template solid::SolidOptions<Dim> solid_options<Dim>(const Scene<Dim>&, const RunOptions&);           \
     template bool has_friction<Dim>(const Scene<Dim>&, const RunOptions&);                                \
+    template void check_friction<Dim>(const Scene<Dim>&, const RunOptions&);                              \
     template RunOptions with_restart<Dim>(RunOptions, const Scene<Dim>&);                                 \
     template solid::Kinematics kinematics_of<Dim>(const Scene<Dim>&, const RunResult<Dim>&, std::size_t); \
     template std::vector<double> displacement_at_start<Dim>(const Scene<Dim>&, const solid::Solid<Dim>&); \

@@ -117,6 +117,9 @@ template <int Dim>
 /// Whether some bodies or obstacles of a run rub.
 template <int Dim>
 [[nodiscard]] bool has_friction(const Scene<Dim>& scene, const RunOptions& options);
+/// Throws BadInput where bodies rub under a scheme that has no friction.
+template <int Dim>
+void check_friction(const Scene<Dim>& scene, const RunOptions& options);
 /// With `restart` filled in, by friction and the kinematics that the bodies are run with; with friction the filter, too.
 template <int Dim>
 [[nodiscard]] RunOptions with_restart(RunOptions options, const Scene<Dim>& scene);

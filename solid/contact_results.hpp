@@ -21,11 +21,11 @@ template <int Dim>
 struct ActingPair {
     BoundaryFace face_1;
     BoundaryFace face_2;
-    Vector<Dim> normal;   ///< from the body of face 1 into that of face 2
-    double gap;           ///< [m], < 0 pressed in
-    double area;          ///< that they share [m^(Dim-1)]
-    double normal_force;  ///< [N], > 0 in compression
-    Vector<Dim> force;    ///< on face 2, friction included [N]; face 1 feels the opposite
+    Vector<Dim> normal;    ///< from the body of face 1 into that of face 2
+    double gap;            ///< [m], < 0 pressed in
+    double area;           ///< that they share [m^(Dim-1)]
+    double normal_force;   ///< [N], > 0 in compression
+    Vector<Dim> force;     ///< on face 2, friction included [N]; face 1 feels the opposite
     Vector<Dim> friction;  ///< part of it that is friction [N]
     Vector<Dim> slip;      ///< motion of face 2 past face 1 in the last step, where there is friction [m]
 };
@@ -45,6 +45,11 @@ struct BodyImpulse {
 struct ContactField {
     std::vector<double> pressure;
     std::vector<double> gap;
+    /// Of friction, empty without any: the size of its traction [Pa]; the slip of each face in the last step [m]; and whether
+    /// it stuck (1) or slid (2) then, 0 without friction.
+    std::vector<double> friction = {};
+    std::vector<double> slip = {};
+    std::vector<double> sliding = {};
 };
 
 }  // namespace abut::solid

@@ -1,10 +1,19 @@
 #pragma once
 // Private to the sources of this layer.
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "abut/base/ids.hpp"
 #include "abut/contact/friction.hpp"
+#include "abut/contact/step.hpp"
+#include "abut/mesh/mesh.hpp"
+#include "abut/solid/boundary_face.hpp"
+#include "abut/solid/contact_results.hpp"
 #include "abut/solid/options.hpp"
 
 namespace abut::solid {
@@ -32,6 +41,28 @@ template <int Dim>
         return is_for_all ? 0 : -1;
     };
     return friction;
+}
+
+/// Fields of friction: `pairs` of the state that was evaluated last, `faces` of the last step. `boundary_of`: the boundary face
+/// of a face of contact, `no_face` if there is none here.
+template <int Dim, class BoundaryOf>
+void add_friction(std::span<const contact::PairStep<Dim>> pairs, std::span<const contact::FaceFriction> faces,
+                  const BoundaryOf& boundary_of, const mesh::Mesh<Dim>& mesh, ContactField& field) {
+    const std::size_t n = field.pressure.size();
+    std::vector<Vector<Dim>> force(n, Vector<Dim>::Zero());
+    for (const contact::PairStep<Dim>& pair : pairs) {
+        if (const BoundaryFace b = boundary_of(pair.face_1); b != no_face) force[number_of(b)] -= pair.friction;
+        if (const BoundaryFace b = boundary_of(pair.face_2); b != no_face) force[number_of(b)] += pair.friction;
+    }
+    for (std::size_t b = 0; b < n; ++b)
+        field.friction.push_back(force[b].norm() / mesh.face_measure[mesh_face(mesh, BoundaryFace(b))]);
+    field.slip.assign(n, 0.0);
+    field.sliding.assign(n, 0.0);
+    for (const contact::FaceFriction& face : faces)
+        if (const BoundaryFace b = boundary_of(face.face); b != no_face) {
+            field.slip[number_of(b)] = std::max(field.slip[number_of(b)], face.slip);
+            field.sliding[number_of(b)] = std::max(field.sliding[number_of(b)], face.slip > 0.0 ? 2.0 : 1.0);
+        }
 }
 
 }  // namespace abut::solid

@@ -298,6 +298,10 @@ ContactField PairPotentialDriver<Dim>::field() const {
                 field.pressure[number_of(b)] += pair.normal_force / mesh.face_measure[mesh_face(mesh, b)];
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], pair.gap_1);
             }
+    if (bodies_.deformable_options().has_friction())
+        add_friction<Dim>(
+            contact_.last().pairs, contact_.last().friction,
+            [&](contact::Face face) { return corners_.mesh_boundary(face); }, mesh, field);
     return field;
 }
 

@@ -327,6 +327,9 @@ ContactField ReconstructionDriver<Dim>::field() const {
         for (const contact::Face face : {overlap.face_1, overlap.face_2})
             if (const BoundaryFace b = mesh_boundary(face); b != no_face)
                 field.gap[number_of(b)] = std::min(field.gap[number_of(b)], overlap.gap);
+    if (options_.friction.any())
+        add_friction<Dim>(
+            step.pairs, step.friction, [&](contact::Face face) { return mesh_boundary(face); }, mesh_, field);
     return field;
 }
 

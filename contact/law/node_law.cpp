@@ -58,6 +58,7 @@ template <int Dim>
 void NodeLaw<Dim>::clear(NodalStep<Dim>& step) const {
     step.nodes = pairs_.nodes();
     step.least_force_size = least_force_size_;
+    step.friction.clear();
     clear_step(pairs_, step);
 }
 

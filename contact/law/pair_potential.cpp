@@ -65,7 +65,6 @@ void clear_step(const NodalPairs<Dim>& listed, NodalStep<Dim>& step) {
     for (const auto& [body_1, body_2] : listed.body_pairs())
         step.body_pairs.push_back({body_1, body_2, 0, Vector<Dim>::Zero(), 0.0});
     step.energy_0 = step.energy = step.work = 0.0;
-    step.friction.clear();
     step.report = {};
 }
 
