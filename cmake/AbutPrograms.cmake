@@ -10,8 +10,8 @@ add_library(abut_joined_options INTERFACE)
 target_compile_options(abut_joined_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>)
 
 # abut_join_sources(targets...): with ABUT_JOIN_SOURCES, eight sources of a target are compiled at a time, and share their
-# headers. Names in unnamed namespaces must differ then, and warnings that see names of other sources are off. Not for
-# geometry, contact and dynamics, since a call may silently find a better match in another source.
+# headers. Names in unnamed namespaces must differ then, and warnings that see names of other sources are off. A call
+# may silently find a better match in another source: overloads in unnamed namespaces take other types, or have other names.
 function(abut_join_sources)
   if(ABUT_JOIN_SOURCES)
     foreach(target IN LISTS ARGN)

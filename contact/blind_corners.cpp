@@ -7,12 +7,11 @@
 #include <tuple>
 #include <utility>
 
+#include "abut/contact/ridges.hpp"
 #include "abut/geometry/merged_vertices.hpp"
 
 namespace abut::contact {
 namespace {
-
-constexpr double rounding = 1e-9;  // of cosines: a tip of just the limiting angle is blind
 
 /// A face at a corner, sorted by merged vertex and body.
 struct FaceAtCorner {
@@ -38,7 +37,7 @@ template <int Dim>
 class Corner {
 public:
     Corner(const SurfaceView<Dim>& surface, std::span<const FaceAtCorner> faces, double seen)
-        : surface_(surface), faces_(faces), seen_(seen + rounding) {}
+        : surface_(surface), faces_(faces), seen_(seen + cosine_rounding) {}
 
     [[nodiscard]] bool is_blind() const {
         if (is_blunt()) return false;
@@ -75,7 +74,7 @@ private:
     /// Whether a face of normal -d can come at the corner without facing a face of it.
     [[nodiscard]] bool is_unseen(const Vector<Dim>& along) const {
         const double length = along.norm();
-        if (!(length > rounding)) return false;
+        if (!(length > cosine_rounding)) return false;
         const Vector<Dim> d = along / length;
         const bool faces_none =
             std::ranges::all_of(faces_, [&](const FaceAtCorner& at) { return surface_.normal[at.face].dot(d) <= seen_; });
@@ -87,7 +86,7 @@ private:
         return std::ranges::all_of(faces_, [&](const FaceAtCorner& at) {
             return std::ranges::all_of(surface_.vertices_of(at.face), [&](std::int32_t v) {
                 const Vector<Dim> to_corner = surface_.vertices[v] - tip;
-                return to_corner.dot(d) <= rounding * to_corner.norm();
+                return to_corner.dot(d) <= cosine_rounding * to_corner.norm();
             });
         });
     }

@@ -15,7 +15,7 @@ namespace abut::contact {
 namespace {
 
 /// Rounding of a host's own sums, in parts of the largest entry of the blocks that are compared.
-constexpr double rounding = 1e-10;
+constexpr double coupling_rounding = 1e-10;
 
 template <int Dim>
 struct CouplingCheck {
@@ -69,7 +69,7 @@ struct CouplingCheck {
         if (own < 0) return;
         const Matrix<Dim> symmetric = 0.5 * (block(own) + block(own).transpose());
         const double least = symmetric_eigenvalues(symmetric)[0];
-        const double allowed = -rounding * largest_entry(own);
+        const double allowed = -coupling_rounding * largest_entry(own);
         if (least < allowed)
             refuse(row(f) + "has a block on the diagonal with the eigenvalue " + number(least) + " N/m, " + number(allowed) +
                        " is allowed: it must be positive semi-definite. Q is the second derivative of the energy; check "
@@ -88,8 +88,9 @@ struct CouplingCheck {
                            ". Give both blocks, or none.",
                        {.face_1 = face(f), .face_2 = face(other)});
             const double difference = (block(i) - block(twin).transpose()).cwiseAbs().maxCoeff();
-            const double allowed = rounding * std::max({largest_entry(i), largest_entry(twin), largest_entry(find(f, f)),
-                                                        largest_entry(find(other, other))});
+            const double allowed =
+                coupling_rounding * std::max({largest_entry(i), largest_entry(twin), largest_entry(find(f, f)),
+                                              largest_entry(find(other, other))});
             if (difference > allowed)
                 refuse(row(f) + "has a block with " + face_name(surface, face(other)) + " that differs by " +
                            number(difference) + " N/m from the transpose of that one's block with it, " + number(allowed) +

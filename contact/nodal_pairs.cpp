@@ -10,7 +10,7 @@
 namespace abut::contact {
 namespace {
 
-constexpr std::ptrdiff_t grain = 256;  // pairs that are worth a task
+constexpr std::ptrdiff_t pairs_per_task = 256;  // pairs that are worth a task
 
 // Steps like the present one after which the pairs in reach are chosen again.
 constexpr double steps_between = 8.0;
@@ -122,7 +122,7 @@ void NodalPairs<Dim>::look_ahead(PointsView<Dim> x_0, PointsView<Dim> x_1, doubl
                 for (std::size_t v = 0; v < start.size(); ++v) farthest = std::max(farthest, (end[v] - start[v]).norm());
                 outlooks_[p] = geometry::pair_outlook<Dim>(start, pair.law, farthest, compression_ * pair.admission_depth);
             },
-            grain);
+            pairs_per_task);
     };
     if (!shared_.is_worth(pairs_.size())) return look({0, pairs_.size()});
     shared_.run(

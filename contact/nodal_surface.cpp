@@ -35,7 +35,7 @@ std::string length_range() { return number(least_length) + " to " + number(large
     refuse("face " + std::to_string(face) + " " + what, of_face);
 }
 
-/// Corners of the faces of a host, checked as they are read.
+/// FacetCorners of the faces of a host, checked as they are read.
 template <int Dim>
 class HostFaces {
 public:
@@ -148,9 +148,9 @@ private:
 };
 
 /// The corners of a facet, as indices into those of its face.
-using Corners = std::array<std::size_t, 3>;
+using FacetCorners = std::array<std::size_t, 3>;
 
-using Halves = std::array<Corners, 2>;
+using Halves = std::array<FacetCorners, 2>;
 
 /// Whether two triangles look the same way.
 bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halves& halves) {
@@ -165,7 +165,7 @@ bool agree(PointsView<3> rest, std::span<const std::int32_t> corners, const Halv
 /// Two triangles of a face with four corners, along the shorter diagonal, the first one of equals; of a concave face along
 /// that inside.
 Halves halves_of(PointsView<3> rest, std::int32_t face, std::span<const std::int32_t> corners) {
-    Halves shorter{Corners{0, 1, 2}, Corners{0, 2, 3}}, longer{Corners{0, 1, 3}, Corners{1, 2, 3}};
+    Halves shorter{FacetCorners{0, 1, 2}, FacetCorners{0, 2, 3}}, longer{FacetCorners{0, 1, 3}, FacetCorners{1, 2, 3}};
     const double first = (rest[corners[2]] - rest[corners[0]]).norm(), second = (rest[corners[3]] - rest[corners[1]]).norm();
     if (first > second * (1.0 + 1e-12)) std::swap(shorter, longer);
     if (agree(rest, corners, shorter)) return shorter;
@@ -211,7 +211,7 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
     for (std::int32_t face = 0; face < n_faces_; ++face) {
         const auto corners = host.corners(face);
         nodes_.insert(nodes_.end(), corners.begin(), corners.end());
-        const auto append = [&](const Corners& facet) {
+        const auto append = [&](const FacetCorners& facet) {
             append_facet(face, corners, facet);
             facets_.cell_depth.push_back(host.depth(face));
             facets_.body.push_back(host.body(face));
@@ -221,7 +221,7 @@ NodalSurface<Dim>::NodalSurface(PointsView<Dim> rest, const NodalFaces<Dim>& fac
         if (corners.size() == Dim) append({0, 1, 2});
         if (corners.size() != Dim)
             if constexpr (Dim == 3)
-                for (const Corners& half : halves_of(rest, face, corners)) append(half);
+                for (const FacetCorners& half : halves_of(rest, face, corners)) append(half);
         facet_offsets_.push_back(static_cast<std::int32_t>(face_of_.size()));
     }
     sort_unique(nodes_);

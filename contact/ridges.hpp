@@ -7,6 +7,9 @@
 
 namespace abut::contact {
 
+/// Rounding of cosines [-]: an edge or a corner of just the limiting angle is not beyond it.
+inline constexpr double cosine_rounding = 1e-9;
+
 /// Where two faces of a body meet: an edge in 3D, a corner in 2D.
 struct Ridge {
     std::int32_t face_1;

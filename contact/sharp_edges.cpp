@@ -7,12 +7,10 @@
 namespace abut::contact {
 namespace {
 
-constexpr double rounding = 1e-9;  // of cosines: edges of just the limiting angle are not sharp
-
 template <int Dim>
 bool is_sharp(const SurfaceView<Dim>& surface, const Ridge& ridge) {
     const double cosine = surface.normal[ridge.face_1].dot(surface.normal[ridge.face_2]);
-    return cosine < sharp_edge_cosine - rounding && is_convex(surface, ridge);
+    return cosine < sharp_edge_cosine - cosine_rounding && is_convex(surface, ridge);
 }
 
 }  // namespace

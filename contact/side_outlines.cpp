@@ -13,7 +13,7 @@ namespace {
 constexpr float all_around = std::numeric_limits<float>::infinity();
 
 /// Faces deform, and are seen from aside: directions this near to a side are on it, and the pair is admitted [rad].
-constexpr double tolerance = 0.1;
+constexpr double angle_tolerance = 0.1;
 
 template <int Dim>
 bool looks_elsewhere(const SurfaceView<Dim>& facets, std::int32_t facet_1, std::int32_t facet_2) {
@@ -105,7 +105,8 @@ bool SideOutlines<3>::goes_on(std::int32_t facet, const geometry::OutlinePart& p
     const std::size_t first = 3 * static_cast<std::size_t>(facet);
     if (part.corner < 0) return goes_on_[first + part.edge] != 0;
     const Reach& reach = reach_[first + part.corner];
-    return part.past_next <= reach.past_next + tolerance || part.past_previous <= reach.past_previous + tolerance;
+    return part.past_next <= reach.past_next + angle_tolerance ||
+           part.past_previous <= reach.past_previous + angle_tolerance;
 }
 
 }  // namespace abut::contact

@@ -9,8 +9,6 @@
 namespace abut::contact {
 namespace {
 
-constexpr double rounding = 1e-9;  // of cosines: edges of just the limiting angle are unseen
-
 struct Body {
     SharpestEdge<3> sharpest;
     bool is_rigid;
@@ -56,7 +54,7 @@ std::optional<EdgePair<3>> unseen_edges(const SurfaceView<3>& surface, double fa
         const EdgePair<3> pair{deformable->second.sharpest, other.sharpest};
         if (!worst || pair.facing() < worst->facing()) worst = pair;
     }
-    if (worst && worst->facing() > -facing_cosine + rounding) return std::nullopt;
+    if (worst && worst->facing() > -facing_cosine + cosine_rounding) return std::nullopt;
     return worst;
 }
 

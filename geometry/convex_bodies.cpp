@@ -12,7 +12,7 @@
 namespace abut::geometry {
 namespace {
 
-constexpr int max_iterations = 200;
+constexpr int max_distance_iterations = 200;
 
 template <int Dim>
 Box<3> bounding_box_of(std::span<const Vector<Dim>> points, const std::string& name) {
@@ -105,7 +105,7 @@ UnitBodies unit_bodies(std::span<const Vector<Dim>> points_1, std::span<const Ve
 Vector<3> gjk_gap(const ConvexPair& bodies) {
     std::vector<Vector<3>> simplex;
     Vector<3> nearest = bodies.body_2.centre - bodies.body_1.centre;
-    for (int iteration = 0; iteration < max_iterations && nearest.norm() > 1e-14; ++iteration) {
+    for (int iteration = 0; iteration < max_distance_iterations && nearest.norm() > 1e-14; ++iteration) {
         const Vector<3> candidate = bodies.support(-nearest);
         if (!simplex.empty() && nearest.squaredNorm() - nearest.dot(candidate) <= 1e-14 * nearest.squaredNorm()) break;
         if (simplex.size() == 4) break;  // the origin is inside, up to rounding

@@ -23,7 +23,7 @@ struct Node {
 };
 
 template <int Dim>
-struct Face {
+struct GatheredFace {
     std::int32_t number;
     int rank;
     std::int32_t local;  // index on that rank
@@ -174,29 +174,29 @@ struct PackedFaces {
 
 /// The faces of all ranks by number. The same on all ranks, errors included.
 template <int Dim>
-std::vector<Face<Dim>> gather_faces(const Communicator& communicator, const NodalPart<Dim>& part) {
+std::vector<GatheredFace<Dim>> gather_faces(const Communicator& communicator, const NodalPart<Dim>& part) {
     const PackedFaces<Dim> own(part);
     const auto integers = gather_to_all<std::int32_t>(communicator, own.integers);
     const auto values = gather_to_all<double>(communicator, own.values);
-    std::vector<Face<Dim>> faces;
+    std::vector<GatheredFace<Dim>> faces;
     for (int rank = 0; rank < communicator.size(); ++rank) {
         const auto of_rank = integers.from(rank);
         const auto depths = values.from(rank);
         for (std::size_t i = 0; i * own.n_integers < of_rank.size(); ++i) {
             const auto packed = of_rank.subspan(i * own.n_integers, own.n_integers);
             const auto next = static_cast<std::int32_t>(faces.size());
-            Face<Dim>& face = faces.emplace_back(Face<Dim>{.number = packed[0] < 0 ? next : packed[0],
-                                                           .rank = rank,
-                                                           .local = static_cast<std::int32_t>(i),
-                                                           .body = packed[1],
-                                                           .depth = depths[2 * i],
-                                                           .stiffness = depths[2 * i + 1]});
+            GatheredFace<Dim>& face = faces.emplace_back(GatheredFace<Dim>{.number = packed[0] < 0 ? next : packed[0],
+                                                                           .rank = rank,
+                                                                           .local = static_cast<std::int32_t>(i),
+                                                                           .body = packed[1],
+                                                                           .depth = depths[2 * i],
+                                                                           .stiffness = depths[2 * i + 1]});
             std::ranges::copy(packed.subspan(2), face.corners.begin());
         }
     }
-    std::ranges::stable_sort(faces, {}, &Face<Dim>::number);
-    if (const auto twice = std::ranges::adjacent_find(faces, {}, &Face<Dim>::number); twice != faces.end()) {
-        const auto given_by = [](const Face<Dim>& face) {
+    std::ranges::stable_sort(faces, {}, &GatheredFace<Dim>::number);
+    if (const auto twice = std::ranges::adjacent_find(faces, {}, &GatheredFace<Dim>::number); twice != faces.end()) {
+        const auto given_by = [](const GatheredFace<Dim>& face) {
             return "as face " + std::to_string(face.local) + at_rank(face.rank);
         };
         throw BadInput("shared surface: face " + std::to_string(twice->number) + " is given twice, " + given_by(twice[0]) +
@@ -207,11 +207,11 @@ std::vector<Face<Dim>> gather_faces(const Communicator& communicator, const Noda
 }
 
 template <int Dim>
-contact::NodalSurface<Dim> make_surface(std::span<const Vector<Dim>> rest, std::span<const Face<Dim>> faces,
+contact::NodalSurface<Dim> make_surface(std::span<const Vector<Dim>> rest, std::span<const GatheredFace<Dim>> faces,
                                         std::span<const double> stiffness, SharedNumbers& numbers) {
     std::vector<std::int32_t> nodes, offsets{0}, body;
     std::vector<double> depth, face_stiffness;
-    for (const Face<Dim>& face : faces) {
+    for (const GatheredFace<Dim>& face : faces) {
         for (const std::int32_t corner : face.corners)
             if (corner >= 0) nodes.push_back(index_of(numbers.node, corner));
         offsets.push_back(static_cast<std::int32_t>(nodes.size()));

@@ -21,10 +21,10 @@
 namespace abut::geometry {
 namespace {
 
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::vector<Vector<3>>;
 
-Exact::Point_3 point_of(const Vector<3>& x) { return {x.x(), x.y(), x.z()}; }
+Predicates::Point_3 point_of(const Vector<3>& x) { return {x.x(), x.y(), x.z()}; }
 
 bool is_vertex(const FaceSoup& soup, std::int32_t index) {
     return index >= 0 && static_cast<std::size_t>(index) < soup.vertices.size();
@@ -72,7 +72,7 @@ bool touches_itself(const Corners& corners) {
     const std::size_t n = corners.size();
     const auto edge = [&](std::size_t i) {
         const Vector<3>&a = corners[i], &b = corners[(i + 1) % n];
-        return Exact::Segment_2({a[u], a[v]}, {b[u], b[v]});
+        return Predicates::Segment_2({a[u], a[v]}, {b[u], b[v]});
     };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 2; j < n; ++j)

@@ -15,8 +15,8 @@
 namespace abut::geometry {
 namespace {
 
-using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Exact::Point_3;
+using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
+using PredicatePoint = Predicates::Point_3;
 
 /// A triangle of a face, by merged vertices. No two triangles of one face are tested against each other.
 struct Piece {
@@ -46,14 +46,14 @@ public:
     }
 
 private:
-    [[nodiscard]] Point point(std::int32_t vertex) const {
+    [[nodiscard]] PredicatePoint point(std::int32_t vertex) const {
         const Vector<3>& x = vertices_[static_cast<std::size_t>(vertex)];
         return {x.x(), x.y(), x.z()};
     }
-    [[nodiscard]] Exact::Triangle_3 triangle(const Piece& piece) const {
+    [[nodiscard]] Predicates::Triangle_3 triangle(const Piece& piece) const {
         return {point(piece.corners[0]), point(piece.corners[1]), point(piece.corners[2])};
     }
-    [[nodiscard]] Exact::Segment_3 edge_opposite_of_first(const Piece& piece) const {
+    [[nodiscard]] Predicates::Segment_3 edge_opposite_of_first(const Piece& piece) const {
         return {point(piece.corners[1]), point(piece.corners[2])};
     }
 
@@ -79,8 +79,8 @@ private:
     }
     /// In one plane and on the same side of the edge they share.
     [[nodiscard]] bool are_folded(const Piece& piece_1, const Piece& piece_2) const {
-        const Point a = point(piece_1.corners[0]), b = point(piece_1.corners[1]);
-        const Point c = point(piece_1.corners[2]), d = point(piece_2.corners[2]);
+        const PredicatePoint a = point(piece_1.corners[0]), b = point(piece_1.corners[1]);
+        const PredicatePoint c = point(piece_1.corners[2]), d = point(piece_2.corners[2]);
         return CGAL::coplanar(a, b, c, d) && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
     }
 
