@@ -1,12 +1,15 @@
-# abut_test(<name> SOURCES files... LINK targets... [PROPERTIES name value...])
+# abut_test(<name> SOURCES files... LINK targets... [LAYER name] [PROPERTIES name value...])
 #
-# One Catch2 program, test_<name>, and one CTest per TEST_CASE, called "<name>/<title>". LINK names what is under test, for
+# One Catch2 program, test_<name>, and one CTest per TEST_CASE, called "<name>/<title>" or "<layer>/<title>". LINK names what is under test, for
 # example abut::contact. PROPERTIES go to every one of its CTests, for example TIMEOUT 300 or PROCESSORS 2. The main
 # program is compiled once, in tests/support; headers there are included as "support/<name>.hpp".
 include(Catch)
 
 function(abut_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "SOURCES;LINK;PROPERTIES")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "LAYER" "SOURCES;LINK;PROPERTIES")
+  if(NOT test_LAYER)
+    set(test_LAYER ${name})
+  endif()
   add_executable(test_${name} ${test_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${test_LINK} abut_test_main abut_compile_options)
@@ -15,5 +18,5 @@ function(abut_test name)
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
   abut_join_sources(test_${name})
   # Catch2 2.13 asks the finished program for its test cases right after linking it; it has no DISCOVERY_MODE.
-  catch_discover_tests(test_${name} TEST_PREFIX "${name}/" PROPERTIES TIMEOUT 600 ${test_PROPERTIES})
+  catch_discover_tests(test_${name} TEST_PREFIX "${test_LAYER}/" PROPERTIES TIMEOUT 600 ${test_PROPERTIES})
 endfunction()

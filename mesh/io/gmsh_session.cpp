@@ -1,7 +1,5 @@
 #include "abut/mesh/io/gmsh_session.hpp"
 
-#include <gmsh.h>
-
 #include <algorithm>
 #include <array>
 #include <clocale>
@@ -13,6 +11,7 @@
 
 #include "abut/mesh/cell_shape.hpp"
 #include "abut/mesh/connected_bodies.hpp"
+#include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/node_numbers.hpp"
 #include "abut/mesh/quality.hpp"
 
@@ -43,7 +42,7 @@ struct ElementBlock {
 std::vector<ElementBlock> element_blocks(int dimension, int entity) {
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+    gmsh().elements(dimension, entity, types, tags, nodes);
     std::vector<ElementBlock> blocks;
     for (std::size_t i = 0; i < types.size(); ++i)
         if (!tags[i].empty())
@@ -51,11 +50,7 @@ std::vector<ElementBlock> element_blocks(int dimension, int entity) {
     return blocks;
 }
 
-bool has_elements(int dimension) {
-    std::vector<int> types;
-    gmsh::model::mesh::getElementTypes(types, dimension);
-    return !types.empty();
-}
+bool has_elements(int dimension) { return !gmsh().element_types(dimension).empty(); }
 
 std::int32_t n_elements(int dimension, int entity = -1) {
     std::size_t count = 0;
@@ -65,9 +60,8 @@ std::int32_t n_elements(int dimension, int entity = -1) {
 
 void check_first_order(const std::string& name, const ElementBlock& block, bool is_known) {
     std::string type;
-    int dimension = 0, order = 0, n_nodes = 0, n_primary = 0;
-    std::vector<double> coordinates;
-    gmsh::model::mesh::getElementProperties(block.type, type, dimension, order, n_nodes, coordinates, n_primary);
+    int order = 0;
+    gmsh().element_properties(block.type, type, order);
     const std::string element = name + ": element " + std::to_string(block.tags.front()) + " is a '" + type + "'";
     if (order != 1)
         throw MeshError(element + " of order " + std::to_string(order) +
@@ -88,8 +82,8 @@ CellShape shape_of(const std::string& name, const ElementBlock& block) {
 template <int Dim>
 std::vector<std::size_t> read_nodes(CellSoup<Dim>& soup) {
     std::vector<std::size_t> tags;
-    std::vector<double> coordinates, parameters;
-    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+    std::vector<double> coordinates;
+    gmsh().nodes(tags, coordinates);
     soup.vertices.resize(tags.size());
     for (std::size_t i = 0; i < tags.size(); ++i)
         for (std::size_t k = 0; k < Dim; ++k) soup.vertices[i][static_cast<Eigen::Index>(k)] = coordinates[3 * i + k];
@@ -98,15 +92,13 @@ std::vector<std::size_t> read_nodes(CellSoup<Dim>& soup) {
 }
 
 std::string group_name(int dimension, int tag) {
-    std::string name;
-    gmsh::model::getPhysicalName(dimension, tag, name);
+    const std::string name = gmsh().physical_name(dimension, tag);
     return name.empty() ? std::string("physical_") + std::to_string(tag) : name;
 }
 
 /// Body of an entity: its index among the physical groups of dimension Dim; -1 outside any group.
 std::int32_t body_of_entity(const std::string& mesh_name, int dimension, int entity, const std::vector<int>& body_groups) {
-    std::vector<int> groups;
-    gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
+    const std::vector<int> groups = gmsh().physical_groups_of(dimension, entity);
     if (groups.empty()) return -1;
     if (groups.size() > 1)
         throw MeshError(mesh_name + ": geometric entity " + std::to_string(entity) + " is in the physical groups '" +
@@ -139,15 +131,12 @@ void append_cells(CellSoup<Dim>& soup, const ElementBlock& block, const NodeNumb
 template <int Dim>
 void read_cells(CellSoup<Dim>& soup, const NodeNumbers<std::size_t>& number) {
     constexpr int dimension = Dim;
-    gmsh::vectorpair groups, entities;
-    gmsh::model::getPhysicalGroups(groups, dimension);
     std::vector<int> tags;
-    for (const auto& [group_dimension, tag] : groups) {
+    for (const auto& [group_dimension, tag] : gmsh().physical_groups(dimension)) {
         tags.push_back(tag);
         soup.body_names.push_back(group_name(dimension, tag));
     }
-    gmsh::model::getEntities(entities, dimension);
-    for (const auto& [entity_dimension, entity] : entities) {
+    for (const auto& [entity_dimension, entity] : gmsh().entities(dimension)) {
         const auto blocks = element_blocks(dimension, entity);
         if (blocks.empty()) continue;
         const std::int32_t body = body_of_entity(soup.name, dimension, entity, tags);
@@ -159,9 +148,7 @@ template <int Dim>
 void read_group(CellSoup<Dim>& soup, int tag, const NodeNumbers<std::size_t>& number) {
     const auto group = static_cast<std::int32_t>(soup.group_names.size());
     soup.group_names.push_back(group_name(Dim - 1, tag));
-    std::vector<int> entities;
-    gmsh::model::getEntitiesForPhysicalGroup(Dim - 1, tag, entities);
-    for (const int entity : entities)
+    for (const int entity : gmsh().entities_of_group(Dim - 1, tag))
         for (const auto& block : element_blocks(Dim - 1, entity)) {
             check_first_order(soup.name, block, true);
             for (std::size_t i = 0; i < block.tags.size(); ++i) {
@@ -178,13 +165,8 @@ template <int Dim>
 std::int32_t n_ignored_elements() {
     std::int32_t count = 0;
     for (int dimension = 0; dimension < Dim - 1; ++dimension) count += n_elements(dimension);
-    gmsh::vectorpair entities;
-    gmsh::model::getEntities(entities, Dim - 1);
-    for (const auto& [dimension, entity] : entities) {
-        std::vector<int> groups;
-        gmsh::model::getPhysicalGroupsForEntity(dimension, entity, groups);
-        if (groups.empty()) count += n_elements(dimension, entity);
-    }
+    for (const auto& [dimension, entity] : gmsh().entities(Dim - 1))
+        if (gmsh().physical_groups_of(dimension, entity).empty()) count += n_elements(dimension, entity);
     return count;
 }
 
@@ -203,18 +185,18 @@ void check_dimension(const std::string& name) {
 }  // namespace
 
 GmshSession::GmshSession() : lock_(gmsh_in_use), locale_before_(std::setlocale(LC_ALL, nullptr)) {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-    gmsh::option::setNumber("Mesh.RandomSeed", 1);
-    gmsh::logger::start();
-    gmsh::model::add("abut");
+    gmsh().initialize();
+    gmsh().set_option("General.Terminal", 0);
+    gmsh().set_option("General.NumThreads", 1);
+    gmsh().set_option("Mesh.RandomSeed", 1);
+    gmsh().start_log();
+    gmsh().add_model("abut");
 }
 
 GmshSession::~GmshSession() {
     try {
-        gmsh::logger::stop();
-        gmsh::finalize();
+        gmsh().stop_log();
+        gmsh().finalize();
     } catch (...) {  // a destructor has nobody to tell
     }
     std::setlocale(LC_ALL, locale_before_.c_str());
@@ -223,9 +205,9 @@ GmshSession::~GmshSession() {
 namespace {
 
 std::vector<std::string> logged(const char* level) {
-    std::vector<std::string> log, found;
-    gmsh::logger::get(log);
-    std::ranges::copy_if(log, std::back_inserter(found), [&](const std::string& line) { return line.starts_with(level); });
+    std::vector<std::string> found;
+    std::ranges::copy_if(gmsh().log(), std::back_inserter(found),
+                         [&](const std::string& line) { return line.starts_with(level); });
     return found;
 }
 
@@ -264,9 +246,7 @@ CellSoup<Dim> soup_of_gmsh_model(const std::string& name) {
     const NodeNumbers<std::size_t> number(read_nodes(soup));
     read_cells(soup, number);
     name_connected_bodies(soup);
-    gmsh::vectorpair groups;
-    gmsh::model::getPhysicalGroups(groups, Dim - 1);
-    for (const auto& [dimension, tag] : groups) read_group(soup, tag, number);
+    for (const auto& [dimension, tag] : gmsh().physical_groups(Dim - 1)) read_group(soup, tag, number);
     soup.n_ignored_elements = n_ignored_elements<Dim>();
     return soup;
 }

@@ -1,7 +1,5 @@
 #include "abut/mesh/shapes/fill.hpp"
 
-#include <gmsh.h>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "abut/base/messages.hpp"
 #include "abut/geometry/health/surface_health.hpp"
+#include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes/estimate.hpp"
@@ -82,21 +81,21 @@ void add_surface(const SurfaceMesh& surface, const Frame& frame) {
     for (const Vector<3>& x : surface.vertices)
         for (int i = 0; i < 3; ++i) coordinates.push_back((x[i] - frame.origin[i]) / frame.unit);
     for (const std::int32_t vertex : surface.faces.values) corners.push_back(static_cast<std::size_t>(vertex) + 1);
-    gmsh::model::addDiscreteEntity(2, surface_tag);
-    gmsh::model::mesh::addNodes(2, surface_tag, nodes, coordinates);
-    gmsh::model::mesh::addElementsByType(surface_tag, gmsh_triangle, {}, corners);
+    gmsh().add_discrete_entity(2, surface_tag);
+    gmsh().add_nodes(2, surface_tag, nodes, coordinates);
+    gmsh().add_elements(surface_tag, gmsh_triangle, corners);
 }
 
 void mesh_inside(const FillOptions& options, const Frame& frame) {
-    gmsh::model::geo::addSurfaceLoop({surface_tag}, surface_tag);
-    gmsh::model::geo::addVolume({surface_tag}, volume_tag);
-    gmsh::model::geo::synchronize();
-    gmsh::model::setPhysicalName(3, gmsh::model::addPhysicalGroup(3, {volume_tag}), options.name);
-    gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, {surface_tag}), "boundary");
-    gmsh::option::setNumber("Mesh.Algorithm3D", mesher_3d);
-    gmsh::option::setNumber("Mesh.Optimize", 1);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", options.size / frame.unit);
-    gmsh::model::mesh::generate(3);
+    gmsh().add_surface_loop({surface_tag}, surface_tag);
+    gmsh().add_volume({surface_tag}, volume_tag);
+    gmsh().synchronize_discrete();
+    gmsh().set_physical_name(3, gmsh().add_physical_group(3, {volume_tag}), options.name);
+    gmsh().set_physical_name(2, gmsh().add_physical_group(2, {surface_tag}), "boundary");
+    gmsh().set_option("Mesh.Algorithm3D", mesher_3d);
+    gmsh().set_option("Mesh.Optimize", 1);
+    gmsh().set_option("Mesh.MeshSizeMax", options.size / frame.unit);
+    gmsh().generate_mesh(3);
 }
 
 }  // namespace

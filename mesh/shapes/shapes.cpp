@@ -1,6 +1,5 @@
 #include "abut/mesh/shapes/shapes.hpp"
 
-#include <gmsh.h>
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "abut/base/messages.hpp"
+#include "abut/mesh/io/gmsh_functions.hpp"
 #include "abut/mesh/io/gmsh_session.hpp"
 #include "abut/mesh/quality.hpp"
 #include "abut/mesh/shapes/estimate.hpp"
@@ -87,9 +87,9 @@ struct SizeField {
 
 template <int Dim>
 void set_size(const SizeField<Dim>& field) {
-    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-    gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
-    gmsh::model::mesh::setSizeCallback([field](int, int, double x, double y, double z) {
+    gmsh().set_option("Mesh.MeshSizeExtendFromBoundary", 0);
+    gmsh().set_option("Mesh.MeshSizeFromPoints", 0);
+    gmsh().set_size([field](double x, double y, double z) {
         Vector<3> point(x, y, z);
         return field(point.head<Dim>());
     });
@@ -122,9 +122,9 @@ void choose_algorithms(const std::string& name, const SizeField<Dim>& field, dou
     check_estimate(
         name, cells, most_meshed_cells, options,
         field.refinement ? "Raise size or refinement.size, lower refinement.distance or refinement.uniform" : "Raise size");
-    gmsh::option::setNumber("Mesh.Algorithm", frontal_delaunay_2d);
-    gmsh::option::setNumber("Mesh.Algorithm3D", Dim == 3 && cells > many_tetrahedra ? hxt_3d : delaunay_3d);
-    gmsh::option::setNumber("Mesh.Optimize", 1);
+    gmsh().set_option("Mesh.Algorithm", frontal_delaunay_2d);
+    gmsh().set_option("Mesh.Algorithm3D", Dim == 3 && cells > many_tetrahedra ? hxt_3d : delaunay_3d);
+    gmsh().set_option("Mesh.Optimize", 1);
 }
 
 /// Name of the boundary group that the surface (3D) or curve (2D) with this centre of mass belongs to.
@@ -132,13 +132,11 @@ using NameOfSide = std::function<std::string(const Vector<3>& centre)>;
 
 template <int Dim>
 void name_parts(int tag, const std::string& body_name, const NameOfSide& name_of_side) {
-    gmsh::model::setPhysicalName(Dim, gmsh::model::addPhysicalGroup(Dim, {tag}), body_name);
-    gmsh::vectorpair sides;
-    gmsh::model::getBoundary({{Dim, tag}}, sides, false, false);
+    gmsh().set_physical_name(Dim, gmsh().add_physical_group(Dim, {tag}), body_name);
     std::vector<std::pair<std::string, std::vector<int>>> groups;
-    for (const auto& [dimension, side] : sides) {
+    for (const auto& [dimension, side] : gmsh().boundary_of(Dim, tag)) {
         Vector<3> centre;
-        gmsh::model::occ::getCenterOfMass(dimension, side, centre[0], centre[1], centre[2]);
+        gmsh().centre_of_mass(dimension, side, centre[0], centre[1], centre[2]);
         const std::string name = name_of_side(centre);
         if (groups.empty() || std::none_of(groups.begin(), groups.end(), [&](auto& g) { return g.first == name; }))
             groups.push_back({name, {}});
@@ -146,7 +144,7 @@ void name_parts(int tag, const std::string& body_name, const NameOfSide& name_of
             if (group.first == name) group.second.push_back(side);
     }
     for (const auto& [name, tags] : groups)
-        gmsh::model::setPhysicalName(Dim - 1, gmsh::model::addPhysicalGroup(Dim - 1, tags), name);
+        gmsh().set_physical_name(Dim - 1, gmsh().add_physical_group(Dim - 1, tags), name);
 }
 
 /// Meshes the part that `add_part` adds to an empty OpenCASCADE model; it returns the tag of its volume (surface in 2D).
@@ -158,13 +156,11 @@ CellSoup<Dim> meshed_part(const std::string& name, const SizeField<Dim>& field, 
     CellSoup<Dim> soup;
     session.run(name, "meshing failed", "Change size or refinement.", [&] {
         const int tag = add_part();
-        gmsh::model::occ::synchronize();
+        gmsh().synchronize_shapes();
         name_parts<Dim>(tag, name, name_of_side);
-        double volume = 0.0;
-        gmsh::model::occ::getMass(Dim, tag, volume);
-        choose_algorithms(name, field, volume, options);
+        choose_algorithms(name, field, gmsh().mass(Dim, tag), options);
         set_size(field);
-        gmsh::model::mesh::generate(Dim);
+        gmsh().generate_mesh(Dim);
         soup = soup_of_gmsh_model<Dim>(name);
     });
     soup.n_ignored_elements = 0;  // points and edges of our own model, not something a user gave
@@ -227,7 +223,7 @@ Mesh<2> disc(const DiscOptions& options, const MeshOptions& mesh_options) {
     const Matrix<2> turn = turn_about(Vector<3>::UnitZ(), options.variant).topLeftCorner<2, 2>();
     return placed_part<2>(
         options.name, {options.radius, options.centre, turn}, {options.size, options.refinement},
-        [] { return gmsh::model::occ::addDisk(0, 0, 0, 1, 1); }, [](const Vector<3>&) { return "boundary"; }, mesh_options);
+        [] { return gmsh().add_disk(); }, [](const Vector<3>&) { return "boundary"; }, mesh_options);
 }
 
 Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options) {
@@ -241,8 +237,7 @@ Mesh<3> cylinder(const CylinderOptions& options, const MeshOptions& mesh_options
     };
     return placed_part<3>(
         options.name, {options.radius, options.centre, turn_about(Vector<3>::UnitZ(), options.variant)},
-        {options.size, options.refinement}, [&] { return gmsh::model::occ::addCylinder(0, 0, -half, 0, 0, length, 1); },
-        side, mesh_options);
+        {options.size, options.refinement}, [&] { return gmsh().add_cylinder(-half, length); }, side, mesh_options);
 }
 
 Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
@@ -252,8 +247,8 @@ Mesh<3> sphere(const SphereOptions& options, const MeshOptions& mesh_options) {
     const Vector<3> skew(1.0, std::numbers::sqrt2, std::numbers::pi);
     return placed_part<3>(
         options.name, {options.radius, options.centre, turn_about(skew, options.variant)},
-        {options.size, options.refinement}, [] { return gmsh::model::occ::addSphere(0, 0, 0, 1); },
-        [](const Vector<3>&) { return "boundary"; }, mesh_options);
+        {options.size, options.refinement}, [] { return gmsh().add_sphere(); }, [](const Vector<3>&) { return "boundary"; },
+        mesh_options);
 }
 
 template <int Dim>
@@ -269,9 +264,9 @@ Mesh<Dim> box(const BoxOptions<Dim>& options, const MeshOptions& mesh_options) {
     if (options.variant > 0) waves = Waves<Dim>{relative, options.variant * golden_angle};
     const auto add_part = [&] {
         if constexpr (Dim == 2)
-            return gmsh::model::occ::addRectangle(0, 0, 0, relative[0], relative[1]);
+            return gmsh().add_rectangle(relative[0], relative[1]);
         else
-            return gmsh::model::occ::addBox(0, 0, 0, relative[0], relative[1], relative[2]);
+            return gmsh().add_box(relative[0], relative[1], relative[2]);
     };
     const auto side = [&](const Vector<3>& centre) { return side_of_box<Dim>(centre, relative); };
     return placed_part<Dim>(options.name, {unit, options.lower}, {options.size, options.refinement, waves}, add_part, side,
