@@ -1,13 +1,11 @@
 # abut_layer(<name> SOURCES ... HEADERS ... [DEPENDS layers...] [PUBLIC targets...] [PRIVATE targets...] [JOIN])
 #
 # One library per layer: target abut_<name>, alias abut::<name>, component <name> of find_package(abut). File names are
-# relative to the layer's folder. HEADERS become file sets that are installed under include/abut/<name>. Each of them
-# compiles on its own: the source of the same name includes it first, as CMake finds when it configures, or the target
-# all_verify_interface_header_sets compiles it. DEPENDS are lower layers. PRIVATE are the back ends, which no user ever
-# sees; cmake/AbutDependencies.cmake finds their packages.
-# JOIN: abut_join_sources may take the layer; all_verify_interface_header_sets then compiles all of its headers, since a
-# joined source may find what another one includes.
+# relative to the layer's folder. HEADERS become a file set that is installed under include/abut/<name>. DEPENDS are lower
+# layers. PRIVATE are the back ends, which no user ever sees; cmake/AbutDependencies.cmake finds their packages.
+# JOIN: abut_join_sources may take the layer.
 #
+# abut_check_headers() once, after the layers: the target check_headers compiles each of their headers on its own.
 # abut_install_package() once, after the layers: what find_package(abut) reads.
 
 include(CMakePackageConfigHelpers)
@@ -23,6 +21,9 @@ target_compile_options(abut_compile_options INTERFACE
   -ffp-contract=off -fno-fast-math -fno-semantic-interposition
   # Debug information does not name the build folder, so that a compiler cache serves another one, as tests make it.
   -fdebug-prefix-map=${PROJECT_BINARY_DIR}=.
+  # gcc collects its garbage at 128 MB, which costs up to a tenth of its time; at 512 MB hardly ever. With a compiler cache time
+  # is no matter, and what is in it stays valid.
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<NOT:$<BOOL:${ABUT_CCACHE}>>>:--param=ggc-min-heapsize=524288>
   -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers  # {.shift = s} leaves the rest to its defaults on purpose
   $<$<BOOL:${ABUT_WERROR}>:-Werror>
   $<$<BOOL:${ABUT_NATIVE}>:-march=native>
@@ -35,18 +36,6 @@ if(ABUT_SANITIZE)
   target_link_options(abut_compile_options INTERFACE -fsanitize=${ABUT_SANITIZE})
 endif()
 
-# Whether the first include of the source of the same name is this header.
-function(abut_is_first_include result layer header)
-  set(${result} FALSE PARENT_SCOPE)
-  cmake_path(REPLACE_EXTENSION header LAST_ONLY cpp OUTPUT_VARIABLE source)
-  if(source IN_LIST layer_SOURCES)
-    file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/${source} first_include REGEX "^#include" LIMIT_COUNT 1)
-    if(first_include STREQUAL "#include \"abut/${layer}/${header}\"")
-      set(${result} TRUE PARENT_SCOPE)
-    endif()
-  endif()
-endfunction()
-
 function(abut_layer name)
   cmake_parse_arguments(PARSE_ARGV 1 layer "JOIN" "" "SOURCES;HEADERS;DEPENDS;PUBLIC;PRIVATE")
   set(target abut_${name})
@@ -54,20 +43,8 @@ function(abut_layer name)
   add_library(abut::${name} ALIAS ${target})
 
   # Through the link include/abut, so that a header is found as "abut/<layer>/<name>.hpp" here and where it is installed.
-  set(headers_of_sources "")
-  set(headers_to_verify "")
-  foreach(header IN LISTS layer_HEADERS)
-    abut_is_first_include(is_first_include ${name} ${header})
-    cmake_path(ABSOLUTE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include/abut/${name})
-    if(is_first_include AND NOT (layer_JOIN AND ABUT_JOIN_SOURCES))
-      list(APPEND headers_of_sources ${header})
-    else()
-      list(APPEND headers_to_verify ${header})
-    endif()
-  endforeach()
-  target_sources(${target} PUBLIC
-    FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers_of_sources}
-    FILE_SET headers_to_verify TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers_to_verify})
+  list(TRANSFORM layer_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/include/abut/${name}/ OUTPUT_VARIABLE headers)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${headers})
 
   list(TRANSFORM layer_DEPENDS PREPEND abut:: OUTPUT_VARIABLE lower_layers)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -85,7 +62,6 @@ function(abut_layer name)
   endif()
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
-    VERIFY_INTERFACE_HEADER_SETS ON INTERFACE_HEADER_SETS_TO_VERIFY headers_to_verify
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH $ORIGIN)
 
   if(layer_JOIN)
@@ -94,7 +70,7 @@ function(abut_layer name)
 
   abut_install_layer(${name} "${layer_DEPENDS}" "${layer_PUBLIC}" "${layer_PRIVATE}")
   set_property(GLOBAL APPEND PROPERTY abut_layers ${name})
-  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${headers_of_sources} ${headers_to_verify})
+  set_property(GLOBAL APPEND PROPERTY abut_public_headers ${headers})
 endfunction()
 
 # The library, its headers, its targets and a list of what has to be found before them. A shared library brings its back
@@ -103,8 +79,7 @@ function(abut_install_layer name lower_layers public_targets private_targets)
   install(TARGETS abut_${name} EXPORT abut_${name}
     LIBRARY COMPONENT libraries NAMELINK_COMPONENT development
     ARCHIVE COMPONENT development
-    FILE_SET HEADERS COMPONENT development
-    FILE_SET headers_to_verify COMPONENT development)
+    FILE_SET HEADERS COMPONENT development)
   install(EXPORT abut_${name} NAMESPACE abut:: DESTINATION ${abut_package_dir} FILE abut-${name}-targets.cmake
     COMPONENT development)
 
@@ -142,4 +117,49 @@ function(abut_install_package)
     DESTINATION ${abut_package_dir} COMPONENT development)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE ${PROJECT_SOURCE_DIR}/README.md TYPE DOC
     COMPONENT libraries)
+endfunction()
+
+# Whether a header, named as it is included, includes base/vector.hpp, itself or through others.
+function(abut_includes_vectors result header)
+  if(header STREQUAL "abut/base/vector.hpp")
+    set(${result} TRUE PARENT_SCOPE)
+    return()
+  endif()
+  get_property(known GLOBAL PROPERTY abut_includes_vectors_${header} SET)
+  if(NOT known)
+    set(includes FALSE)
+    file(STRINGS ${PROJECT_SOURCE_DIR}/include/${header} lines REGEX "^#include \"abut/")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" included "${line}")
+      abut_includes_vectors(includes ${included})
+      if(includes)
+        break()
+      endif()
+    endforeach()
+    set_property(GLOBAL PROPERTY abut_includes_vectors_${header} ${includes})
+  endif()
+  get_property(includes GLOBAL PROPERTY abut_includes_vectors_${header})
+  set(${result} ${includes} PARENT_SCOPE)
+endfunction()
+
+# The target check_headers compiles a source for each public header that includes nothing else. Most of them include
+# base/vector.hpp, and take it, which is checked by itself, precompiled: it costs more than all the rest.
+function(abut_check_headers)
+  get_property(headers GLOBAL PROPERTY abut_public_headers)
+  get_property(layers GLOBAL PROPERTY abut_layers)
+  set(sources "")
+  foreach(header IN LISTS headers)
+    cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include)
+    set(source ${PROJECT_BINARY_DIR}/check_headers/${header}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n")
+    abut_includes_vectors(includes_vectors ${header})
+    if(NOT includes_vectors OR header STREQUAL "abut/base/vector.hpp")
+      set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    endif()
+    list(APPEND sources ${source})
+  endforeach()
+  add_library(check_headers OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_precompile_headers(check_headers PRIVATE <abut/base/vector.hpp>)
+  list(TRANSFORM layers PREPEND abut::)
+  target_link_libraries(check_headers PRIVATE ${layers} abut_compile_options)
 endfunction()
