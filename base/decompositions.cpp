@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 namespace abut {
 namespace {
@@ -61,7 +63,23 @@ SingularValues singular_values(const Matrix<3>& matrix) {
 }
 
 Matrix<3> rotation_between(const Vector<3>& from, const Vector<3>& to) {
-    return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+    // As Eigen::Quaterniond::FromTwoVectors, except for the axis of opposite vectors: its decomposition is one more to compile.
+    const Vector<3> start = from.normalized(), end = to.normalized();
+    const double cosine = end.dot(start);
+    Eigen::Quaterniond turn;
+    if (cosine < -1.0 + 1e-12) {
+        Matrix<3> both = Matrix<3>::Zero();
+        both.row(0) = start;
+        both.row(1) = end;
+        const double squared = 0.5 * (1.0 + std::max(cosine, -1.0));
+        turn.w() = std::sqrt(squared);
+        turn.vec() = std::sqrt(1.0 - squared) * singular_values(both).v.col(2);
+    } else {
+        const double twice_w = std::sqrt((1.0 + cosine) * 2.0), over_twice_w = 1.0 / twice_w;
+        turn.vec() = start.cross(end) * over_twice_w;
+        turn.w() = twice_w * 0.5;
+    }
+    return turn.toRotationMatrix();
 }
 
 double spectral_norm(const Matrix<2>& matrix) { return norm_of<2>(matrix); }
