@@ -12,7 +12,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <random>
@@ -22,6 +21,7 @@
 #include "abut/solid/solid.hpp"
 #include "support/assembled_matrix.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -336,18 +336,15 @@ nlohmann::json measure_of_shape(double size, const Choices& choices) {
 
 int run(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"Matrix-free bulk step against the product with the assembled matrix."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--size", choices.sizes, "edge lengths of the cells of a cylinder of radius and length 1 [m]")
-        ->delimiter(',');
-    app.add_option("--repetitions", choices.repetitions, "rounds; the least and the median are shown")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--threads", choices.threads, "of the matrix-free step; the product has one")->check(CLI::PositiveNumber);
-    app.add_option("--shape", choices.shape, "tetrahedra: with all rivals; others: steps and products alone")
-        ->check(CLI::IsMember({"tetrahedra", "boxed_tetrahedra", "hexahedra", "triangles", "squares"}));
-    app.add_flag("--alone", choices.alone, "one set of operators and its steps alone, for large meshes");
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Matrix-free bulk step against the product with the assembled matrix.");
+    options.add("--size", choices.sizes, "edge lengths of the cells of a cylinder of radius and length 1 [m]");
+    options.add("--repetitions", choices.repetitions, "rounds; the least and the median are shown").positive();
+    options.add("--threads", choices.threads, "of the matrix-free step; the product has one").positive();
+    options.add("--shape", choices.shape, "tetrahedra: with all rivals; others: steps and products alone")
+        .one_of({"tetrahedra", "boxed_tetrahedra", "hexahedra", "triangles", "squares"});
+    options.flag("--alone", choices.alone, "one set of operators and its steps alone, for large meshes");
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));

@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -18,6 +17,7 @@
 #include "abut/solid/body_motion.hpp"
 #include "studies/scenes/two_cylinders.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -159,22 +159,19 @@ void check_coarse(Choices choices) {
 
 int run_benchmark(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"What contact adds to a step of two colliding cylinders."};
-    app.option_defaults()->always_capture_default();
+    benchmark::Options options("What contact adds to a step of two colliding cylinders.");
     auto& cylinders = choices.cylinders;
-    app.add_option("--size", cylinders.size, "edge length of the cells of two cylinders of radius and length 1 [m]")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--speed", cylinders.speed, "of each body [m/s]")->check(CLI::PositiveNumber);
-    app.add_option("--offset", cylinders.offset, "between the two lines of motion [m]")->check(CLI::Range(0.0, 1.9));
-    app.add_option("--gap", cylinders.gap, "at the start [m]")->check(CLI::PositiveNumber);
-    app.add_option("--time", choices.time, "to run [s]; 0: as long as the scene does")->check(CLI::NonNegativeNumber);
-    app.add_option("--skin", choices.skin,
-                   "how far faces move before the candidate list is rebuilt; 0: the library's choice [m]");
-    app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
-    app.add_option("--block", choices.block, "steps of one scene before it is the next one's turn")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    options.add("--size", cylinders.size, "edge length of the cells of two cylinders of radius and length 1 [m]").positive();
+    options.add("--speed", cylinders.speed, "of each body [m/s]").positive();
+    options.add("--offset", cylinders.offset, "between the two lines of motion [m]").between(0.0, 1.9);
+    options.add("--gap", cylinders.gap, "at the start [m]").positive();
+    options.add("--time", choices.time, "to run [s]; 0: as long as the scene does").not_negative();
+    options.add("--skin", choices.skin,
+                "how far faces move before the candidate list is rebuilt; 0: the library's choice [m]");
+    options.add("--threads", choices.threads).positive();
+    options.add("--block", choices.block, "steps of one scene before it is the next one's turn").positive();
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));

@@ -11,7 +11,6 @@
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -20,6 +19,7 @@
 #include "abut/contact/search/candidate_search.hpp"
 #include "support/detection_rivals.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -283,21 +283,19 @@ nlohmann::json measure_motion(const DetectionScene& scene, const Choices& choice
 
 int run(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"Detection of near triangles of two bodies: ours and what users would pick instead."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--scene", choices.scenes)->delimiter(',')->check(CLI::IsMember({"press", "plug"}));
-    app.add_option("--faces", choices.faces, "triangles a body")->delimiter(',')->check(CLI::Range(100, 10'000'000));
-    app.add_option("--only", choices.only, "names of finders; all by default")->delimiter(',');
-    app.add_option("--repetitions", choices.repetitions, "rounds; the least is shown")->check(CLI::PositiveNumber);
-    app.add_option("--steps", choices.steps, "of slow motion, ours; 0: none")->check(CLI::NonNegativeNumber);
-    app.add_option("--speed", choices.speed, "of the sliding body, sides of a triangle a step")->check(CLI::PositiveNumber);
-    app.add_option("--rival-steps", choices.rival_steps, "of slow motion, others: they do the same in each")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
-    app.add_option("--memory", choices.memory, "measure the peak of memory");
-    app.add_option("--json", choices.json, "file for the result");
-    app.add_option("--one-query", choices.one_query, "")->group("");  // for the measurement of memory
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Detection of near triangles of two bodies: ours and what users would pick instead.");
+    options.add("--scene", choices.scenes).one_of({"press", "plug"});
+    options.add("--faces", choices.faces, "triangles a body").between(100, 10'000'000);
+    options.add("--only", choices.only, "names of finders; all by default");
+    options.add("--repetitions", choices.repetitions, "rounds; the least is shown").positive();
+    options.add("--steps", choices.steps, "of slow motion, ours; 0: none").not_negative();
+    options.add("--speed", choices.speed, "of the sliding body, sides of a triangle a step").positive();
+    options.add("--rival-steps", choices.rival_steps, "of slow motion, others: they do the same in each").positive();
+    options.add("--threads", choices.threads).positive();
+    options.add("--memory", choices.memory, "measure the peak of memory");
+    options.add("--json", choices.json, "file for the result");
+    options.add("--one-query", choices.one_query, "").hidden();  // for the measurement of memory
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     nlohmann::json result = benchmark::circumstances(argc, argv);
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,

@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +19,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/solid.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -136,16 +136,14 @@ nlohmann::json collide(const Choices& choices) {
 
 int run(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"Steps on the device of Kokkos against those on the host: bits and times."};
-    app.add_option("--edges", choices.edges, "boxes along an edge of the block, for each mesh")->capture_default_str();
-    app.add_option("--repetitions", choices.repetitions, "of each measurement")->capture_default_str();
-    app.add_option("--steps", choices.steps, "of the collision")->capture_default_str();
-    app.add_option("--threads", choices.threads, "of the host, at most; 0: all")->capture_default_str();
-    app.add_option("--shape", choices.shape, "of the cells")
-        ->check(CLI::IsMember({"tetrahedra", "hexahedra"}))
-        ->capture_default_str();
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Steps on the device of Kokkos against those on the host: bits and times.");
+    options.add("--edges", choices.edges, "boxes along an edge of the block, for each mesh");
+    options.add("--repetitions", choices.repetitions, "of each measurement");
+    options.add("--steps", choices.steps, "of the collision");
+    options.add("--threads", choices.threads, "of the host, at most; 0: all");
+    options.add("--shape", choices.shape, "of the cells").one_of({"tetrahedra", "hexahedra"});
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     std::optional<oneapi::tbb::global_control> threads;
     if (choices.threads > 0)

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 
@@ -17,6 +16,7 @@
 #include "abut/solid/local_steps.hpp"
 #include "studies/scenes/two_cylinders.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -149,25 +149,22 @@ nlohmann::json compare(const Choices& choices) {
 
 int run_benchmark(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"Local time steps against one step for all cells, of two bodies refined where they touch."};
-    app.option_defaults()->always_capture_default();
+    benchmark::Options options("Local time steps against one step for all cells, of two bodies refined where they touch.");
     auto& cylinders = choices.cylinders;
-    app.add_option("--dim", choices.dim)->check(CLI::Range(2, 3));
-    app.add_option("--size", choices.size, "edge length of the large cells [m]; 0: 0.03 in 2D, 0.15 in 3D")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--refine", cylinders.refine, "how many times smaller cells are where the bodies touch")
-        ->check(CLI::Range(1.0, 1000.0));
-    app.add_option("--refine-over", cylinders.refine_over, "part of the radius over which they grow from there")
-        ->check(CLI::Range(0.01, 2.0));
-    app.add_option("--time", choices.time, "to run [s]; 0: as long as the scene does")->check(CLI::NonNegativeNumber);
-    app.add_option("--cfl", choices.cfl, "step over the stable step")->check(CLI::Range(0.01, 1.0));
-    app.add_option("--contact-levels", choices.contact_levels, "levels that cells in contact are finer than all others")
-        ->check(CLI::Range(0, 6));
-    app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
-    app.add_option("--block", choices.block, "common steps of one scheme before it is the other's turn")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    options.add("--dim", choices.dim).between(2, 3);
+    options.add("--size", choices.size, "edge length of the large cells [m]; 0: 0.03 in 2D, 0.15 in 3D").not_negative();
+    options.add("--refine", cylinders.refine, "how many times smaller cells are where the bodies touch")
+        .between(1.0, 1000.0);
+    options.add("--refine-over", cylinders.refine_over, "part of the radius over which they grow from there")
+        .between(0.01, 2.0);
+    options.add("--time", choices.time, "to run [s]; 0: as long as the scene does").not_negative();
+    options.add("--cfl", choices.cfl, "step over the stable step").between(0.01, 1.0);
+    options.add("--contact-levels", choices.contact_levels, "levels that cells in contact are finer than all others")
+        .between(0, 6);
+    options.add("--threads", choices.threads).positive();
+    options.add("--block", choices.block, "common steps of one scheme before it is the other's turn").positive();
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));
     if (choices.size == 0.0) choices.size = choices.dim == 2 ? 0.03 : 0.15;

@@ -9,13 +9,13 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "abut/contact/overlaps.hpp"
 #include "abut/contact/search/candidate_search.hpp"
 #include "support/detection_scenes.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -130,14 +130,13 @@ nlohmann::json measure(const std::string& name, const Choices& choices) {
 
 int run(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"What it costs that faces may turn."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--scene", choices.scenes)->delimiter(',')->check(CLI::IsMember({"press", "plug"}));
-    app.add_option("--faces", choices.faces, "triangles a body")->check(CLI::Range(100, 10'000'000));
-    app.add_option("--repetitions", choices.repetitions, "rounds; the least is shown")->check(CLI::PositiveNumber);
-    app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("What it costs that faces may turn.");
+    options.add("--scene", choices.scenes).one_of({"press", "plug"});
+    options.add("--faces", choices.faces, "triangles a body").between(100, 10'000'000);
+    options.add("--repetitions", choices.repetitions, "rounds; the least is shown").positive();
+    options.add("--threads", choices.threads).positive();
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     nlohmann::json result = benchmark::circumstances(argc, argv);
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,

@@ -6,7 +6,6 @@
 // near.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -18,6 +17,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "studies/nodal/p1_bodies.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -311,11 +311,10 @@ nlohmann::json time_steps(int repetitions, double size) {
 int run_benchmark(int argc, char** argv) {
     int repetitions = 100;
     std::string json;
-    CLI::App app{"What contact on nodes costs."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--repetitions", repetitions)->check(CLI::PositiveNumber);
-    app.add_option("--json", json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("What contact on nodes costs.");
+    options.add("--repetitions", repetitions).positive();
+    options.add("--json", json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
     nlohmann::json result = benchmark::circumstances(argc, argv);
     result["pairs"] = {time_pairs<2>(repetitions), time_pairs<3>(repetitions)};
     result["laws"] = {time_laws<2>(repetitions), time_laws<3>(repetitions)};

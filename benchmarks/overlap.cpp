@@ -5,13 +5,13 @@
 // Expected: areas equal to round-off of the face, derivatives too; fast well below 200 ns per pair.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <random>
 
 #include "abut/geometry/overlap/overlap.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -132,14 +132,12 @@ int run(int argc, char** argv) {
     std::size_t n_exact = 10'000;
     int repetitions = 5;
     std::string json;
-    CLI::App app{"Shared area of two faces: fast against exact."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--pairs", counts, "numbers of pairs")->delimiter(',')->check(CLI::PositiveNumber);
-    app.add_option("--exact", n_exact, "pairs that are compared, and timed with the exact method, at most")
-        ->check(CLI::PositiveNumber);
-    app.add_option("--repetitions", repetitions, "rounds; the least is shown")->check(CLI::PositiveNumber);
-    app.add_option("--json", json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Shared area of two faces: fast against exact.");
+    options.add("--pairs", counts, "numbers of pairs").positive();
+    options.add("--exact", n_exact, "pairs that are compared, and timed with the exact method, at most").positive();
+    options.add("--repetitions", repetitions, "rounds; the least is shown").positive();
+    options.add("--json", json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     nlohmann::json result = benchmark::circumstances(argc, argv);
     for (const std::size_t n : counts) {

@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
 #include <random>
@@ -17,6 +16,7 @@
 #include "abut/contact/pair.hpp"
 #include "support/clippers.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -322,13 +322,12 @@ int run(int argc, char** argv) {
     int cells = 200, repetitions = 3;
     std::size_t checked = 10'000;
     std::string json;
-    CLI::App app{"Shared area of two triangles: ours against other libraries."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--cells", cells, "of a sheet along either side; 200 make a million pairs")->check(CLI::PositiveNumber);
-    app.add_option("--checked", checked, "pairs that are compared with rational arithmetic")->check(CLI::PositiveNumber);
-    app.add_option("--repetitions", repetitions, "rounds; the least is shown")->check(CLI::PositiveNumber);
-    app.add_option("--json", json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Shared area of two triangles: ours against other libraries.");
+    options.add("--cells", cells, "of a sheet along either side; 200 make a million pairs").positive();
+    options.add("--checked", checked, "pairs that are compared with rational arithmetic").positive();
+    options.add("--repetitions", repetitions, "rounds; the least is shown").positive();
+    options.add("--json", json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     nlohmann::json result = benchmark::circumstances(argc, argv);
     result["degenerate"] = compare_degenerate();

@@ -13,7 +13,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -31,6 +30,7 @@
 #include "abut/solid/solid.hpp"
 #include "recorded_ranks.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -290,20 +290,18 @@ nlohmann::json print_steps(const Shared& shared, const Choices& choices, const T
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("What a step costs on several ranks.");
+    benchmark::Options options("What a step costs on several ranks.");
     Choices choices;
-    app.add_option("--size", choices.size, "of the cells of cylinders [m]")->capture_default_str();
-    app.add_option("--bodies", choices.bodies, "1 cylinder, or 2 that collide")
-        ->check(CLI::Range(1, 2))
-        ->capture_default_str();
-    app.add_option("--plates", choices.plates, "two plates of so many cells along each side, instead of cylinders");
-    app.add_option("--layers", choices.layers, "cells across a plate")->check(CLI::PositiveNumber)->capture_default_str();
-    app.add_flag("--hexahedra", choices.hexahedra, "plates of hexahedra, not tetrahedra");
-    app.add_option("--steps", choices.steps)->capture_default_str();
-    app.add_option("--repetitions", choices.repetitions, "of a product, for its time")->capture_default_str();
-    app.add_option("--runs", choices.runs, "of each rank by itself, for the times of its steps")->capture_default_str();
-    app.add_option("--json", choices.json);
-    CLI11_PARSE(app, argc, argv);
+    options.add("--size", choices.size, "of the cells of cylinders [m]");
+    options.add("--bodies", choices.bodies, "1 cylinder, or 2 that collide").between(1, 2);
+    options.add("--plates", choices.plates, "two plates of so many cells along each side, instead of cylinders");
+    options.add("--layers", choices.layers, "cells across a plate").positive();
+    options.flag("--hexahedra", choices.hexahedra, "plates of hexahedra, not tetrahedra");
+    options.add("--steps", choices.steps);
+    options.add("--repetitions", choices.repetitions, "of a product, for its time");
+    options.add("--runs", choices.runs, "of each rank by itself, for the times of its steps");
+    options.add("--json", choices.json);
+    if (const auto status = options.parse(argc, argv)) return *status;
     const oneapi::tbb::global_control one_thread(oneapi::tbb::global_control::max_allowed_parallelism, 1);
 
     const ranks::Communicator all(MPI_Comm_c2f(MPI_COMM_WORLD));

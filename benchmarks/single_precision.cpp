@@ -8,7 +8,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <random>
 
@@ -17,7 +16,9 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/solid.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -194,15 +195,14 @@ nlohmann::json vibration(const Choices& choices) {
 
 int run(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"Steps in single precision against those in double: energy, momentum, motion."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--size-2d", choices.size_2d, "edge lengths of the cells of the discs [m]; 0: leaves them out");
-    app.add_option("--size-3d", choices.size_3d, "of the cylinders");
-    app.add_option("--end", choices.end, "of the impacts [s]")->check(CLI::PositiveNumber);
-    app.add_option("--long-steps", choices.long_steps, "of the free vibration")->check(CLI::NonNegativeNumber);
-    app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Steps in single precision against those in double: energy, momentum, motion.");
+    options.add("--size-2d", choices.size_2d, "edge lengths of the cells of the discs [m]; 0: leaves them out");
+    options.add("--size-3d", choices.size_3d, "of the cylinders");
+    options.add("--end", choices.end, "of the impacts [s]").positive();
+    options.add("--long-steps", choices.long_steps, "of the free vibration").not_negative();
+    options.add("--threads", choices.threads).positive();
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
 
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));

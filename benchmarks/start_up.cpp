@@ -8,7 +8,6 @@
 #include <oneapi/tbb/global_control.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -22,7 +21,9 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/local_steps.hpp"
+#include "abut/solid/solid.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -215,15 +216,14 @@ nlohmann::json report(const Run& run) {
 
 int run_benchmark(int argc, char** argv) {
     Choices choices;
-    CLI::App app{"Time and memory from a mesh to the first step, part by part."};
-    app.option_defaults()->always_capture_default();
-    app.add_option("--cells", choices.cells, "of both boxes, about")->check(CLI::Range(1e3, 1e8));
-    app.add_option("--grading", choices.grading, "thickest over thinnest layer")->check(CLI::Range(1.0, 1e3));
-    app.add_option("--jitter", choices.jitter, "of inner vertices, over the size of a brick")->check(CLI::Range(0.0, 0.3));
-    app.add_option("--steps", choices.steps, "of the bulk; the least counts")->check(CLI::PositiveNumber);
-    app.add_option("--threads", choices.threads)->check(CLI::PositiveNumber);
-    app.add_option("--json", choices.json, "file for the result");
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("Time and memory from a mesh to the first step, part by part.");
+    options.add("--cells", choices.cells, "of both boxes, about").between(1e3, 1e8);
+    options.add("--grading", choices.grading, "thickest over thinnest layer").between(1.0, 1e3);
+    options.add("--jitter", choices.jitter, "of inner vertices, over the size of a brick").between(0.0, 0.3);
+    options.add("--steps", choices.steps, "of the bulk; the least counts").positive();
+    options.add("--threads", choices.threads).positive();
+    options.add("--json", choices.json, "file for the result");
+    if (const auto status = options.parse(argc, argv)) return *status;
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism,
                                               static_cast<std::size_t>(choices.threads));
     nlohmann::json result = benchmark::circumstances(argc, argv);

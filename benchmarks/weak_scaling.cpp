@@ -10,7 +10,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,6 +19,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "support/measure.hpp"
+#include "support/options.hpp"
 
 namespace {
 
@@ -103,16 +103,14 @@ void print_scaling(const Choices& choices, double alone, const Rank& corner, dou
 
 int run(int argc, char** argv) {
     Choices choices;
-    CLI::App app("what thousands of ranks would cost");
-    app.add_option("--cells", choices.cells, "of a rank")->capture_default_str();
-    app.add_option("--repetitions", choices.repetitions)->check(CLI::PositiveNumber)->capture_default_str();
-    app.add_option("--latency", choices.latency, "of a message [s]")->capture_default_str();
-    app.add_option("--node-bandwidth", choices.node_bandwidth, "of all ranks of a node to others [B/s]")
-        ->capture_default_str();
-    app.add_option("--copy-bandwidth", choices.copy_bandwidth, "of one rank, out of and into its arrays [B/s]")
-        ->capture_default_str();
-    app.add_option("--node", choices.edge_of_node, "ranks along the edge of a node")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
+    benchmark::Options options("what thousands of ranks would cost");
+    options.add("--cells", choices.cells, "of a rank");
+    options.add("--repetitions", choices.repetitions).positive();
+    options.add("--latency", choices.latency, "of a message [s]");
+    options.add("--node-bandwidth", choices.node_bandwidth, "of all ranks of a node to others [B/s]");
+    options.add("--copy-bandwidth", choices.copy_bandwidth, "of one rank, out of and into its arrays [B/s]");
+    options.add("--node", choices.edge_of_node, "ranks along the edge of a node");
+    if (const auto status = options.parse(argc, argv)) return *status;
     const oneapi::tbb::global_control one(oneapi::tbb::global_control::max_allowed_parallelism, 1);
 
     const int bricks = std::max(1, static_cast<int>(std::lround(std::cbrt(choices.cells / tetrahedra_per_brick))));
