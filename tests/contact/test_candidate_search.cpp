@@ -109,24 +109,28 @@ TEST_CASE("the chosen skin costs little more than the best fixed one", "[contact
             else
                 search.search(u_0, u_1);
         };
-        auto u = at_rest(surface), moved = u;
-        for (Vector<3>& path : moved) path.x() = speed;
-        for (int list = 0; list < 10; ++list) search_along(u, moved);
-        double cost = 0.0, motion = std::numeric_limits<double>::infinity();
+        auto start = at_rest(surface), end = start;
+        for (Vector<3>& path : end) path.x() = speed;
+        for (int list = 0; list < 10; ++list) search_along(start, end);
+        start = end = at_rest(surface);
+        const auto slide_to = [&](double x, std::vector<Vector<3>>& u) {
+            for (std::size_t face = 0; face < u.size(); ++face)
+                if (surface.body[face] == 1) u[face].x() = x;
+        };
+        double cost = 0.0, motion = std::numeric_limits<double>::infinity(), x = 0.0;
         const int steps = 800;
         for (int step = 0; step < steps; ++step) {
-            const double path = (step / 100 % 2 == 0 ? 1.0 : -1.0) * speed;  // to and fro
-            auto next = u;
-            for (std::int32_t face = 0; face < surface.size(); ++face)
-                if (surface.body[face] == 1) next[static_cast<std::size_t>(face)].x() += path;
+            const double before = x;
+            x += (step / 100 % 2 == 0 ? 1.0 : -1.0) * speed;  // to and fro
             motion += speed;
             if (!search.is_valid_for(motion)) {
-                search_along(u, next);
+                slide_to(before, start);
+                slide_to(x, end);
+                search_along(start, end);
                 motion = speed;
                 cost += 4.0 * surface.size() + 10.0 * static_cast<double>(search.candidates().size());
             }
             cost += static_cast<double>(search.candidates().size());
-            u = next;
         }
         return cost;
     };

@@ -172,7 +172,7 @@ TEST_CASE("pairs that are not wanted do not touch", "[contact][nodal]") {
 
 TEMPLATE_TEST_CASE_SIG("forces have the same bits for any number of threads and every broad phase", "[contact][nodal]",
                        ((int Dim), Dim), 2, 3) {
-    const auto scene = two_boxes<Dim>(Dim == 2 ? 300 : 12, Dim == 2 ? 350 : 13, 0.002);
+    const auto scene = two_boxes<Dim>(Dim == 2 ? 300 : 8, Dim == 2 ? 350 : 9, 0.002);
     std::vector<std::vector<Vector<Dim>>> results;
     for (const int threads : {1, 4})
         for (const auto method : geometry::broad_phases()) {
