@@ -26,6 +26,7 @@
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
 #include "abut/solid/outside_faces.hpp"
+#include "abut/solid/solid.hpp"
 
 using namespace abut;
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/solid.hpp"
 #include "abut/solid/statics.hpp"
 
 using namespace abut;

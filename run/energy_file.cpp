@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "abut/run/scene.hpp"
+
 namespace abut::run {
 
 template <int Dim>

@@ -3,8 +3,7 @@
 #include <span>
 #include <string>
 
-#include "abut/dynamics/ledger.hpp"
-#include "abut/run/scene.hpp"
+#include "abut/run/forward.hpp"
 
 namespace abut::run {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "abut/dynamics/integrator.hpp"
-#include "abut/solid/solid.hpp"
+#include "abut/base/vector.hpp"
+#include "abut/run/forward.hpp"
 
 namespace abut::run {
 

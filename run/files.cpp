@@ -9,6 +9,7 @@
 
 #include "abut/base/error.hpp"
 #include "abut/base/text.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/run/failure_files.hpp"
 #include "abut/run/paraview_script.hpp"
 

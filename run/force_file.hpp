@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "abut/run/observer.hpp"
 #include "abut/run/partial_file.hpp"
+#include "abut/solid/contact_results.hpp"
 
 namespace abut::run {
 
@@ -40,7 +42,7 @@ private:
     std::vector<std::string> names_;  // of bodies, then of obstacles
     std::int64_t interval_ = 1;
     std::int64_t n_steps_ = 0;
-    double time_ = not_given;  // of the last rows, or of the start [s]
+    double time_ = std::numeric_limits<double>::quiet_NaN();  // of the last rows, or of the start [s]
     std::map<std::pair<std::int32_t, std::int32_t>, solid::BodyImpulse<Dim>> last_;
 };
 

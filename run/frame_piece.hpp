@@ -4,9 +4,7 @@
 #include <vector>
 
 #include "abut/base/vector.hpp"
-#include "abut/dynamics/ledger.hpp"
-#include "abut/mesh/mesh.hpp"
-#include "abut/solid/solid.hpp"
+#include "abut/run/forward.hpp"
 
 namespace abut::run {
 

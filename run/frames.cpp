@@ -8,6 +8,8 @@
 
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/files.hpp"
+#include "abut/run/frame_piece.hpp"
+#include "abut/run/scene.hpp"
 #include "abut/solid/boundary_face.hpp"
 
 namespace abut::run {

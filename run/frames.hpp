@@ -10,6 +10,7 @@
 #include "abut/mesh/io/write_pieces.hpp"
 #include "abut/mesh/io/write_vtu.hpp"
 #include "abut/run/observer.hpp"
+#include "abut/run/outputs.hpp"
 
 namespace abut::run {
 

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 
+#include "abut/run/checkpoint.hpp"
+#include "abut/run/failure.hpp"
+#include "abut/run/frame_piece.hpp"
+#include "abut/run/scene.hpp"
+
 namespace abut::run {
 
 template <int Dim>

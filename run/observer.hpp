@@ -1,13 +1,11 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <vector>
 
 #include "abut/base/state_bytes.hpp"
-#include "abut/run/checkpoint.hpp"
-#include "abut/run/failure.hpp"
-#include "abut/run/frame_piece.hpp"
-#include "abut/run/scene.hpp"
+#include "abut/run/forward.hpp"
 
 namespace abut::run {
 

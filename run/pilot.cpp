@@ -9,6 +9,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/contact/nodal_contact.hpp"
 #include "abut/run/observer.hpp"
 #include "abut/run/simulation.hpp"
 #include "abut/run/warnings.hpp"

@@ -1,7 +1,6 @@
 #pragma once
-#include "abut/run/options.hpp"
+#include "abut/run/forward.hpp"
 #include "abut/run/pilot_report.hpp"
-#include "abut/run/scene.hpp"
 
 namespace abut::run {
 

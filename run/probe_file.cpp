@@ -14,6 +14,7 @@
 #include "abut/run/cell_velocity.hpp"
 #include "abut/run/files.hpp"
 #include "abut/run/frames.hpp"
+#include "abut/run/scene.hpp"
 
 namespace abut::run {
 namespace {

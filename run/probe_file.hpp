@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "abut/run/observer.hpp"
+#include "abut/run/outputs.hpp"
 #include "abut/run/partial_file.hpp"
 
 namespace abut::run {

@@ -9,7 +9,9 @@
 #include "abut/run/energy_picture.hpp"
 #include "abut/run/failure_files.hpp"
 #include "abut/run/files.hpp"
+#include "abut/run/frame_piece.hpp"
 #include "abut/run/paraview_script.hpp"
+#include "abut/run/scene.hpp"
 #include "abut/run/summary.hpp"
 #include "abut/run/table_line.hpp"
 

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "abut/contact/blind_corners.hpp"
+#include "abut/contact/report.hpp"
+#include "abut/contact/unseen_edges.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/mesh.hpp"

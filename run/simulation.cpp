@@ -16,6 +16,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/stopwatch.hpp"
 #include "abut/base/throw_again.hpp"
+#include "abut/contact/contact.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
 #include "abut/dynamics/sum_over.hpp"

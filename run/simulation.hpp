@@ -1,4 +1,7 @@
 #pragma once
+#include "abut/run/checkpoint.hpp"
+#include "abut/run/failure.hpp"
+#include "abut/run/frame_piece.hpp"
 #include "abut/run/observer.hpp"
 #include "abut/run/options.hpp"
 #include "abut/run/scene.hpp"

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/contact.hpp"
+#include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/obstacle_side.hpp"
 #include "abut/geometry/broad_phase/broad_phase.hpp"
 #include "abut/geometry/convex_proximity.hpp"

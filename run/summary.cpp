@@ -7,6 +7,7 @@
 
 #include "abut/run/json.hpp"
 #include "abut/run/option_table.hpp"
+#include "abut/run/scene.hpp"
 #include "abut/run/table_line.hpp"
 #include "abut/run/verdict.hpp"
 

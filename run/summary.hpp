@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "abut/run/scene.hpp"
+#include "abut/run/forward.hpp"
 
 namespace abut::run {
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "abut/run/scene.hpp"
+
 namespace abut::run {
 namespace {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "abut/run/scene.hpp"
+#include "abut/run/forward.hpp"
 
 namespace abut::run {
 

@@ -2,6 +2,7 @@
 
 #include "abut/base/decompositions.hpp"
 #include "abut/solid/cell_points.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {

@@ -1,10 +1,12 @@
 #pragma once
-#include <algorithm>
 #include <vector>
 
-#include "abut/solid/solid.hpp"
+#include "abut/base/vector.hpp"
 
 namespace abut::solid {
+
+template <int Dim>
+class Solid;
 
 /// The moments of inertia of a body about the principal axes through its centre, of which the masses of its points may have less:
 /// those of the cells themselves are missing where points are at their centroids (Kinematics::small and ::finite).

@@ -3,7 +3,9 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/solid/kinematics/body_frame.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {

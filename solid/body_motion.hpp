@@ -2,10 +2,17 @@
 #include <span>
 #include <vector>
 
-#include "abut/dynamics/ledger.hpp"
-#include "abut/solid/solid.hpp"
+#include "abut/base/vector.hpp"
+
+namespace abut::dynamics {
+template <int Dim>
+class RunView;
+}
 
 namespace abut::solid {
+
+template <int Dim>
+class Solid;
 
 /// Mass, mean velocity and rotation of a body.
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "abut/base/parallel.hpp"
 #include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/mode_search.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::solid {
 namespace {

@@ -4,9 +4,11 @@
 
 #include "abut/dynamics/memm_async.hpp"
 #include "abut/dynamics/stable_step.hpp"
-#include "abut/solid/solid.hpp"
 
 namespace abut::solid {
+
+template <int Dim>
+class Solid;
 
 struct LocalStepOptions {
     int most_levels = 8;     ///< 1 to 20: steps differ by up to 2^(most_levels - 1)

@@ -1,5 +1,8 @@
 #include "abut/solid/outside_faces.hpp"
 
+#include "abut/dynamics/ledger.hpp"
+#include "abut/solid/solid.hpp"
+
 namespace abut::solid {
 
 template <int Dim>

@@ -2,10 +2,17 @@
 #include <string>
 #include <vector>
 
-#include "abut/dynamics/ledger.hpp"
-#include "abut/solid/solid.hpp"
+#include "abut/base/vector.hpp"
+
+namespace abut::dynamics {
+template <int Dim>
+class RunView;
+}
 
 namespace abut::solid {
+
+template <int Dim>
+class Solid;
 
 /// The faces of a group that is loaded from outside (TractionCondition::from_outside) as that program needs them: all in the
 /// order of BoundaryGroup::faces. Where contact moves a face, or a free one beside it, that is not in it.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "abut/mesh/part.hpp"
-#include "abut/solid/options.hpp"
+#include "abut/solid/kinematics/kinematics.hpp"
 
 namespace abut::solid {
 

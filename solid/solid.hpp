@@ -7,18 +7,30 @@
 #include <string>
 #include <vector>
 
-#include "abut/contact/blind_corners.hpp"
-#include "abut/contact/contact.hpp"
-#include "abut/contact/nodal_contact.hpp"
-#include "abut/contact/unseen_edges.hpp"
-#include "abut/dynamics/filter.hpp"
-#include "abut/dynamics/ledger.hpp"
+#include "abut/contact/report.hpp"
+#include "abut/dynamics/point_system.hpp"
 #include "abut/dynamics/ranks.hpp"
-#include "abut/dynamics/system.hpp"
 #include "abut/solid/ccg/ccg.hpp"
 #include "abut/solid/contact_results.hpp"
 #include "abut/solid/options.hpp"
 #include "abut/solid/outside_work.hpp"
+
+namespace abut::contact {
+template <int Dim>
+struct BlindCorner;
+template <int Dim>
+class Contact;
+template <int Dim>
+struct EdgePair;
+template <int Dim>
+class NodalContact;
+}  // namespace abut::contact
+
+namespace abut::dynamics {
+struct ContactCounts;
+template <int Dim>
+struct ContactPatch;
+}  // namespace abut::dynamics
 
 namespace abut::solid {
 

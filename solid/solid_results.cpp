@@ -7,6 +7,7 @@
 #include "abut/base/error.hpp"
 #include "abut/base/messages.hpp"
 #include "abut/base/parallel.hpp"
+#include "abut/dynamics/ledger.hpp"
 #include "abut/solid/bodies.hpp"
 #include "abut/solid/body_cells.hpp"
 #include "abut/solid/body_rotation.hpp"

@@ -2,9 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "abut/solid/solid.hpp"
-
 namespace abut::solid {
+
+template <int Dim>
+class Solid;
 
 /// How good a static solution must be and what it may cost.
 struct StaticOptions {

@@ -11,6 +11,7 @@
 
 #include "abut/base/stopwatch.hpp"
 #include "abut/run/files.hpp"
+#include "abut/run/scene.hpp"
 #include "apps/detect/output.hpp"
 #include "apps/detect/report.hpp"
 #include "apps/support/csv.hpp"

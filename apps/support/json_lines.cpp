@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/run/scene.hpp"
 #include "abut/run/user_words.hpp"
 #include "abut/run/verdict.hpp"
 #include "abut/run/warnings.hpp"

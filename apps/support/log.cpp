@@ -8,6 +8,8 @@
 
 #include "apps/support/terminal.hpp"
 
+#include "abut/run/scene.hpp"
+
 namespace abut::apps {
 namespace {
 

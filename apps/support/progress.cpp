@@ -9,6 +9,8 @@
 
 #include "apps/support/standard_streams.hpp"
 
+#include "abut/run/scene.hpp"
+
 namespace abut::apps {
 namespace {
 

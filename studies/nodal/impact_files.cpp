@@ -1,6 +1,7 @@
 #include "studies/nodal/impact_files.hpp"
 
 #include "abut/run/energy_picture.hpp"
+#include "abut/run/scene.hpp"
 
 namespace abut::studies::nodal {
 namespace {

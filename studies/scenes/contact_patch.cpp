@@ -7,6 +7,7 @@
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::studies {
 namespace {

@@ -11,6 +11,7 @@
 #include "abut/base/stopwatch.hpp"
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::studies {
 namespace {

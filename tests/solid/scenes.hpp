@@ -11,6 +11,7 @@
 #include "abut/dynamics/stable_step.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/solid/body_motion.hpp"
+#include "abut/solid/solid.hpp"
 #include "support/worst.hpp"
 
 namespace abut::test {

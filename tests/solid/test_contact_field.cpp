@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/contact.hpp"
 #include "solid/scenes.hpp"
 
 using namespace abut;

@@ -7,6 +7,8 @@
 
 #include "solid/scenes.hpp"
 
+#include "abut/contact/contact.hpp"
+
 using namespace abut;
 using namespace abut::test;
 using solid::BoundaryFace;

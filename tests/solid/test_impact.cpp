@@ -6,6 +6,8 @@
 #include "contact/reference.hpp"
 #include "solid/scenes.hpp"
 
+#include "abut/contact/contact.hpp"
+
 using namespace abut;
 using namespace abut::test;
 

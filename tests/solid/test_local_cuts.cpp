@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "abut/contact/contact.hpp"
 #include "contact/law.hpp"
 #include "solid/scenes.hpp"
 
