@@ -262,14 +262,14 @@ nlohmann::json time_laws(int repetitions) {
 /// Two discs or rods, `gap` apart.
 template <int Dim>
 studies::nodal::P1Bodies<Dim> bodies(double size, double gap) {
-    studies::nodal::P1Scene<Dim> scene;
+    run::Scene<Dim> scene;
     if constexpr (Dim == 2)
         scene.mesh = mesh::combine<2>(
             std::vector{mesh::disc({.size = size}), mesh::disc({.centre = {2.0 + gap, 0.0}, .size = size, .variant = 1})});
     else
         scene.mesh = mesh::combine<3>(std::vector{
             mesh::cylinder({.size = size}), mesh::cylinder({.centre = {2.0 + gap, 0.0, 0.0}, .size = size, .variant = 1})});
-    scene.materials = {{}, {}};
+    scene.solid.materials = {{}, {}};
     return studies::nodal::P1Bodies<Dim>(std::move(scene));
 }
 

@@ -11,10 +11,9 @@
 #include <cmath>
 
 #include "abut/base/error.hpp"
-#include "abut/dynamics/filter.hpp"
-#include "abut/dynamics/neutral_restart.hpp"
 #include "abut/run/options.hpp"
 #include "apps/support/comparison.hpp"
+#include "studies/cases/remedies.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/bar_host.hpp"
 #include "studies/scenes/bars.hpp"
@@ -216,27 +215,14 @@ void check(const BounceOptions& options) {
             fmt::format("--patch: {} masses, the bar has {}. Give at most that many.", options.patch, options.cells));
 }
 
-/// What of `options` is for MEMM. The remedies must outlive the integrator.
-template <class Integrator>
-void prepare(Integrator& integrator, const BounceOptions& options, dynamics::NeutralFilter<BarHost>& filter,
-             dynamics::NeutralRestart<BarHost>& restart) {
-    if constexpr (Integrator::takes_node_restart) {
-        if (options.filter)
-            integrator.set_after_step([&](auto q, double dt, auto before, auto after) { filter(q, dt, before, after); });
-        if (options.restart > 0)
-            integrator.set_node_restart([&](auto q, double dt, auto before, auto after) { restart(q, dt, before, after); });
-    }
-}
-
 apps::SchemeRun run_scheme(apps::Scheme scheme, const BounceOptions& options, const apps::Start& start,
                            const apps::Schedule& schedule) {
     BarHost bar({.gap = height, .gravity = options.gravity}, options.cells, options.patch);
-    dynamics::NeutralFilter filter(bar);
-    dynamics::NeutralRestart restart(bar, {.period = std::max(options.restart, 1)});
+    Remedies remedies(bar, options.filter, options.restart);
     Impacts impacts(options.gravity);
     apps::SchemeRun run = apps::follow(scheme, bar, start, options.schemes, schedule, impacts,
-                                       [&](auto& integrator) { prepare(integrator, options, filter, restart); });
-    const auto& [restarts, shortened, skipped, paid] = restart.report();
+                                       [&](auto& integrator) { remedies.prepare(integrator); });
+    const auto& [restarts, shortened, skipped, paid] = remedies.report();
     if (restarts > 0)
         run.findings.insert(run.findings.end(), {{"restarts", "neutral restarts", restarts},
                                                  {"restarts_shortened", "of these shortened", shortened},
@@ -268,8 +254,8 @@ void run_study(const BounceOptions& options) {
     apps::report(program, options.out, comparison);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, BounceOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, BounceOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::bouncing_bar_study

@@ -115,8 +115,8 @@ int run_study(int argc, char** argv) {
         });
 }
 
-}  // namespace
+const bool is_listed = list({program.name, program.purpose, run_study});
 
-Entry entry() { return {program.name, program.purpose, run_study}; }
+}  // namespace
 
 }  // namespace abut::studies::bouncing_strip_study

@@ -5,10 +5,6 @@
 // below the energy of the run, and no contact missed. It is `refused` when it ended with a message, which then says what is
 // allowed; it `failed` when it came to its end and one of these is not so. A change of units must leave every number
 // without a unit as it is, to 1e-9. No energy is claimed without H - H~, |e|/m and the number of events beside it.
-#include <set>
-
-#include "abut/run/files.hpp"
-#include "abut/run/folder_lock.hpp"
 #include "apps/support/run_options.hpp"
 #include "studies/extremes/families.hpp"
 #include "studies/extremes/report.hpp"
@@ -28,10 +24,8 @@ struct Options {
 };
 
 void add_options(Flags& flags, Options& options) {
-    std::vector<std::string> names;
-    for (const Family& family : families()) names.push_back(family.name);
     flags.group("Sweeps");
-    flags.names("--only", options.only, "families to sweep", names);
+    flags.names("--only", options.only, "families to sweep", names_of(families()));
     flags.count("--steps", options.sweep.steps, "steps of the families long and rest", 1);
     flags.flag("--quick", options.sweep.quick, "fewer values of each family, and at most 2,000 steps of a long run");
     flags.group("Time");
@@ -44,21 +38,12 @@ void add_options(Flags& flags, Options& options) {
 void sweep(const Options& options) {
     const run::FolderLock lock(options.sweep.run.out, program.name);
     run::claim_results(options.sweep.run.out, {"extremes.csv", "summary.json"});
-    const std::set<std::string> wanted(options.only.begin(), options.only.end());
-    std::vector<Row> rows;
-    for (const Family& family : families()) {
-        if (!wanted.empty() && !wanted.contains(family.name)) continue;
-        print_head(family);
-        family.sweep(options.sweep, [&](const Row& row) {
-            print(row);
-            rows.push_back(row);
-        });
-    }
+    const auto rows = run_parts<SweepOptions, Row>(families(), options.only, options.sweep, table_heads(), print);
     write_report(program, options.sweep.run.out, options.sweep, rows);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, sweep));
 
-Entry entry() { return entry_of(program, Options{}, add_options, sweep); }
+}  // namespace
 
 }  // namespace abut::studies::extremes

@@ -159,8 +159,8 @@ void run_study(const FpuOptions& options) {
     apps::report(program, options.out, comparison);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, FpuOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, FpuOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::fpu_study

@@ -10,18 +10,16 @@
 
 #include <cstdio>
 #include <functional>
-#include <optional>
-#include <set>
 
 #include "abut/base/error.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
 #include "abut/run/simulation.hpp"
-#include "apps/support/csv.hpp"
 #include "apps/support/program.hpp"
 #include "studies/extremes/scenes.hpp"
 #include "studies/long_runs/rattle.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/bar_host.hpp"
+#include "studies/table/table.hpp"
 
 namespace abut::studies::long_runs {
 namespace {
@@ -45,18 +43,14 @@ struct LongScene {
     std::function<Outcome(const Remedy&, std::int64_t steps)> run;
 };
 
-/// Keeps the figures of a run of solids until it ends, or breaks off.
-class Recorder : public run::Observer<2> {
-public:
-    explicit Recorder(std::int64_t steps) : steps_(steps) {}
+/// Keeps the ledger of a run of solids until it ends, or breaks off.
+struct Recorder : run::Observer<2> {
     void record(const dynamics::LedgerEntry<2>& entry, const run::RunResult<2>& result) override {
-        if (!figures) figures.emplace(result.scale.value, steps_);
-        figures->record(entry);
+        if (ledger.entries().empty()) scale = result.scale.value;
+        ledger.record(entry);
     }
-    std::optional<Figures<2>> figures;
-
-private:
-    std::int64_t steps_;
+    dynamics::Ledger<2> ledger;
+    double scale = 0.0;
 };
 
 Outcome run_solid(const run::Scene<2>& scene, run::RunOptions options, const Remedy& remedy, std::int64_t steps) {
@@ -64,18 +58,18 @@ Outcome run_solid(const run::Scene<2>& scene, run::RunOptions options, const Rem
     options.interval = record_interval;
     options.filter = remedy.filter;
     options.restart = remedy.restart;
-    Recorder recorder(steps);
+    Recorder recorder;
     const ProcessorTime time;
-    std::string end;
+    std::string ending;
     try {
         static_cast<void>(run::simulate<2>(scene, options, recorder));
     } catch (const Error& error) {
-        if (!recorder.figures) throw;
-        end = fmt::format("ends after step {}: {}", recorder.figures->outcome().steps, error.what());
+        if (recorder.ledger.entries().empty()) throw;
+        ending = fmt::format("ends after step {}: {}", recorder.ledger.entries().back().step, error.what());
     }
-    Outcome outcome = recorder.figures->outcome();
+    Outcome outcome = outcome_of(recorder.ledger, recorder.scale, steps);
     outcome.seconds = time.seconds();
-    outcome.end = end;
+    outcome.ending = ending;
     return outcome;
 }
 
@@ -160,34 +154,47 @@ std::vector<LongScene> scenes() {
             disc(0.9), blocks(0.5), blocks(0.9), rest(0.1),  rattle(0.5), rattle(0.85)};
 }
 
-void print_head() {
-    fmt::print("{:<8} {:>6} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6} {:>8} {:>8} {:>8} {:>6}\n", "scene", "",
-               "remedy", "H-H~[%]", "end[%]", "|e|/m", "H~", "momentum", "J~", "events", "part", "skipped", "paid[%]",
-               "seconds", "ratio");
-}
+struct Line {
+    const LongScene* scene;
+    const Remedy* remedy;
+    Outcome outcome;
+    double seconds_without;  ///< of a step without a remedy
+};
 
-void print_line(const LongScene& scene, const Remedy& remedy, const Outcome& outcome, double seconds_without) {
-    const auto& two = apps::two_digits;
-    fmt::print("{:<8} {:>6} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>6} {:>8} {:>8} {:>8.2f} {:>6.2f} {}\n",
-               scene.name, scene.value, remedy.name, two(100.0 * outcome.excess_max), two(100.0 * outcome.excess_end),
-               two(outcome.parasitic), two(outcome.drift), two(outcome.momentum), two(outcome.spin), outcome.events,
-               outcome.restarts.shortened, outcome.restarts.skipped, two(100.0 * outcome.restarts.paid), outcome.seconds,
-               outcome.seconds / static_cast<double>(outcome.steps) / seconds_without, outcome.end);
-    std::fflush(stdout);
-}
+const Columns<Line> columns = [] {
+    const auto of = [](auto member) { return [=](const Line& line) { return line.outcome.*member; }; };
+    const auto percent = [](auto member) { return [=](const Line& line) { return 100.0 * (line.outcome.*member); }; };
+    const auto per_step = [](const Line& line) { return line.outcome.seconds / static_cast<double>(line.outcome.steps); };
+    return Columns<Line>{
+        {"", "scene", -8, [](const Line& line) { return line.scene->name; }},
+        {"", "", 7, [](const Line& line) { return line.scene->value; }, "{}"},
+        {"", " remedy", -9, [](const Line& line) { return " " + line.remedy->name; }},
+        {"", "H-H~[%]", 10, percent(&Outcome::excess)},
+        {"", "end[%]", 10, percent(&Outcome::excess_end)},
+        {"", "|e|/m", 10, of(&Outcome::parasitic)},
+        {"", "H~", 10, of(&Outcome::drift)},
+        {"", "momentum", 10, of(&Outcome::momentum)},
+        {"", "J~", 10, of(&Outcome::pseudo_angular)},
+        {"", "events", 10, of(&Outcome::events)},
+        {"", "part", 7, [](const Line& line) { return line.outcome.restarts.shortened; }},
+        {"", "skipped", 9, [](const Line& line) { return line.outcome.restarts.skipped; }},
+        {"", "paid[%]", 9, [](const Line& line) { return 100.0 * line.outcome.restarts.paid; }},
+        {"", "seconds", 9, of(&Outcome::seconds), "{:.2f}"},
+        {"", "ratio", 7, [=](const Line& line) { return per_step(line) / line.seconds_without; }, "{:.2f}"}};
+}();
 
 void run_study(const Options& options) {
-    const std::set<std::string> wanted(options.only.begin(), options.only.end());
     const std::vector<Remedy> remedies{
         {"off"}, {"filter", true}, {"restart", false, options.period}, {"both", true, options.period}};
-    print_head();
+    fmt::print("{}\n", heads(columns));
     for (const LongScene& scene : scenes()) {
-        if (!wanted.empty() && !wanted.contains(scene.name)) continue;
-        double without = unknown;
+        if (!asks_for(options.only, scene.name)) continue;
+        double without = run::not_given;
         for (const Remedy& remedy : remedies) {
             const Outcome outcome = scene.run(remedy, options.steps);
             if (std::isnan(without)) without = outcome.seconds / static_cast<double>(outcome.steps);
-            print_line(scene, remedy, outcome, without);
+            fmt::print("{} {}\n", line(columns, Line{&scene, &remedy, outcome, without}), outcome.ending);
+            std::fflush(stdout);
         }
     }
 }
@@ -200,8 +207,8 @@ void add_options(Flags& flags, Options& options) {
     flags.count("--period", options.period, "steps from one neutral restart to the next", 1);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::long_runs

@@ -279,8 +279,8 @@ void run_study(const WaveOptions& options) {
     apps::report(program, options.out, comparison);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, WaveOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, WaveOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::slow_fast_wave_study

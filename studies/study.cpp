@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "studies/program/list.hpp"
+#include "studies/program/entry.hpp"
 
 namespace {
 

@@ -16,6 +16,7 @@
 #include "abut/run/folder_lock.hpp"
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
+#include "studies/table/table.hpp"
 #include "studies/trade/report.hpp"
 
 namespace abut::studies::trade {
@@ -53,10 +54,8 @@ std::string refusal(const Setting& setting) {
 }
 
 void add_options(Flags& flags, Options& options) {
-    std::vector<std::string> names;
-    for (const Problem& problem : problems()) names.push_back(problem.name);
     flags.group("Ladder");
-    flags.names("--only", options.only, "problems to run", names);
+    flags.names("--only", options.only, "problems to run", names_of(problems()));
     flags.choice("--settings", options.extent,
                  "each choice by itself, kinematics and presets alone, or products of choices that act together, too",
                  extents);
@@ -131,7 +130,9 @@ std::vector<Row> climb(const Problem& problem, const Options& options) {
             for (std::size_t row = first; row < rows.size(); ++row) {
                 if (!rows[row].finished()) continue;
                 const Row again = attempt(problem, level, rows[row].setting, reference, options.limit);
-                if (again.finished()) rows[row].outcome.seconds = std::min(rows[row].outcome.seconds, again.outcome.seconds);
+                if (again.finished())
+                    rows[row].outcome.seconds_of_steps =
+                        std::min(rows[row].outcome.seconds_of_steps, again.outcome.seconds_of_steps);
             }
         for (std::size_t row = first; row < rows.size(); ++row) print(rows[row]);
     }
@@ -143,15 +144,15 @@ void run(const Options& options) {
     run::claim_results(options.out, {"trade.csv", "summary.json", "pareto.gp", "pareto.png"});
     std::vector<Row> rows;
     for (const Problem& problem : problems()) {
-        if (!options.only.empty() && std::ranges::find(options.only, problem.name) == options.only.end()) continue;
+        if (!asks_for(options.only, problem.name)) continue;
         for (Row& row : climb(problem, options)) rows.push_back(std::move(row));
     }
     compare(rows);
     write_report(program, options.out, to_json(options), rows);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run); }
+}  // namespace
 
 }  // namespace abut::studies::trade

@@ -1,9 +1,6 @@
 #pragma once
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "studies/extremes/trial.hpp"
+#include "studies/table/table.hpp"
 
 namespace abut::studies::extremes {
 
@@ -15,13 +12,8 @@ struct SweepOptions {
 };
 
 using Sink = std::function<void(const Row&)>;
-
 /// Runs that take one number of a scene to its extremes.
-struct Family {
-    std::string name;
-    std::string question;
-    std::function<void(const SweepOptions&, const Sink&)> sweep;
-};
+using Family = Part<SweepOptions, Row>;
 [[nodiscard]] const std::vector<Family>& families();
 
 /// `values`, or of these the first, the middle and the last one.

@@ -7,8 +7,8 @@
 
 namespace abut::studies::extremes {
 
-/// The head of a table, then one line per row as they come.
-void print_head(const Family& family);
+/// The heads of the columns, and a line per row as they come.
+[[nodiscard]] std::string table_heads();
 void print(const Row& row);
 
 /// Leaves extremes.csv, one line per row, and summary.json: of each family how many held, were refused and failed, the worst

@@ -1,6 +1,5 @@
 #include "studies/extremes/scenes.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "abut/contact/obstacle.hpp"
 #include "abut/mesh/shapes/shapes.hpp"
+#include "studies/cases/shapes.hpp"
 
 namespace abut::studies::extremes {
 namespace {
@@ -58,34 +58,9 @@ mesh::Mesh<2> triangle(const Vector<2>& tip, double angle, double unit) {
 /// Of side 1, a corner below.
 mesh::Mesh<2> turned_square(const Vector<2>& corner, int cells, double unit) {
     const auto square = mesh::structured_box<2>({0.0, 0.0}, {1.0, 1.0}, {cells, cells}, mesh::CellShape::quadrangle);
-    mesh::CellSoup<2> soup;
-    soup.name = "square";
-    soup.body_names = {soup.name};
-    soup.cell_shape = square.cell_shape;
-    soup.cell_vertices = square.cell_vertices;
-    soup.cell_body = square.cell_body;
-    for (const Vector<2>& x : square.vertices)
-        soup.vertices.push_back(corner + unit * std::numbers::sqrt2 / 2.0 * Vector<2>(x[0] - x[1], x[0] + x[1]));
-    return mesh::build_mesh(std::move(soup));
-}
-
-/// A beam along `axis` with its lower or upper edge at the height of `middle`.
-mesh::Mesh<3> beam(const Vector<3>& axis, const Vector<3>& middle, double angle, bool is_upper, double unit) {
-    constexpr double length = 2.0, side = 0.5;
-    const Vector<3> up = Vector<3>::UnitZ(), across = up.cross(axis);
-    const double half_width = side * std::sin(0.5 * angle), half_height = side * std::cos(0.5 * angle);
-    const auto cube = mesh::structured_box<3>(Vector<3>::Zero(), Vector<3>::Ones(), {9, 3, 3}, mesh::CellShape::hexahedron);
-    mesh::CellSoup<3> soup;
-    soup.name = is_upper ? "upper" : "lower";
-    soup.body_names = {soup.name};
-    soup.cell_shape = cube.cell_shape;
-    soup.cell_vertices = cube.cell_vertices;
-    soup.cell_body = cube.cell_body;
-    for (const Vector<3>& x : cube.vertices)
-        soup.vertices.push_back(unit *
-                                (middle + (is_upper ? half_height : -half_height) * up + length * (x[0] - 0.5) * axis +
-                                 half_width * (x[1] - x[2]) * across + half_height * (x[1] + x[2] - 1.0) * up));
-    return mesh::build_mesh(std::move(soup));
+    return mapped<2>(square, "square", [&](const Vector<2>& x) {
+        return Vector<2>(corner + unit * std::numbers::sqrt2 / 2.0 * Vector<2>(x[0] - x[1], x[0] + x[1]));
+    });
 }
 
 }  // namespace
@@ -164,8 +139,10 @@ run::Scene<2> square_on_corner(const Meeting<2>& meeting, int cells) {
 run::Scene<3> crossing_beams(const Meeting<3>& meeting, double angle) {
     const Vector<3> above = meeting.place + Vector<3>(meeting.aside, 0.0, meeting.gap);
     run::Scene<3> scene;
-    scene.mesh = mesh::combine<3>(std::vector{beam(Vector<3>::UnitX(), meeting.place, angle, false, meeting.units.length),
-                                              beam(Vector<3>::UnitY(), above, angle, true, meeting.units.length)});
+    const auto shape = mesh::CellShape::hexahedron;
+    const double unit = meeting.units.length;
+    scene.mesh = mesh::combine<3>(std::vector{beam(Vector<3>::UnitX(), meeting.place, angle, false, shape, unit),
+                                              beam(Vector<3>::UnitY(), above, angle, true, shape, unit)});
     set_in_motion(scene, meeting, 2);
     return scene;
 }

@@ -80,17 +80,12 @@ std::string defect(const Row& row, const Trial<Dim>& trial) {
 
 template <int Dim>
 void measure(Row& row, const Trial<Dim>& trial, const run::RunResult<Dim>& result) {
+    static_cast<Figures&>(row) = figures_of(result);
     row.is_finite = all_finite(result);
-    row.drift = result.ledger.pseudo_energy_drift() / result.scale.value;
-    row.excess = result.ledger.energy_excess() / result.scale.value;
-    row.parasitic = result.ledger.parasitic() / trial.speed;
+    row.parasitic /= trial.speed;
     if (trial.keeps_momentum) row.momentum = result.ledger.momentum_drift() / impulse_scale(result);
-    row.compression = result.contact.compression_max;
     row.sliding = result.contact.sliding_ratio_max;
     row.slipped = result.contact.slipped_compression_max;
-    row.steps = result.steps;
-    row.events = result.contact.events;
-    row.missed_contacts = result.contact.missed_contacts;
     row.active_pairs_max = result.contact.active_pairs_max;
     row.blind_corners = static_cast<std::int64_t>(result.blind_corners.size());
     row.numbers = speeds_at_end(result, trial.speed);
@@ -129,16 +124,20 @@ Trial<Dim> meeting_of_blocks(const std::string& family, const std::string& value
 
 template <int Dim>
 Row attempt(const Trial<Dim>& trial) {
-    Row row{.family = trial.family, .value = trial.value};
+    Row row;
+    row.family = trial.family;
+    row.value = trial.value;
+    std::int64_t cells = 0;
     try {
         run::Scene<Dim> scene = trial.make();
         // The limits of bodies that do not turn are those of the reconstruction (docs/limits.md).
         if (scene.solid.kinematics.empty()) scene.solid.law = solid::ContactLaw::reconstruction;
-        row.cells = scene.mesh.n_cells();
+        cells = scene.mesh.n_cells();
         measure(row, trial, run::simulate<Dim>(scene, trial.run));
     } catch (const std::exception& error) {
         row.message = error.what();
     }
+    row.cells = cells;
     return row;
 }
 

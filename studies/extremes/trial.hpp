@@ -7,6 +7,7 @@
 
 #include "abut/run/scene.hpp"
 #include "studies/extremes/scenes.hpp"
+#include "studies/table/figures.hpp"
 
 namespace abut::studies::extremes {
 
@@ -31,21 +32,17 @@ struct Number {
     double value;
 };
 
-/// A line of the table. Numbers of a refused run are NaN or 0.
-struct Row {
+/// A line of the table: figures of a run, `parasitic` over the speed of the trial, momentum over the sum of m |v| at the start.
+/// Numbers of a refused run are NaN or 0.
+struct Row : Figures {
     std::string family, value;
     Verdict verdict = Verdict::refused;
-    std::string message;                  ///< of a refusal; what is not so of a failure; what is worth saying
-    bool is_finite = false;               ///< all energies, momenta and speeds are
-    double drift = run::not_given;        ///< max |H~ - H~0 - work| over the scale of the scene
-    double excess = run::not_given;       ///< max (H - H~) over the scale
-    double parasitic = run::not_given;    ///< max |e|/m over the speed of the trial
-    double momentum = run::not_given;     ///< drift over the sum of m |v| at the start
-    double compression = run::not_given;  ///< largest |g|/D
-    double sliding = run::not_given;      ///< largest |g| |dA/ds| over the smaller face
-    double slipped = run::not_given;      ///< largest |g|/D of pairs that slid off each other
-    double deviation = run::not_given;    ///< from the same run in other units or at another place
-    std::int64_t cells = 0, steps = 0, events = 0, missed_contacts = 0, active_pairs_max = 0, blind_corners = 0;
+    std::string message;                ///< of a refusal; what is not so of a failure; what is worth saying
+    bool is_finite = false;             ///< all energies, momenta and speeds are
+    double sliding = run::not_given;    ///< largest |g| |dA/ds| over the smaller face
+    double slipped = run::not_given;    ///< largest |g|/D of pairs that slid off each other
+    double deviation = run::not_given;  ///< from the same run in other units or at another place
+    std::int64_t active_pairs_max = 0, blind_corners = 0;
     std::vector<Number> numbers;  ///< speeds of the bodies at the end first, then energies and counts
 };
 

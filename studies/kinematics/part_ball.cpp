@@ -6,6 +6,7 @@
 #include "studies/kinematics/rows.hpp"
 
 namespace abut::studies::kinematics {
+namespace ball_part {
 namespace {
 
 constexpr double radius = 1.0, speed = 0.01, gap = 1e-3, hardness = 1e4;
@@ -74,19 +75,21 @@ void bounce(const Size& size, Kinematics kinematics, double allowed, const Optio
     };
     CaseResult<3> result;
     const std::string setting =
-        fmt::format("{}, a/h {:.2g}, ball {:.2g}, L {:g}", name_of(kinematics), hertz.contact_radius / size.block,
+        fmt::format("{}, a/h {:.2g}, ball {:.2g}, L {:g}", run::name_of(kinematics), hertz.contact_radius / size.block,
                     hertz.contact_radius / size.ball, size.extent);
     Row row = row_of<3>(one, setting, options, &result, watch);
-    row.quantities.push_back(near("touches for [s]", last - first, hertz.time, allowed));
+    row.quantities.near("touches for [s]", last - first, hertz.time, allowed);
     if (!result.velocity.empty())
-        row.quantities.push_back(near("velocity after over that before", result.velocity[1].z() / speed, 1.0, no_target));
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 0.05));
+        row.quantities.near("velocity after over that before", result.velocity[1].z() / speed, 1.0);
+    row.quantities.at_most("H - H~", row.run->excess, 0.05);
     sink(row);
 }
 
 }  // namespace
+}  // namespace ball_part
 
 void run_ball(const Options& options, const Sink& sink) {
+    using namespace ball_part;
     if (options.quick) return bounce({.block = 0.15, .ball = 0.15, .extent = 3.0}, Kinematics::floating, 0.2, options, sink);
     for (const double size : {0.1, 0.06})
         bounce({.block = size, .ball = size, .extent = 7.0}, Kinematics::floating, size < 0.08 ? 0.03 : no_target, options,

@@ -5,6 +5,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace bar_part {
 namespace {
 
 constexpr double length = 1.0, height = 0.1, radians = 5.0;
@@ -26,11 +27,11 @@ Vector<2> end_of(const dynamics::RunView<2>& run, const solid::Solid<2>& solid, 
 void strike(Kinematics kinematics, const Options& options, const Sink& sink) {
     const int across = options.quick ? 2 : 4;
     const double side = 0.1, arm = 0.44, gap = 0.002, speed = options.quick ? 0.05 : 0.02;
-    const auto bar = block<2>({.sides = {length, height}, .cells = {10 * across, across}, .name = "bar"});
-    const auto hammer = block<2>({.centre = {arm, -0.5 * (height + side) - gap},
-                                  .sides = {side, side},
-                                  .cells = {across + 1, across + 1},
-                                  .name = "hammer"});
+    const auto bar = turned_box<2>({.sides = {length, height}, .cells = {10 * across, across}, .name = "bar"});
+    const auto hammer = turned_box<2>({.centre = {arm, -0.5 * (height + side) - gap},
+                                       .sides = {side, side},
+                                       .cells = {across + 1, across + 1},
+                                       .name = "hammer"});
     Case<2> one = case_of<2>("bar", {bar, hammer}, kinematics);
     one.motion[1].velocity = {0.0, speed};
     one.run.filter = true;
@@ -52,18 +53,20 @@ void strike(Kinematics kinematics, const Options& options, const Sink& sink) {
         at_end = along.norm() / rest;
         longest = std::max(longest, std::abs(at_end - 1.0));
     };
-    Row row = row_of<2>(one, name_of(kinematics), options, nullptr, watch);
+    Row row = row_of<2>(one, run::name_of(kinematics), options, nullptr, watch);
     const bool grows = kinematics == Kinematics::small;
     // A point that flies straight on turns by less than a right angle.
-    row.quantities.push_back(near("turns by [rad]", std::min(turned, radians), radians, grows ? no_target : 1e-12));
-    row.quantities.push_back(near("length then, over that at rest", at_end, 1.0, grows ? no_target : 1e-3));
-    row.quantities.push_back(at_most("largest change of it on the way", longest, grows ? no_target : 0.02));
+    row.quantities.near("turns by [rad]", std::min(turned, radians), radians, grows ? no_target : 1e-12);
+    row.quantities.near("length then, over that at rest", at_end, 1.0, grows ? no_target : 1e-3);
+    row.quantities.at_most("largest change of it on the way", longest, grows ? no_target : 0.02);
     sink(row);
 }
 
 }  // namespace
+}  // namespace bar_part
 
 void run_bar(const Options& options, const Sink& sink) {
+    using namespace bar_part;
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating, Kinematics::rigid})
         strike(kinematics, options, sink);
 }

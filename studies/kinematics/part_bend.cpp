@@ -10,6 +10,7 @@
 #include "studies/kinematics/rows.hpp"
 
 namespace abut::studies::kinematics {
+namespace bend_part {
 namespace {
 
 constexpr double height = 0.1, poisson = 0.3;  // of a cantilever of length 1, E = rho = 1
@@ -66,21 +67,22 @@ void bend(const Cantilever& beam, Kinematics kinematics, double alpha, double al
     one.scene.time = (options.quick || beam.across > 4 ? 0.2 : 4.0) * period;
     solid::FiniteExtremes extremes;
     const Watch<2> watch = [&](const auto&, const auto& solid) { extremes = solid.finite_extremes(); };
-    const auto setting = fmt::format("{}, {} x {}, alpha {:g}", name_of(kinematics), beam.along, beam.across, alpha);
+    const auto setting = fmt::format("{}, {} x {}, alpha {:g}", run::name_of(kinematics), beam.along, beam.across, alpha);
     Row row = row_of<2>(one, setting, options, nullptr, watch);
-    row.quantities.push_back(
-        near("deflection of the tip, beside the elastica", tip / beam.length(), elastica_tip(alpha), allowed));
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 1e-2));
+    row.quantities.near("deflection of the tip, beside the elastica", tip / beam.length(), elastica_tip(alpha), allowed);
+    row.quantities.at_most("H - H~", row.run->excess, 1e-2);
     if (kinematics == Kinematics::finite) {
-        row.quantities.push_back(at_most("least det F", extremes.determinant, no_target));
-        row.quantities.push_back(at_most("largest |E|", extremes.strain, no_target));
+        row.quantities.at_most("least det F", extremes.determinant);
+        row.quantities.at_most("largest |E|", extremes.strain);
     }
     sink(row);
 }
 
 }  // namespace
+}  // namespace bend_part
 
 void run_bend(const Options& options, const Sink& sink) {
+    using namespace bend_part;
     for (const double alpha : {1.0, 2.0, 5.0}) bend({40, 4}, Kinematics::finite, alpha, 0.02, options, sink);
     if (options.quick) return;
     for (const double alpha : {1.0, 2.0, 5.0}) bend({20, 2}, Kinematics::finite, alpha, no_target, options, sink);

@@ -8,6 +8,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace chute_part {
 namespace {
 
 using std::numbers::pi;
@@ -55,9 +56,9 @@ void slide_straight(double degrees, bool on_side, double cfl, const Options& opt
     const std::string setting = fmt::format("{:g} degrees, on a {}, cfl {:g}", degrees, on_side ? "side" : "corner", cfl);
     Row row = row_of<2>(one, setting, options, nullptr, slide.watch);
     const double spin = slide.largest_spin / slide.largest_speed;
-    row.quantities.push_back(at_most("spin times radius over speed", spin, 1e-12));
-    if (degrees > 0.0) row.quantities.push_back(at_most("that over cfl^2", spin / (cfl * cfl), 1e-5));
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 1e-2));
+    row.quantities.at_most("spin times radius over speed", spin, 1e-12);
+    if (degrees > 0.0) row.quantities.at_most("that over cfl^2", spin / (cfl * cfl), 1e-5);
+    row.quantities.at_most("H - H~", row.run->excess, 1e-2);
     sink(row);
 }
 
@@ -75,15 +76,17 @@ void slide_around(int corners, const Options& options, const Sink& sink) {
     one.run.filter = true;
     Slide slide;
     Row row = row_of<2>(one, fmt::format("{} sides, 9 facets", corners), options, nullptr, slide.watch);
-    row.quantities.push_back(at_most("spin times radius over speed", slide.largest_spin / slide.largest_speed, no_target));
-    row.quantities.push_back(at_most("that over half a side", slide.largest_spin / slide.largest_speed * corners / pi, 1.0));
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 5e-2));
+    row.quantities.at_most("spin times radius over speed", slide.largest_spin / slide.largest_speed);
+    row.quantities.at_most("that over half a side", slide.largest_spin / slide.largest_speed * corners / pi, 1.0);
+    row.quantities.at_most("H - H~", row.run->excess, 5e-2);
     sink(row);
 }
 
 }  // namespace
+}  // namespace chute_part
 
 void run_chute(const Options& options, const Sink& sink) {
+    using namespace chute_part;
     for (const bool on_side : {true, false}) slide_straight(0.0, on_side, 0.8, options, sink);
     for (const double cfl : {0.8, 0.4, 0.2}) slide_straight(30.0, true, cfl, options, sink);
     slide_straight(30.0, false, 0.8, options, sink);

@@ -8,6 +8,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace cradle_part {
 namespace {
 
 using std::numbers::pi;
@@ -52,7 +53,8 @@ void strike(const Cradle<Dim>& cradle, const Options& options, const Sink& sink)
     one.scene.time = cradle.time;
     one.run.filter = true;
     CaseResult<Dim> result;
-    const std::string setting = name_of(cradle.kinematics) + (cradle.apart ? ", one after the other" : ", nearly touching");
+    const std::string setting =
+        run::name_of(cradle.kinematics) + (cradle.apart ? ", one after the other" : ", nearly touching");
     Row row = row_of<Dim>(one, setting, options, &result);
     for (std::size_t i = 0; i < result.velocity.size(); ++i)
         row.quantities.push_back(
@@ -112,13 +114,16 @@ void strike_spheres(Kinematics kinematics, bool apart, const Options& options, c
 }
 
 }  // namespace
+}  // namespace cradle_part
 
 void run_cradle(const Options& options, const Sink& sink) {
+    using namespace cradle_part;
     for (const Kinematics kinematics : {Kinematics::rigid, Kinematics::floating})
         for (const bool apart : {true, false}) strike_discs(kinematics, apart, options, sink);
 }
 
 void run_spheres(const Options& options, const Sink& sink) {
+    using namespace cradle_part;
     for (const Kinematics kinematics : {Kinematics::rigid, Kinematics::floating})
         for (const bool apart : {true, false}) strike_spheres(kinematics, apart, options, sink);
 }

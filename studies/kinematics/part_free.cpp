@@ -8,6 +8,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace free_part {
 namespace {
 
 constexpr double spin = 0.1;
@@ -28,7 +29,7 @@ template <int Dim>
 void spin_block(Kinematics kinematics, double noise, const Options& options, const Sink& sink, int restart = 0) {
     std::array<int, Dim> cells;
     cells.fill(options.quick ? 3 : Dim == 2 ? 8 : 4);
-    Case<Dim> one = case_of<Dim>(Dim == 2 ? "square" : "cube", {block<Dim>({.cells = cells})}, kinematics);
+    Case<Dim> one = case_of<Dim>(Dim == 2 ? "square" : "cube", {turned_box<Dim>({.cells = cells})}, kinematics);
     one.scene.contact = false;
     one.motion[0].velocity = Vector<Dim>::Constant(0.02);
     if constexpr (Dim == 2)
@@ -43,25 +44,27 @@ void spin_block(Kinematics kinematics, double noise, const Options& options, con
     const Watch<Dim> watch = [&](const auto& run, const auto& solid) {
         stretch = std::max(stretch, stretch_of<Dim>(run, solid));
     };
-    const std::string setting = name_of(kinematics) + (noise > 0.0 ? fmt::format(", noise {:g}", noise) : "") +
+    const std::string setting = run::name_of(kinematics) + (noise > 0.0 ? fmt::format(", noise {:g}", noise) : "") +
                                 (restart > 0 ? fmt::format(", restart {}", restart) : "");
     Row row = row_of<Dim>(one, setting, options, nullptr, watch);
     const std::string name = "largest change of a distance, over that at rest";
     if (kinematics == Kinematics::small) {
         // Each point flies straight on: in the plane by spin t |X|.
         const double flight = one.scene.time * spin;
-        row.quantities.push_back(near(name, stretch, std::sqrt(1.0 + flight * flight) - 1.0, Dim == 2 ? 0.02 : no_target));
+        row.quantities.near(name, stretch, std::sqrt(1.0 + flight * flight) - 1.0, Dim == 2 ? 0.02 : no_target);
     } else {
         const double centrifugal = 2.0 * spin * spin;  // of E = rho = 1, and of noise nothing is known
-        row.quantities.push_back(at_most(name, stretch, noise > 0.0 ? no_target : centrifugal));
-        row.quantities.push_back(at_most("H - H~", row.run.excess, noise > 0.0 ? 1.0 : 1e-3));
+        row.quantities.at_most(name, stretch, noise > 0.0 ? no_target : centrifugal);
+        row.quantities.at_most("H - H~", row.run->excess, noise > 0.0 ? 1.0 : 1e-3);
     }
     sink(row);
 }
 
 }  // namespace
+}  // namespace free_part
 
 void run_free(const Options& options, const Sink& sink) {
+    using namespace free_part;
     for (const double noise : {0.0, 1e-3}) {
         spin_block<2>(Kinematics::floating, noise, options, sink);
         spin_block<3>(Kinematics::floating, noise, options, sink);

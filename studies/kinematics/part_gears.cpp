@@ -7,6 +7,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace gears_part {
 namespace {
 
 using std::numbers::pi;
@@ -79,22 +80,23 @@ void mesh_gears(Kinematics kinematics, bool filter, const Options& options, cons
     one.run.interval = 10;
     Books books;
     const Watch<2> watch = [&](const auto& run, const auto& solid) { books.look(pair, run, solid); };
-    Row row = row_of<2>(one, name_of(kinematics) + (filter ? ", filter" : ""), options, nullptr, watch);
+    Row row = row_of<2>(one, run::name_of(kinematics) + (filter ? ", filter" : ""), options, nullptr, watch);
     // Teeth bend and have their play, by the same angle after half a turn and after ten.
-    row.quantities.push_back(at_most("turns of the first gear", books.first.total() / (2.0 * pi), no_target));
-    row.quantities.push_back(
-        near("ratio of turns", -books.first.total() / books.second.total(), pair.ratio, options.quick ? 1e-2 : 1e-3));
-    row.quantities.push_back(near("ratio of the moments of contact", books.moment_on_second(pair) / books.moment_on_first(),
-                                  pair.ratio, options.quick ? no_target : 0.02));
-    row.quantities.push_back(
-        at_most("mean moment on the first gear, over the drive", -books.moment_on_first() / drive, no_target));
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 0.05));
+    row.quantities.at_most("turns of the first gear", books.first.total() / (2.0 * pi));
+    row.quantities.near("ratio of turns", -books.first.total() / books.second.total(), pair.ratio,
+                        options.quick ? 1e-2 : 1e-3);
+    row.quantities.near("ratio of the moments of contact", books.moment_on_second(pair) / books.moment_on_first(),
+                        pair.ratio, options.quick ? no_target : 0.02);
+    row.quantities.at_most("mean moment on the first gear, over the drive", -books.moment_on_first() / drive);
+    row.quantities.at_most("H - H~", row.run->excess, 0.05);
     sink(row);
 }
 
 }  // namespace
+}  // namespace gears_part
 
 void run_gears(const Options& options, const Sink& sink) {
+    using namespace gears_part;
     for (const Kinematics kinematics : {Kinematics::floating, Kinematics::rigid})
         for (const bool filter : {false, true}) mesh_gears(kinematics, filter, options, sink);
 }

@@ -6,6 +6,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace pile_part {
 namespace {
 
 /// Convex polygons in a grid over a floor, within four walls, moving to all sides.
@@ -42,7 +43,7 @@ void run_mixed(int restart, const Options& options, const Sink& sink) {
     one.run.interval = std::max(1, one.run.steps / 1500);
     one.run.restart = restart;
     Row row = row_of<2>(one, restart > 0 ? fmt::format("filter, restart {}", restart) : "filter", options);
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 0.1));
+    row.quantities.at_most("H - H~", row.run->excess, 0.1);
     sink(row);
 }
 
@@ -53,24 +54,25 @@ double cost(Kinematics kinematics, int columns, const Options& options, const Si
     one.run.interval = one.run.steps;
     Options without_frames = options;
     without_frames.frames = 0;
-    const Row row = row_of<2>(one, fmt::format("{} {}", columns * columns, name_of(kinematics)), without_frames);
+    const Row row = row_of<2>(one, fmt::format("{} {}", columns * columns, run::name_of(kinematics)), without_frames);
     sink(row);
-    return row.run.seconds_of_steps / (row.run.dt * static_cast<double>(row.run.steps));
+    return row.run->seconds_of_steps / (row.run->dt * static_cast<double>(row.run->steps));
 }
 
 }  // namespace
+}  // namespace pile_part
 
 void run_pile(const Options& options, const Sink& sink) {
+    using namespace pile_part;
     run_mixed(0, options, sink);
     run_mixed(50, options, sink);
     const int columns = options.quick ? 4 : 10;
     const double rigid = cost(Kinematics::rigid, columns, options, sink);
     const double elastic = cost(Kinematics::floating, columns, options, sink);
-    Row row{.scene = "cost", .setting = "floating over rigid", .run = {.is_complete = true, .ending = {}}};
-    row.quantities.push_back(
-        at_most("times as fast short of 20", std::max(0.0, 20.0 - elastic / rigid), options.quick ? no_target : 0.0));
-    row.quantities.push_back(
-        at_most("computing time of elastic bodies over that of rigid ones", elastic / rigid, no_target));
+    Row row{.scene = "cost", .setting = "floating over rigid"};
+    row.quantities.at_most("times as fast short of 20", std::max(0.0, 20.0 - elastic / rigid),
+                           options.quick ? no_target : 0.0);
+    row.quantities.at_most("computing time of elastic bodies over that of rigid ones", elastic / rigid);
     sink(row);
 }
 

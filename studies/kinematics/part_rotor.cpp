@@ -8,6 +8,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace rotor_part {
 namespace {
 
 using std::numbers::pi;
@@ -33,10 +34,10 @@ void hold_plates(Case<2>& one) {
 }
 
 mesh::Mesh<2> plate(double side, int cells) {
-    return block<2>({.centre = {0.0, side * (clear + 0.5 * height)},
-                     .sides = {width, height},
-                     .cells = {4 * cells, cells},
-                     .name = side > 0.0 ? "upper" : "lower"});
+    return turned_box<2>({.centre = {0.0, side * (clear + 0.5 * height)},
+                          .sides = {width, height},
+                          .cells = {4 * cells, cells},
+                          .name = side > 0.0 ? "upper" : "lower"});
 }
 
 /// Follows the plates: the free vibration of the upper one between the hits, and all impulses on both.
@@ -135,16 +136,16 @@ void report(Case<2>& one, const std::string& setting, const Options& options, co
     PlateWatch seen;
     const Watch<2> watch = [&](const auto& run, const auto& solid) { seen.look(run, solid); };
     Row row = row_of<2>(one, setting, options, nullptr, watch);
-    row.quantities.push_back(near("period of a plate between the hits [s]", seen.period(), free_period(), 1e-3));
-    row.quantities.push_back(at_most("half periods seen", seen.half_periods(), no_target));
+    row.quantities.near("period of a plate between the hits [s]", seen.period(), free_period(), 1e-3);
+    row.quantities.at_most("half periods seen", seen.half_periods());
     const bool is_body = one.motion.size() > plates;
-    if (is_body) row.quantities.push_back(at_most("turns of the rotor", seen.turned() / (2.0 * pi), no_target));
+    if (is_body) row.quantities.at_most("turns of the rotor", seen.turned() / (2.0 * pi));
     // The filter keeps the momentum of what touches, but not where that is an obstacle. The impulse of the hinge on a body is
     // known as well as its stiffness times the rounding of a position, which adds up.
     const double allowed = is_body ? 1e-9 : one.run.filter ? no_target : 1e-11;
-    row.quantities.push_back(
-        at_most("momentum of the plates less all impulses, over that of the rotor", seen.lack_of_impulse(), allowed));
-    row.quantities.push_back(at_most("H - H~", row.run.excess, 0.05));
+    row.quantities.at_most("momentum of the plates less all impulses, over that of the rotor", seen.lack_of_impulse(),
+                           allowed);
+    row.quantities.at_most("H - H~", row.run->excess, 0.05);
     sink(row);
 }
 
@@ -152,13 +153,13 @@ void report(Case<2>& one, const std::string& setting, const Options& options, co
 void drive_rotor(Kinematics kinematics, bool filter, const Options& options, const Sink& sink) {
     Case<2> one = sprung_plates({}, kinematics, filter, options);
     one.scene.solid.obstacles = {driven_rotor()};
-    report(one, "driven, plates " + name_of(kinematics) + (filter ? ", filter" : ""), options, sink);
+    report(one, "driven, plates " + run::name_of(kinematics) + (filter ? ", filter" : ""), options, sink);
 }
 
 /// The rotor is a rigid body on an axle, which a moment drives.
 void turn_rotor(Kinematics kinematics, bool filter, const Options& options, const Sink& sink) {
-    const auto body =
-        block<2>({.centre = {rotor_centre, 0.0}, .sides = {arm + counter, 2.0 * half}, .cells = {12, 2}, .name = "rotor"});
+    const auto body = turned_box<2>(
+        {.centre = {rotor_centre, 0.0}, .sides = {arm + counter, 2.0 * half}, .cells = {12, 2}, .name = "rotor"});
     Case<2> one = sprung_plates({body}, kinematics, filter, options);
     one.scene.solid.kinematics.back() = Kinematics::rigid;
     one.scene.solid.materials.back().density = density;
@@ -167,12 +168,14 @@ void turn_rotor(Kinematics kinematics, bool filter, const Options& options, cons
                                        .second = {.body = plates, .position = Vector<2>::Zero()},
                                        .stiffness = hinge});
     one.scene.solid.moments = {{.body = plates, .moment = AxialVector<2>(drive)}};
-    report(one, "a body, plates " + name_of(kinematics) + (filter ? ", filter" : ""), options, sink);
+    report(one, "a body, plates " + run::name_of(kinematics) + (filter ? ", filter" : ""), options, sink);
 }
 
 }  // namespace
+}  // namespace rotor_part
 
 void run_rotor(const Options& options, const Sink& sink) {
+    using namespace rotor_part;
     for (const Kinematics kinematics : {Kinematics::floating, Kinematics::rigid})
         for (const bool filter : {false, true}) {
             drive_rotor(kinematics, filter, options, sink);

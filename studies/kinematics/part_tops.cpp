@@ -8,6 +8,7 @@
 #include "studies/kinematics/rows.hpp"
 
 namespace abut::studies::kinematics {
+namespace tops_part {
 namespace {
 
 using std::numbers::pi;
@@ -50,9 +51,8 @@ double spin_symmetric(int steps_per_turn, double coarser, const Options& options
             error = angle_between(turn_of(run, solid), symmetric_top(inertia_of_box(sides), spin, run.time));
     };
     Row row = row_of<3>(one, fmt::format("{} steps per turn", steps_per_turn), options, nullptr, watch);
-    row.quantities.push_back(
-        at_most(fmt::format("off from the closed form after {:g} turns [rad]", turns), error, no_target));
-    if (coarser > 0.0) row.quantities.push_back(near("order of that", std::log10(coarser / error), 2.0, 0.025));
+    row.quantities.at_most(fmt::format("off from the closed form after {:g} turns [rad]", turns), error);
+    if (coarser > 0.0) row.quantities.near("order of that", std::log10(coarser / error), 2.0, 0.025);
     sink(row);
     return error;
 }
@@ -75,13 +75,15 @@ void flip(int steps_per_turn, double allowed, const Options& options, const Sink
         before = along;
     };
     Row row = row_of<3>(one, fmt::format("{} steps per turn", steps_per_turn), options, nullptr, watch);
-    row.quantities.push_back(near("from flip to flip [s]", (last - first) / flips, period, allowed));
+    row.quantities.near("from flip to flip [s]", (last - first) / flips, period, allowed);
     sink(row);
 }
 
 }  // namespace
+}  // namespace tops_part
 
 void run_tops(const Options& options, const Sink& sink) {
+    using namespace tops_part;
     double error = 0.0;
     for (const int steps : {100, 1000, 10000})
         if (!options.quick || steps <= 1000) error = spin_symmetric(steps, error, options, sink);

@@ -2,6 +2,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace tumble_part {
 namespace {
 
 template <int Dim>
@@ -12,7 +13,7 @@ void tumble(Kinematics kinematics, bool filter, const Options& options, const Si
     sides[0] = 1.0;
     sides[Dim - 1] = Dim == 2 ? 0.7 : 0.5;
     Case<Dim> one = case_of<Dim>(Dim == 2 ? "tumbling block" : "tumbling cuboid",
-                                 {block<Dim>({.sides = sides, .cells = cells})}, kinematics);
+                                 {turned_box<Dim>({.sides = sides, .cells = cells})}, kinematics);
     let_fall<Dim>(one, 2e-4);  // corners are pressed in by their cells at 0.06 of the wave speed, and the run is refused
     one.scene.solid.obstacles = {
         contact::plane_obstacle<Dim>(Vector<Dim>(-Vector<Dim>::Unit(Dim - 1)), Vector<Dim>::Unit(Dim - 1), 20.0)};
@@ -22,15 +23,17 @@ void tumble(Kinematics kinematics, bool filter, const Options& options, const Si
         one.motion[0].spin = {0.01, 0.017, 0.007};
     one.scene.time = options.quick ? 200.0 : 1200.0;
     one.run.filter = filter;
-    Row row = row_of<Dim>(one, name_of(kinematics) + (filter ? ", filter" : ""), options);
-    row.quantities.push_back(at_most("H - H~", row.run.excess, filter ? 0.05 : no_target));
-    row.quantities.push_back(at_most("never touches", row.run.pair_steps > 0 ? 0.0 : 1.0, 0.0));
+    Row row = row_of<Dim>(one, run::name_of(kinematics) + (filter ? ", filter" : ""), options);
+    row.quantities.at_most("H - H~", row.run->excess, filter ? 0.05 : no_target);
+    row.quantities.at_most("never touches", row.run->pair_steps > 0 ? 0.0 : 1.0, 0.0);
     sink(row);
 }
 
 }  // namespace
+}  // namespace tumble_part
 
 void run_tumble(const Options& options, const Sink& sink) {
+    using namespace tumble_part;
     for (const Kinematics kinematics : {Kinematics::floating, Kinematics::rigid})
         for (const bool filter : {false, true}) {
             tumble<2>(kinematics, filter, options, sink);

@@ -5,6 +5,7 @@
 #include "studies/kinematics/shapes.hpp"
 
 namespace abut::studies::kinematics {
+namespace wall_part {
 namespace {
 
 // A square of side 1 whose centre flies towards a wall at x = distance.
@@ -36,7 +37,7 @@ Rebound rebound_at(double time) {
 /// Under the reconstruction the faces of `small` bodies translate, and the corner is where its two cells take it.
 void meet(Kinematics kinematics, solid::ContactLaw law, const Options& options, const Sink& sink) {
     const int cells = options.quick ? 4 : 8;
-    Case<2> one = case_of<2>("square at a wall", {block<2>({.cells = {cells, cells}})}, kinematics);
+    Case<2> one = case_of<2>("square at a wall", {turned_box<2>({.cells = {cells, cells}})}, kinematics);
     one.motion[0] = {.velocity = {speed, 0.0}, .spin = AxialVector<2>(spin)};
     one.is_free = false;
     one.scene.solid.law = law;
@@ -52,12 +53,11 @@ void meet(Kinematics kinematics, solid::ContactLaw law, const Options& options, 
         end = solid::body_motions<2>(run, solid).front();
     };
     const bool tilts = law != solid::ContactLaw::reconstruction;
-    Row row = row_of<2>(one, name_of(kinematics) + (tilts ? "" : ", reconstruction"), options, nullptr, watch);
+    Row row = row_of<2>(one, run::name_of(kinematics) + (tilts ? "" : ", reconstruction"), options, nullptr, watch);
     if (kinematics == Kinematics::small)
-        row.quantities.push_back(
-            near("meets the wall at, of a square that grows [s]", met, growing, tilts ? 5e-3 : no_target));
-    row.quantities.push_back(
-        near("meets the wall at, of one that does not [s]", met, exact, kinematics == Kinematics::small ? no_target : 5e-3));
+        row.quantities.near("meets the wall at, of a square that grows [s]", met, growing, tilts ? 5e-3 : no_target);
+    row.quantities.near("meets the wall at, of one that does not [s]", met, exact,
+                        kinematics == Kinematics::small ? no_target : 5e-3);
     const Rebound rebound = rebound_at(exact);
     const double allowed = kinematics == Kinematics::rigid ? 0.1 : no_target;
     row.quantities.push_back({.name = "velocity along x after it, of an impulse at the corner",
@@ -76,8 +76,10 @@ void meet(Kinematics kinematics, solid::ContactLaw law, const Options& options, 
 }
 
 }  // namespace
+}  // namespace wall_part
 
 void run_wall(const Options& options, const Sink& sink) {
+    using namespace wall_part;
     meet(Kinematics::small, solid::ContactLaw::reconstruction, options, sink);
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::floating, Kinematics::rigid})
         meet(kinematics, solid::ContactLaw::pair_potential, options, sink);

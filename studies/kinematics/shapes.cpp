@@ -19,27 +19,6 @@ struct Rings {
 
 }  // namespace
 
-template <int Dim>
-mesh::Mesh<Dim> block(const Block<Dim>& block) {
-    const auto shape = Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron;
-    const Vector<Dim> half = 0.5 * block.sides;
-    const auto upright = mesh::structured_box<Dim>(-half, half, block.cells, shape, block.name);
-    mesh::CellSoup<Dim> soup;
-    soup.name = block.name;
-    soup.body_names = {block.name};
-    soup.cell_shape = upright.cell_shape;
-    soup.cell_vertices = upright.cell_vertices;
-    soup.cell_body = upright.cell_body;
-    for (const Vector<Dim>& x : upright.vertices) soup.vertices.push_back(block.centre + block.turn * x);
-    return mesh::build_mesh(std::move(soup));
-}
-
-Matrix<2> rotation(double angle) {
-    Matrix<2> turn;
-    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    return turn;
-}
-
 mesh::Mesh<2> polygon(const Polygon& polygon) {
     mesh::CellSoup<2> soup;
     soup.name = polygon.name;
@@ -128,8 +107,5 @@ contact::RigidObstacle<2> wall_along(const std::vector<Vector<2>>& points) {
     for (std::size_t i = 0; i + 1 < points.size(); ++i) obstacle.faces.push_back({points[i + 1], points[i]});
     return obstacle;
 }
-
-template mesh::Mesh<2> block<2>(const Block<2>&);
-template mesh::Mesh<3> block<3>(const Block<3>&);
 
 }  // namespace abut::studies::kinematics

@@ -2,25 +2,10 @@
 #include <cmath>
 
 #include "abut/contact/obstacle.hpp"
-#include "abut/mesh/mesh.hpp"
+#include "studies/cases/shapes.hpp"
 
 /// Bodies and obstacles of the scenes.
 namespace abut::studies::kinematics {
-
-/// A box of simplices about `centre`, in the plane turned by `angle`.
-template <int Dim>
-struct Block {
-    Vector<Dim> centre = Vector<Dim>::Zero();
-    Vector<Dim> sides = Vector<Dim>::Ones();
-    std::array<int, Dim> cells{};
-    Matrix<Dim> turn = Matrix<Dim>::Identity();
-    std::string name = "block";
-};
-template <int Dim>
-[[nodiscard]] mesh::Mesh<Dim> block(const Block<Dim>& block);
-
-/// By this angle [rad], counter-clockwise.
-[[nodiscard]] Matrix<2> rotation(double angle);
 
 /// A regular polygon; its first corner is at the angle `turn` [rad]. Each of its sides is cut in `cuts`, and the triangle
 /// from there to the centre in cuts^2 cells.

@@ -10,9 +10,6 @@
 namespace abut::studies::nodal {
 namespace {
 
-double lambda_of(const P1Material& m) { return m.young * m.poisson / ((1.0 + m.poisson) * (1.0 - 2.0 * m.poisson)); }
-double mu_of(const P1Material& m) { return 0.5 * m.young / (1.0 + m.poisson); }
-
 template <int Dim>
 Matrix<Dim> hooke(double lambda, double mu, const Matrix<Dim>& strain) {
     return lambda * strain.trace() * Matrix<Dim>::Identity() + 2.0 * mu * strain;
@@ -27,29 +24,35 @@ double half_height(const mesh::Mesh<Dim>& mesh, std::int32_t face) {
 }  // namespace
 
 template <int Dim>
-contact::NodalSurface<Dim> P1Bodies<Dim>::surface_of(const P1Scene<Dim>& scene, std::vector<Vector<Dim>>& all_nodes) {
+contact::NodalSurface<Dim> P1Bodies<Dim>::surface_of(const run::Scene<Dim>& scene, const NodalParts<Dim>& parts,
+                                                     std::vector<Vector<Dim>>& all_nodes) {
     const mesh::Mesh<Dim>& mesh = scene.mesh;
     all_nodes = mesh.vertices;
     contact::NodalFaceArrays<Dim> faces;
-    std::vector<std::vector<double>> depths(scene.materials.size());
+    std::vector<std::vector<double>> depths(scene.solid.materials.size());
     for (const std::int32_t face : mesh.boundary_faces) {
         const std::int32_t body = mesh.cell_body[mesh.face_cells[face][0]];
         const double depth = half_height(mesh, face);
-        if (!scene.touches || scene.touches(mesh.face_centroid[face]))
+        if (!parts.touches || parts.touches(mesh.face_centroid[face]))
             depths[static_cast<std::size_t>(body)].push_back(depth);
         faces.append_face(mesh.face_vertices[face], depth, body);
     }
-    for (std::size_t body = 0; body < scene.materials.size(); ++body) {
-        const P1Material& material = scene.materials[body];
-        faces.stiffness.push_back(contact::skin_stiffness(lambda_of(material) + 2.0 * mu_of(material), depths[body]));
-    }
-    for (const auto& obstacle : scene.obstacles) faces.append_obstacle(obstacle.shape, all_nodes);
+    for (std::size_t body = 0; body < depths.size(); ++body)
+        faces.stiffness.push_back(contact::skin_stiffness(scene.solid.materials[body].wave_modulus(), depths[body]));
+    for (const auto& obstacle : scene.solid.obstacles) faces.append_obstacle(obstacle, all_nodes);
     return contact::NodalSurface<Dim>(all_nodes, faces.view());
 }
 
 template <int Dim>
-P1Bodies<Dim>::P1Bodies(P1Scene<Dim> scene)
-    : scene_(std::move(scene)), contact_(surface_of(scene_, rest_), scene_.contact), x_0_(rest_), x_1_(rest_) {
+P1Bodies<Dim>::P1Bodies(run::Scene<Dim> scene, NodalParts<Dim> parts, const geometry::FacingFade& facing)
+    : scene_(std::move(scene)),
+      parts_(std::move(parts)),
+      is_finite_(!scene_.solid.kinematics.empty() && scene_.solid.kinematics.front() == Kinematics::finite),
+      contact_(surface_of(scene_, parts_, rest_), {.facing = facing}),
+      x_0_(rest_),
+      x_1_(rest_) {
+    if (scene_.solid.acceleration.empty())
+        scene_.solid.acceleration.assign(scene_.solid.materials.size(), Vector<Dim>::Zero());
     make_elements();
 }
 
@@ -60,12 +63,9 @@ void P1Bodies<Dim>::make_elements() {
     node_body_.assign(mesh.vertices.size(), 0);
     node_elements_.resize(mesh.vertices.size());
     for (std::int32_t cell = 0; cell < mesh.n_cells(); ++cell) {
-        const P1Material& material = scene_.materials[static_cast<std::size_t>(mesh.cell_body[cell])];
-        Element element{.node = {},
-                        .slope = {},
-                        .measure = mesh.cell_measure[cell],
-                        .lambda = lambda_of(material),
-                        .mu = mu_of(material)};
+        const solid::Material& material = scene_.solid.materials[static_cast<std::size_t>(mesh.cell_body[cell])];
+        Element element{
+            .node = {}, .slope = {}, .measure = mesh.cell_measure[cell], .lambda = material.lambda(), .mu = material.mu()};
         std::ranges::copy(mesh.cell_vertices[cell], element.node.begin());
         Matrix<Dim> edges;
         for (int i = 0; i < Dim; ++i) edges.col(i) = mesh.vertices[element.node[i + 1]] - mesh.vertices[element.node[0]];
@@ -95,8 +95,7 @@ Matrix<Dim> P1Bodies<Dim>::gradient(const Element& element, std::span<const doub
 template <int Dim>
 Matrix<Dim> P1Bodies<Dim>::stress_between(const Element& element, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const {
     const Matrix<Dim> g = 0.5 * (g_0 + g_1);
-    if (scene_.strain == Strain::small)
-        return hooke<Dim>(element.lambda, element.mu, Matrix<Dim>(0.5 * (g + g.transpose())));
+    if (!is_finite_) return hooke<Dim>(element.lambda, element.mu, Matrix<Dim>(0.5 * (g + g.transpose())));
     const auto green = [](const Matrix<Dim>& h) { return Matrix<Dim>(0.5 * (h + h.transpose() + h.transpose() * h)); };
     const Matrix<Dim> strain = 0.5 * (green(g_0) + green(g_1));
     return (Matrix<Dim>::Identity() + g) * hooke<Dim>(element.lambda, element.mu, strain);
@@ -114,8 +113,8 @@ void P1Bodies<Dim>::add_bulk(std::span<const double> q_0, std::span<const double
 template <int Dim>
 void P1Bodies<Dim>::add_outside(std::span<const double> q_0, std::span<const double> q_1, std::span<double> f) const {
     const auto force = as_vectors<Dim>(f);
-    for (std::size_t i = 0; i < mass_.size(); ++i) force[i] += mass_[i] * scene_.gravity;
-    for (const Pin<Dim>& pin : scene_.pins) {
+    for (std::size_t i = 0; i < mass_.size(); ++i) force[i] += mass_[i] * gravity(i);
+    for (const Pin<Dim>& pin : parts_.pins) {
         const Vector<Dim> pull = pin_force(pin, q_0, q_1);
         for (const std::int32_t node : pin.nodes) force[node] += pull;
     }
@@ -134,9 +133,9 @@ void P1Bodies<Dim>::place(std::span<const double> q, double t, std::vector<Vecto
     const auto u = as_vectors<Dim>(q);
     for (std::size_t i = 0; i < u.size(); ++i) x[i] = rest_[i] + u[i];
     std::size_t node = u.size();
-    for (const auto& obstacle : scene_.obstacles) {
-        const contact::Placement<Dim> placement = obstacle.path(t);
-        for (const auto& corners : obstacle.shape.faces)
+    for (const auto& obstacle : scene_.solid.obstacles) {
+        const auto placement = obstacle.placement ? obstacle.placement(t) : contact::Placement<Dim>{};
+        for (const auto& corners : obstacle.faces)
             for (std::size_t i = 0; i < corners.size(); ++i, ++node) x[node] = placement(rest_[node]);
     }
 }
@@ -189,11 +188,11 @@ double P1Bodies<Dim>::potential(std::span<const double> q) {
     for (const Element& element : elements_) {
         const Matrix<Dim> g = gradient(element, q);
         Matrix<Dim> strain = 0.5 * (g + g.transpose());
-        if (scene_.strain == Strain::finite) strain += 0.5 * g.transpose() * g;
+        if (is_finite_) strain += 0.5 * g.transpose() * g;
         energy += 0.5 * element.measure * hooke<Dim>(element.lambda, element.mu, strain).cwiseProduct(strain).sum();
     }
-    for (std::size_t i = 0; i < mass_.size(); ++i) energy -= mass_[i] * scene_.gravity.dot(u[i]);
-    for (const Pin<Dim>& pin : scene_.pins) {
+    for (std::size_t i = 0; i < mass_.size(); ++i) energy -= mass_[i] * gravity(i).dot(u[i]);
+    for (const Pin<Dim>& pin : parts_.pins) {
         Vector<Dim> mean = Vector<Dim>::Zero();
         for (const std::int32_t node : pin.nodes) mean += u[node] / static_cast<double>(pin.nodes.size());
         energy += 0.5 * pin.stiffness * mean.squaredNorm();
@@ -254,7 +253,7 @@ std::vector<Matrix<Dim>> P1Bodies<Dim>::stresses(std::span<const double> q) cons
     for (const Element& element : elements_) {
         const Matrix<Dim> g = gradient(element, q);
         Matrix<Dim> stress = stress_between(element, g, g);
-        if (scene_.strain == Strain::finite) {
+        if (is_finite_) {
             const Matrix<Dim> stretch = Matrix<Dim>::Identity() + g;
             stress = stress * stretch.transpose() / stretch.determinant();
         }

@@ -7,61 +7,25 @@
 
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/contact/nodal_faces.hpp"
-#include "abut/contact/placement.hpp"
 #include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/mass.hpp"
-#include "abut/mesh/mesh.hpp"
+#include "studies/cases/case.hpp"
 
 namespace abut::studies::nodal {
 
-enum class Strain {
-    small,   ///< linear elasticity: bodies that turn grow
-    finite,  ///< St. Venant-Kirchhoff with F_mid S_mean: bodies may turn, energy is exact
-};
-
-struct P1Material {
-    double young = 1.0;  ///< [Pa]
-    double poisson = 0.3;
-    double density = 1.0;  ///< [kg/m^3]
-};
-
-/// A rigid body on a path in time.
-template <int Dim>
-struct MovingObstacle {
-    contact::RigidObstacle<Dim> shape;
-    std::function<contact::Placement<Dim>(double time)> path = [](double) { return contact::Placement<Dim>{}; };
-};
-
-/// Holds the mean position of some nodes by a spring: an axle about which a body turns as it likes, or a soft suspension.
-template <int Dim>
-struct Pin {
-    std::vector<std::int32_t> nodes;
-    double stiffness;  ///< [N/m]
-};
-
-template <int Dim>
-struct P1Scene {
-    mesh::Mesh<Dim> mesh;               ///< triangles or tetrahedra
-    std::vector<P1Material> materials;  ///< of each body
-    Strain strain = Strain::small;
-    Vector<Dim> gravity = Vector<Dim>::Zero();  ///< [m/s^2]
-    std::vector<MovingObstacle<Dim>> obstacles = {};
-    std::vector<Pin<Dim>> pins = {};
-    contact::NodalOptions contact = {};
-    /// Faces whose depths make the k of their body, by their centroids; empty: all. To be given where cells are graded: the
-    /// mean over large faces that never touch makes a skin too soft
-    std::function<bool(const Vector<Dim>&)> touches = {};
-};
-
 /// Bodies of linear finite elements with contact on their nodes: a host as most solvers are one. q holds the displacements
 /// of all nodes. Its mean force is exact for energy, the bulk's and that of contact.
+///
+/// Of the scene it takes mesh (triangles or tetrahedra), materials, acceleration, obstacles with their placement, and whether
+/// the first body is of Kinematics::finite: then all are, of St. Venant-Kirchhoff's material with F_mid S_mean, so that they
+/// may turn and energy is exact; else they are of linear elasticity, and bodies that turn grow.
 template <int Dim>
 class P1Bodies {
 public:
     static constexpr int dimension = Dim;
 
-    explicit P1Bodies(P1Scene<Dim> scene);
+    explicit P1Bodies(run::Scene<Dim> scene, NodalParts<Dim> parts = {}, const geometry::FacingFade& facing = {});
 
     // System, FollowedSystem
     [[nodiscard]] std::size_t size() const { return inverse_mass_.size(); }
@@ -71,7 +35,7 @@ public:
     void end_force(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, std::span<double> f);
     [[nodiscard]] double potential(std::span<const double> q);
     [[nodiscard]] double work() const { return work_; }
-    [[nodiscard]] bool is_autonomous() const { return scene_.obstacles.empty(); }
+    [[nodiscard]] bool is_autonomous() const { return scene_.solid.obstacles.empty(); }
     // PointSystem
     [[nodiscard]] std::span<const Vector<Dim>> rest_positions() const { return scene_.mesh.vertices; }
     [[nodiscard]] std::span<const double> masses() const { return mass_; }
@@ -80,7 +44,7 @@ public:
     }
     // MomentSystem, BodySystem
     [[nodiscard]] dynamics::MomentArms moment_arms() const {
-        return scene_.strain == Strain::small ? dynamics::MomentArms::rest : dynamics::MomentArms::mid_step;
+        return is_finite_ ? dynamics::MomentArms::mid_step : dynamics::MomentArms::rest;
     }
     [[nodiscard]] std::span<const std::int32_t> body_of_points() const { return node_body_; }
     /// Of the mean displacement gradient of each body (n_bodies) [rad], 0 to pi.
@@ -117,8 +81,12 @@ private:
         double mu;
     };
 
-    static contact::NodalSurface<Dim> surface_of(const P1Scene<Dim>& scene, std::vector<Vector<Dim>>& all_nodes);
+    static contact::NodalSurface<Dim> surface_of(const run::Scene<Dim>& scene, const NodalParts<Dim>& parts,
+                                                 std::vector<Vector<Dim>>& all_nodes);
     void make_elements();
+    [[nodiscard]] const Vector<Dim>& gravity(std::size_t node) const {
+        return scene_.solid.acceleration[static_cast<std::size_t>(node_body_[node])];
+    }
     [[nodiscard]] Matrix<Dim> gradient(const Element& element, std::span<const double> q) const;
     [[nodiscard]] Matrix<Dim> stress_between(const Element& element, const Matrix<Dim>& g_0, const Matrix<Dim>& g_1) const;
     void add_bulk(std::span<const double> q_0, std::span<const double> q_1, std::span<double> f) const;
@@ -131,7 +99,9 @@ private:
     void follow(std::span<const double> q_0, std::span<const double> q_1, double t, double dt, contact::TakenForce take,
                 std::span<double> f);
 
-    P1Scene<Dim> scene_;
+    run::Scene<Dim> scene_;
+    NodalParts<Dim> parts_;
+    bool is_finite_;
     std::vector<Vector<Dim>> rest_;  // nodes of the mesh, then of the obstacles
     contact::NodalContact<Dim> contact_;
     std::vector<Element> elements_;

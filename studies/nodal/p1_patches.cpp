@@ -47,7 +47,7 @@ std::vector<dynamics::ContactPatch<Dim>> P1Bodies<Dim>::contact_patches() const 
 
     std::map<std::int32_t, dynamics::ContactPatch<Dim>> patches;
     for (const std::int32_t point : points) patches[joined.find(point)].points.push_back(point);
-    const bool turns = scene_.strain == Strain::finite;
+    const bool turns = is_finite_;
     for (const auto& pair : pairs)
         for (const auto& [face, other] : {std::pair{pair.face_1, pair.face_2}, std::pair{pair.face_2, pair.face_1}}) {
             if (!element_nodes(other).empty()) continue;
@@ -69,7 +69,7 @@ void P1Bodies<Dim>::end_force_on(std::span<const std::int32_t> points, std::span
     const contact::NodalStep<Dim>& contact = contact_.evaluate(x_1_);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::int32_t point = points[i];
-        force[i] = mass_[point] * scene_.gravity;
+        force[i] = mass_[point] * gravity(static_cast<std::size_t>(point));
         for (const std::int32_t index : node_elements_[point]) {
             const Element& element = elements_[index];
             const auto corner = std::ranges::find(element.node, point) - element.node.begin();
@@ -79,7 +79,7 @@ void P1Bodies<Dim>::end_force_on(std::span<const std::int32_t> points, std::span
         const auto at = std::ranges::lower_bound(contact.nodes, point);
         if (at != contact.nodes.end() && *at == point) force[i] -= contact.gradient[at - contact.nodes.begin()];
     }
-    for (const Pin<Dim>& pin : scene_.pins) {
+    for (const Pin<Dim>& pin : parts_.pins) {
         const Vector<Dim> pull = pin_force(pin, q, q);
         for (const std::int32_t node : pin.nodes)
             if (const auto at = std::ranges::lower_bound(points, node); at != points.end() && *at == node)

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +16,7 @@ namespace {
 constexpr double side_push_allowed = 0.05;  // over the speed, as in `extremes`
 
 /// A corner 0.2 v above the middle of a block at rest, 0.3 faces aside of one of its nodes.
-Impact<2> square_on_corner(int cells, double speed) {
+Case<2> square_on_corner(int cells, double speed) {
     const double aside = 0.3 / cells, gap = 0.2 * speed, half_diagonal = std::numbers::sqrt2 / 2.0;
     const auto block =
         turned_box<2>({.centre = {0.0, -0.5}, .sides = {2.0, 1.0}, .cells = {2 * cells, cells}, .name = "block"});
@@ -25,11 +24,8 @@ Impact<2> square_on_corner(int cells, double speed) {
                                        .cells = {cells, cells},
                                        .turn = rotation(std::numbers::pi / 4.0),
                                        .name = "square"});
-    Impact<2> impact{
-        .name = "square on its corner",
-        .scene = {.mesh = mesh::combine<2>(std::vector{block, square}), .materials = {{}, {}}, .strain = Strain::finite},
-        .motion = std::vector<RigidMotion<2>>(2),
-        .time = 10.0};
+    auto impact = case_of<2>("square on its corner", {block, square}, Kinematics::finite);
+    impact.scene.time = 10.0;
     impact.motion[1].velocity = {0.0, -speed};
     return impact;
 }
@@ -52,61 +48,38 @@ double depth_of_corner(const dynamics::RunView<2>& run, const P1Bodies<2>& bodie
 }
 
 void land(int cells, double speed, const Options& options, const Sink& sink) {
-    const Impact<2> impact = square_on_corner(cells, speed);
+    const Case<2> impact = square_on_corner(cells, speed);
     double depth = 0.0;
     const Watch<2> watch = [&](const auto& run, const auto& bodies) {
         depth = std::max(depth, depth_of_corner(run, bodies));
     };
-    ImpactResult<2> result;
-    Row row = row_of<2>(impact, options.impact, fmt::format("{} cells, v = {:g}", cells, speed), options, &result, watch);
-    row.quantities.push_back(at_most("pushed aside, over v", std::abs(result.velocity[1].x()) / speed, side_push_allowed));
-    row.quantities.push_back(
-        at_most("sinks in, over the size of a cell", depth * cells, std::numeric_limits<double>::infinity()));
-    row.quantities.push_back({.name = "leaves upwards, over v",
-                              .unit = "",
-                              .value = result.velocity[1].y() / speed,
-                              .reference = 0.0,
-                              .scale = 1.0});
+    CaseResult<2> result;
+    Row row = row_of<2>(impact, options.run, fmt::format("{} cells, v = {:g}", cells, speed), options, &result, watch);
+    row.quantities.at_most("pushed aside, over v", std::abs(result.velocity[1].x()) / speed, side_push_allowed);
+    row.quantities.at_most("sinks in, over the size of a cell", depth * cells);
+    row.quantities.at_most("leaves upwards, over v", result.velocity[1].y() / speed);
     sink(row);
-}
-
-/// Along `axis`, with its lower or upper edge at the height of `middle`; its section is a rhombus of side 0.5.
-mesh::Mesh<3> beam(const Vector<3>& axis, const Vector<3>& middle, double angle, bool is_upper) {
-    constexpr double length = 2.0, side = 0.5;
-    const Vector<3> up = Vector<3>::UnitZ(), across = up.cross(axis);
-    const double half_width = side * std::sin(0.5 * angle), half_height = side * std::cos(0.5 * angle);
-    const Vector<3> centre = middle + (is_upper ? half_height : -half_height) * up;
-    const auto unit = mesh::structured_box<3>(Vector<3>::Zero(), Vector<3>::Ones(), {9, 3, 3}, mesh::CellShape::tetrahedron);
-    return mapped<3>(unit, is_upper ? "upper" : "lower", [&](const Vector<3>& x) {
-        return Vector<3>(centre + length * (x[0] - 0.5) * axis + half_width * (x[1] - x[2]) * across +
-                         half_height * (x[1] + x[2] - 1.0) * up);
-    });
 }
 
 /// `facing`: the contact's own by default.
 void cross_beams(double degrees, const geometry::FacingFade& facing, const Options& options, const Sink& sink) {
     const double angle = degrees * std::numbers::pi / 180.0, speed = 0.05;
-    Impact<3> impact{
-        .name = "crossing beams",
-        .scene = {.mesh = mesh::combine<3>(std::vector{beam(Vector<3>::UnitX(), Vector<3>::Zero(), angle, false),
-                                                       beam(Vector<3>::UnitY(), Vector<3>(0.03, 0.0, 0.02), angle, true)}),
-                  .materials = {{}, {}},
-                  .strain = Strain::finite,
-                  .contact = {.facing = facing}},
-        .motion = std::vector<RigidMotion<3>>(2),
-        .time = 12.0};
+    const auto shape = mesh::CellShape::tetrahedron;
+    auto impact = case_of<3>("crossing beams",
+                             {beam(Vector<3>::UnitX(), Vector<3>::Zero(), angle, false, shape),
+                              beam(Vector<3>::UnitY(), Vector<3>(0.03, 0.0, 0.02), angle, true, shape)},
+                             Kinematics::finite);
+    impact.scene.time = 12.0;
+    run::RunOptions run = options.run;
+    run.facing = facing;
     impact.motion[0].velocity = {0.0, 0.0, speed};
     impact.motion[1].velocity = {0.0, 0.0, -speed};
-    ImpactResult<3> result;
+    CaseResult<3> result;
     const std::string setting = fmt::format("edges of {:g} degrees, fade {:g} to {:g}", degrees, facing.full, facing.none);
-    Row row = row_of<3>(impact, options.impact, setting, options, &result);
+    Row row = row_of<3>(impact, run, setting, options, &result);
     const double apart = (result.velocity[1].z() - result.velocity[0].z()) / (2.0 * speed);
-    row.quantities.push_back({.name = "speed apart over that of approach: rebounds where > 0",
-                              .unit = "",
-                              .value = apart,
-                              .reference = 0.0,
-                              .scale = 1.0});
-    row.quantities.push_back(at_most("does not rebound", apart > 0.0 ? 0.0 : 1.0, 0.0));
+    row.quantities.at_most("speed apart over that of approach: rebounds where > 0", apart);
+    row.quantities.at_most("does not rebound", apart > 0.0 ? 0.0 : 1.0, 0.0);
     sink(row);
 }
 

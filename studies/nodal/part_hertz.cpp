@@ -13,25 +13,11 @@
 namespace abut::studies::turning {
 namespace {
 
-constexpr double cap = 0.7;      // part of the radius beyond which the upper body is guided and the lower one held
-constexpr double uniform = 1.4;  // contact radii with cells of one size
+constexpr double cap = 0.7;  // part of the radius beyond which the upper body is guided and the lower one held
 
 template <int Dim>
 HertzOptions press_of(double faces) {
     return {.support = Dim == 2 ? HertzSupport::equal : HertzSupport::rigid_plane, .faces = faces};
-}
-
-template <int Dim>
-mesh::Mesh<Dim> round_body(const HertzOptions& options, double height, double size, int variant) {
-    const double a = hertz_solution<Dim>(options).contact_radius;
-    const mesh::Refinement<Dim> finer{Vector<Dim>::Zero(), size, options.radius, uniform * a};
-    const double coarse = std::max(size, options.coarse * options.radius);
-    const std::string name = variant == 0 ? "upper" : "lower";
-    const Vector<Dim> centre = height * Vector<Dim>::Unit(Dim - 1);
-    if constexpr (Dim == 2)
-        return mesh::disc({centre, options.radius, coarse, finer, variant, name});
-    else
-        return mesh::sphere({centre, options.radius, coarse, finer, variant, name});
 }
 
 /// Which faces make the k of a body: cells are six times larger far from the contact.
@@ -39,22 +25,20 @@ enum class Skin { of_contact, of_all_faces };
 
 /// The upper body first. `ratio`: size of the lower one's faces over that of the upper ones.
 template <int Dim>
-P1Scene<Dim> scene_of(const HertzOptions& options, double ratio, Skin skin) {
+P1Bodies<Dim> bodies_of(const HertzOptions& options, double ratio, Skin skin) {
     const double a = hertz_solution<Dim>(options).contact_radius, size = a / options.faces;
-    const P1Material material{.young = options.young[0], .poisson = options.poisson[0]};
-    P1Scene<Dim> scene{.mesh = {}, .materials = {material}};
-    std::vector<mesh::Mesh<Dim>> meshes{round_body<Dim>(options, options.radius, size, 0)};
-    if constexpr (Dim == 2) {
-        meshes.push_back(round_body<2>(options, -options.radius, ratio * size, 1));
-        scene.materials.push_back(material);
-        scene.mesh = mesh::combine<2>(meshes);
-    } else {
+    std::vector<mesh::Mesh<Dim>> meshes{round_body<Dim>(options, options.radius, size, 0, "upper")};
+    if (Dim == 2) meshes.push_back(round_body<Dim>(options, -options.radius, ratio * size, 1, "lower"));
+    Case<Dim> one = case_of<Dim>("Hertz", meshes, Kinematics::small);
+    for (solid::Material& material : one.scene.solid.materials)
+        material = {.young = options.young[0], .poisson = options.poisson[0]};
+    if constexpr (Dim == 3) {
         const double far = 4.0 * options.radius;  // one triangle, so that a face is a facet
-        scene.obstacles = {{{.faces = {{Vector<3>(-far, -far, 0.0), Vector<3>(far, -far, 0.0), Vector<3>(0.0, far, 0.0)}}}}};
-        scene.mesh = meshes.front();
+        one.scene.solid.obstacles = {
+            {.faces = {{Vector<3>(-far, -far, 0.0), Vector<3>(far, -far, 0.0), Vector<3>(0.0, far, 0.0)}}, .path = {}}};
     }
-    if (skin == Skin::of_contact) scene.touches = [a](const Vector<Dim>& x) { return x.norm() < uniform * a; };
-    return scene;
+    if (skin == Skin::of_contact) one.on_nodes.touches = [a](const Vector<Dim>& x) { return x.norm() < hertz_uniform * a; };
+    return P1Bodies<Dim>(one.scene, one.on_nodes);
 }
 
 template <int Dim>
@@ -141,17 +125,16 @@ Row solve(double faces, double ratio, double allowed, Skin skin = Skin::of_conta
     if (skin == Skin::of_all_faces) row.setting += ", k of all";
     const Stopwatch clock(row.seconds);
     const HertzOptions options = press_of<Dim>(faces);
-    P1Bodies<Dim> bodies(scene_of<Dim>(options, ratio, skin));
+    P1Bodies<Dim> bodies = bodies_of<Dim>(options, ratio, skin);
     const StaticState state = solve_at_rest<Dim>(bodies, load_of<Dim>(bodies, options), start<Dim>(bodies, options), 1e-9);
     row.remark = fmt::format("{} triangles or tetrahedra, {} steps of Newton, {:.2g} of the load not in balance",
                              bodies.mesh().n_cells(), state.iterations, state.residual);
     const HertzSolution exact = hertz_solution<Dim>(options);
     const auto off = [&](std::int32_t body) { return pressure_error<Dim>(bodies, exact, body); };
-    row.quantities.push_back(at_most("pressure on the upper body, off in L2", off(0), allowed));
-    if (Dim == 2) row.quantities.push_back(at_most("pressure on the lower body, off in L2", off(1), allowed));
-    row.quantities.push_back(at_most("load not in balance", state.residual, 1e-7));
-    row.quantities.push_back(
-        {.name = "load that the contact carries", .unit = "N", .value = carried<Dim>(bodies), .reference = options.load});
+    row.quantities.at_most("pressure on the upper body, off in L2", off(0), allowed);
+    if (Dim == 2) row.quantities.at_most("pressure on the lower body, off in L2", off(1), allowed);
+    row.quantities.at_most("load not in balance", state.residual, 1e-7);
+    row.quantities.near("load that the contact carries", carried<Dim>(bodies), options.load, no_target, "N");
     return row;
 }
 
@@ -162,8 +145,7 @@ void solve_hertz(const Options& options, const Sink& sink) {
         for (const double ratio : options.quick ? std::vector{1.0} : std::vector{1.0, 3.0})
             sink(solve<2>(faces, ratio, faces < 10.0 ? 0.03 : 0.02));
     if (options.quick) return;
-    const double any = std::numeric_limits<double>::infinity();
-    sink(solve<2>(5.0, 1.0, any, Skin::of_all_faces));
+    sink(solve<2>(5.0, 1.0, no_target, Skin::of_all_faces));
     sink(solve<3>(5.0, 1.0, 0.05));
 }
 

@@ -65,8 +65,8 @@ std::vector<double> expected(const P1Bodies<Dim>& bodies, double p) {
 
 template <int Dim>
 double solve(const mesh::Mesh<Dim>& mesh, double p, Row& row) {
-    const P1Material material{.young = young, .poisson = poisson};
-    P1Bodies<Dim> bodies({.mesh = mesh, .materials = {material, material}});
+    const solid::Material material{.young = young, .poisson = poisson};
+    P1Bodies<Dim> bodies({.mesh = mesh, .solid = {.materials = {material, material}}});
     const StaticState state = solve_at_rest<Dim>(bodies, load_of<Dim>(mesh, p), expected<Dim>(bodies, 0.9 * p), 1e-12);
     if (state.residual > 1e-10)
         row.remark += fmt::format("p/E = {:g}: {:.2g} of the load is not in balance after {} steps. ", p, state.residual,
@@ -88,13 +88,8 @@ void solve_one(bool is_structured, int cells, const Options& options, const Sink
         for (const double p : options.quick ? std::vector{1e-2, 1e-3} : std::vector{1e-2, 1e-3, 1e-4}) {
             const double error = solve<Dim>(mesh, p, row);
             const double allowed = before == 0.0 ? error_allowed : 0.11 * before;  // falls at least like p
-            row.quantities.push_back(
-                at_most(fmt::format("max |sigma + p|/p at p/E = {:g}", p), error, std::max(allowed, 1e-9)));
-            row.quantities.push_back({.name = fmt::format("the same over (p/E)^2 at {:g}", p),
-                                      .unit = "",
-                                      .value = error / (p * p),
-                                      .reference = 0.0,
-                                      .scale = 1.0});
+            row.quantities.at_most(fmt::format("max |sigma + p|/p at p/E = {:g}", p), error, std::max(allowed, 1e-9));
+            row.quantities.at_most(fmt::format("the same over (p/E)^2 at {:g}", p), error / (p * p));
             before = error;
         }
     }

@@ -22,7 +22,7 @@ struct Pair {
 };
 
 template <int Dim>
-Impact<Dim> impact_of(const Pair<Dim>& pair) {
+Case<Dim> two_boxes(const Pair<Dim>& pair) {
     std::vector<mesh::Mesh<Dim>> meshes;
     for (std::size_t body = 0; body < 2; ++body) {
         TurnedBox<Dim> box{.name = body == 0 ? "lower" : "upper"};
@@ -32,43 +32,40 @@ Impact<Dim> impact_of(const Pair<Dim>& pair) {
         box.turn.template topLeftCorner<2, 2>() = rotation(Dim == 2 ? pair.tilt : 0.0);
         meshes.push_back(turned_box<Dim>(box));
     }
-    Impact<Dim> impact{.name = pair.name,
-                       .scene = {.mesh = mesh::combine<Dim>(meshes), .materials = {}, .strain = Strain::finite},
-                       .motion = std::vector<RigidMotion<Dim>>(2),
-                       .time = Dim == 2 ? 60.0 : 20.0};
+    auto one = case_of<Dim>(pair.name, meshes, Kinematics::finite);
     for (std::size_t body = 0; body < 2; ++body)
-        impact.scene.materials.push_back({.young = pair.young[body], .density = pair.density[body]});
+        one.scene.solid.materials[body] = {.young = pair.young[body], .density = pair.density[body]};
     const double speed =
         0.03 * std::sqrt(std::min(pair.young[0], pair.young[1]) / std::max(pair.density[0], pair.density[1]));
-    impact.motion[0].velocity = speed * Vector<Dim>::Unit(Dim - 1);
-    impact.motion[1].velocity = -speed * Vector<Dim>::Unit(Dim - 1);
-    impact.time *= 0.03 / speed;
-    return impact;
+    one.motion[0].velocity = speed * Vector<Dim>::Unit(Dim - 1);
+    one.motion[1].velocity = -speed * Vector<Dim>::Unit(Dim - 1);
+    one.scene.time = (Dim == 2 ? 60.0 : 20.0) * (0.03 / speed);
+    return one;
 }
 
 /// Runs it at the advised step, then at longer and longer ones until it is lost.
 template <int Dim>
-void sweep(const Impact<Dim>& impact, const Options& options, const Sink& sink) {
-    ImpactOptions run = options.impact;
+void sweep(const Case<Dim>& impact, const Options& options, const Sink& sink) {
+    constexpr int records = 300;
+    run::RunOptions run = options.run;
     run.frames = 0;
-    run.records = 300;
     run.cfl = 1.0;
-    Row row = row_of<Dim>(impact, run, "advised step", options);
-    row.quantities.push_back(at_most("lost at the advised step", row.run->held() ? 0.0 : 1.0, 0.0));
+    Row row = row_of<Dim>(impact, run, "advised step", options, nullptr, {}, records);
+    row.quantities.at_most("lost at the advised step", held(*row.run) ? 0.0 : 1.0, 0.0);
     double lost_at = std::numeric_limits<double>::infinity();
-    run.out.clear();
+    Case<Dim> longer = impact;
+    longer.run = run;
     for (double factor = 1.2; factor < 2.3 && std::isinf(lost_at); factor += 0.1) {
-        run.cfl = factor;
-        const ImpactFigures figures = run_impact<Dim>(impact, run).figures;
+        longer.run.cfl = factor;
+        const Figures figures = nodal::run_case<Dim>(longer, {}, {}, records).figures;
         row.seconds += figures.seconds;
-        if (figures.held()) continue;
+        if (held(figures)) continue;
         lost_at = factor;
         row.remark = fmt::format(
             "at {:.2g} times the advised step: {}", factor,
             figures.ending.empty() ? fmt::format("H - H~ is {:.2g} of the largest energy", figures.excess) : figures.ending);
     }
-    row.quantities.push_back(
-        {.name = "lost at this part of the advised step", .unit = "", .value = lost_at, .reference = 0.0, .scale = 1.0});
+    row.quantities.at_most("lost at this part of the advised step", lost_at);
     sink(row);
 }
 
@@ -85,12 +82,12 @@ void sweep_steps(const Options& options, const Sink& sink) {
         plane.push_back({.name = "density 1:100", .density = {100.0, 1.0}});
         plane.push_back({.name = "density 100:1", .density = {1.0, 100.0}, .tilt = 0.6});
     }
-    for (const Pair<2>& pair : plane) sweep<2>(impact_of(pair), options, sink);
+    for (const Pair<2>& pair : plane) sweep<2>(two_boxes(pair), options, sink);
     sweep<2>(tumbling_block(options.quick ? 2 : 4), options, sink);
     if (options.quick) return;
-    sweep<3>(impact_of<3>({.name = "3D blocks", .cells = {4, 3}}), options, sink);
-    sweep<3>(impact_of<3>({.name = "3D blocks, matching", .cells = {3, 3}}), options, sink);
-    sweep<3>(impact_of<3>({.name = "3D cells 1:3", .cells = {2, 6}}), options, sink);
+    sweep<3>(two_boxes<3>({.name = "3D blocks", .cells = {4, 3}}), options, sink);
+    sweep<3>(two_boxes<3>({.name = "3D blocks, matching", .cells = {3, 3}}), options, sink);
+    sweep<3>(two_boxes<3>({.name = "3D cells 1:3", .cells = {2, 6}}), options, sink);
     sweep<3>(spinning_cubes(3), options, sink);
     sweep<3>(cube_on_corner(3), options, sink);
 }

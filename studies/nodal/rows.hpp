@@ -1,39 +1,19 @@
 #pragma once
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "studies/nodal/impact.hpp"
+#include "studies/nodal/run_case.hpp"
 #include "studies/table/table.hpp"
 
 /// The table of the study `turning`.
 namespace abut::studies::turning {
 
 using namespace nodal;
+using dynamics::Scheme;
+template <int Dim>
+using Watch = nodal::Watch<Dim>;  // of these bodies
 
 struct Options : PartOptions {
-    ImpactOptions impact{.frames = 21};
+    run::RunOptions run{.cfl = 1.0, .restart = 0};
     std::int64_t long_steps = 1'000'000;  ///< of the long runs
 };
-
-/// A line of the table: a run, or a solution at rest.
-struct Row {
-    std::string scene;
-    std::string setting;
-    std::optional<ImpactFigures> run = {};
-    std::vector<Quantity> quantities = {};  ///< with a target, or worth saying
-    std::string remark = {};
-    double seconds = 0.0;
-};
-using Sink = std::function<void(const Row&)>;
-
-struct Part {
-    std::string name;
-    std::string question;
-    std::function<void(const Options&, const Sink&)> run;
-};
-[[nodiscard]] const std::vector<Part>& parts();
 
 // Each in the file of its subject.
 void run_slipping(const Options& options, const Sink& sink);
@@ -45,17 +25,12 @@ void run_edges(const Options& options, const Sink& sink);
 void sweep_steps(const Options& options, const Sink& sink);
 
 /// "memm, filter, restart 50": of a row.
-[[nodiscard]] std::string name_of(const ImpactOptions& run);
+[[nodiscard]] std::string name_of(const run::RunOptions& run);
 
-/// Runs it into a folder of its own under `options.out`, with the quantities that every run has to meet: H~, what nothing
-/// from outside changes, missed contacts, the correction. Central differences have no H~: momenta alone are asked of them.
+/// Runs it into a folder of its own under `options.out`; a row with the quantities that every run has to meet. Central
+/// differences have no H~: momenta alone are asked of them.
 template <int Dim>
-[[nodiscard]] Row row_of(const Impact<Dim>& impact, const ImpactOptions& run, const std::string& setting,
-                         const Options& options, ImpactResult<Dim>* result = nullptr, const Watch<Dim>& watch = {});
-
-void print_head(const Part& part);
-void print(const Row& row);
-/// Leaves turning.csv, one line per row, and summary.json.
-void write_report(const apps::Program& program, const Options& options, const std::vector<Row>& rows);
+[[nodiscard]] Row row_of(Case<Dim> one, const run::RunOptions& run, const std::string& setting, const Options& options,
+                         CaseResult<Dim>* result = nullptr, const Watch<Dim>& watch = {}, int records = 1500);
 
 }  // namespace abut::studies::turning

@@ -7,33 +7,6 @@
 
 namespace abut::studies::nodal {
 
-template <int Dim>
-mesh::Mesh<Dim> mapped(const mesh::Mesh<Dim>& mesh, const std::string& name,
-                       const std::function<Vector<Dim>(const Vector<Dim>&)>& map) {
-    mesh::CellSoup<Dim> soup;
-    soup.name = name;
-    soup.body_names = {name};
-    soup.cell_shape = mesh.cell_shape;
-    soup.cell_vertices = mesh.cell_vertices;
-    soup.cell_body = mesh.cell_body;
-    for (const Vector<Dim>& x : mesh.vertices) soup.vertices.push_back(map(x));
-    return mesh::build_mesh(std::move(soup));
-}
-
-template <int Dim>
-mesh::Mesh<Dim> turned_box(const TurnedBox<Dim>& box) {
-    const auto shape = Dim == 2 ? mesh::CellShape::triangle : mesh::CellShape::tetrahedron;
-    const Vector<Dim> half = 0.5 * box.sides;
-    const auto upright = mesh::structured_box<Dim>(-half, half, box.cells, shape, box.name);
-    return mapped<Dim>(upright, box.name, [&](const Vector<Dim>& x) { return Vector<Dim>(box.centre + box.turn * x); });
-}
-
-Matrix<2> rotation(double angle) {
-    Matrix<2> turn;
-    turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    return turn;
-}
-
 mesh::Mesh<2> gear(const Gear& gear) {
     const int around = gear.teeth * gear.cells;
     const double side = 2.0 * std::numbers::pi * gear.radius / around;
@@ -70,12 +43,5 @@ contact::RigidObstacle<2> rectangle_obstacle(const Vector<2>& half_sides) {
     for (std::size_t i = 0; i < 4; ++i) obstacle.faces.push_back({corners[i], corners[(i + 1) % 4]});
     return obstacle;
 }
-
-template mesh::Mesh<2> mapped<2>(const mesh::Mesh<2>&, const std::string&,
-                                 const std::function<Vector<2>(const Vector<2>&)>&);
-template mesh::Mesh<3> mapped<3>(const mesh::Mesh<3>&, const std::string&,
-                                 const std::function<Vector<3>(const Vector<3>&)>&);
-template mesh::Mesh<2> turned_box<2>(const TurnedBox<2>&);
-template mesh::Mesh<3> turned_box<3>(const TurnedBox<3>&);
 
 }  // namespace abut::studies::nodal

@@ -1,32 +1,9 @@
 #pragma once
-#include <functional>
-#include <string>
-
 #include "abut/contact/obstacle.hpp"
-#include "abut/mesh/mesh.hpp"
+#include "studies/cases/shapes.hpp"
 
 /// Bodies and obstacles that the scenes of nodal contact are made of.
 namespace abut::studies::nodal {
-
-/// The same cells with their vertices elsewhere; groups are dropped. Throws MeshError where a cell is turned inside out.
-template <int Dim>
-[[nodiscard]] mesh::Mesh<Dim> mapped(const mesh::Mesh<Dim>& mesh, const std::string& name,
-                                     const std::function<Vector<Dim>(const Vector<Dim>&)>& map);
-
-/// A box of simplices about `centre`, turned: cells along each side.
-template <int Dim>
-struct TurnedBox {
-    Vector<Dim> centre = Vector<Dim>::Zero();
-    Vector<Dim> sides = Vector<Dim>::Ones();
-    std::array<int, Dim> cells{};
-    Matrix<Dim> turn = Matrix<Dim>::Identity();
-    std::string name = "box";
-};
-template <int Dim>
-[[nodiscard]] mesh::Mesh<Dim> turned_box(const TurnedBox<Dim>& box);
-
-/// By this angle [rad], counter-clockwise.
-[[nodiscard]] Matrix<2> rotation(double angle);
 
 /// A ring whose outer radius is `radius` + `height` cos(teeth (angle - phase)): flanks slope by at most teeth height/radius.
 struct Gear {

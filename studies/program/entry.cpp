@@ -1,6 +1,27 @@
 #include "studies/program/entry.hpp"
 
+#include <algorithm>
+
 namespace abut::studies {
+namespace {
+
+std::vector<Entry>& listed() {
+    static std::vector<Entry> studies;
+    return studies;
+}
+
+}  // namespace
+
+bool list(Entry study) {
+    listed().push_back(std::move(study));
+    return true;
+}
+
+std::vector<Entry> all_studies() {
+    std::vector<Entry> studies = listed();
+    std::ranges::sort(studies, {}, &Entry::name);
+    return studies;
+}
 
 apps::Program as_typed(apps::Program study) {
     study.name = "study " + study.name;

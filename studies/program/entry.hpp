@@ -2,6 +2,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/support/program.hpp"
 #include "studies/program/flags.hpp"
@@ -14,6 +15,12 @@ struct Entry {
     std::string purpose;                            ///< a sentence
     std::function<int(int argc, char** argv)> run;  ///< as a main function, argv[0] is the name
 };
+
+/// Puts a study on the list of the program. A new study is one more source, with a line at its end:
+///     const bool is_listed = list(entry_of(program, Options{}, add_options, run));
+bool list(Entry study);
+/// All studies of the list, by name.
+[[nodiscard]] std::vector<Entry> all_studies();
 
 /// A study as messages name it, "study hertz".
 [[nodiscard]] apps::Program as_typed(apps::Program study);

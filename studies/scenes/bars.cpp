@@ -146,12 +146,11 @@ BarRun run_chain(const BarOnWall& scene, int cells, double dt, int steps, const 
                                              result.broken_off->time, result.broken_off->why));
     run.energy_start = result.series.rows.front()[1];
     run.energy_end = result.series.rows.back()[1];
-    run.energies = {.drift = result.drift / scene.energy,
+    run.energies = {.scale = {"H0", scene.energy},
+                    .drift = result.drift / scene.energy,
                     .excess = result.excess / scene.energy,
                     .parasitic = result.parasitic,
-                    .events = count_roots(run.history),
-                    .scale = scene.energy,
-                    .scale_name = "H0"};
+                    .events = count_roots(run.history)};
     return run;
 }
 
@@ -175,8 +174,8 @@ BarRun run_strips(const run::Scene<Dim>& scene, const BarOptions& options, doubl
     apps::log_warnings(apps::only(run::warnings_after(result), {run::WarningKind::stiff_sliding, run::WarningKind::deep_slip,
                                                                 run::WarningKind::missed_contacts}),
                        with_body(options, scene.mesh.n_cells()));
-    run.energies = energy_figures(result);
-    run.energies.scale /= area;
+    run.energies = figures_of(result);
+    run.energies.scale.value /= area;
     run.energy_start = result.ledger.entries().front().energy / area;
     run.energy_end = result.ledger.entries().back().energy / area;
     return run;
@@ -237,44 +236,30 @@ nlohmann::ordered_json to_json(const BarOptions& options) {
 }
 
 BarRun run_bar(const BarOnWall& scene, const BarOptions& options, int cells, const std::vector<double>& profile_times) {
-    BarRun run;
+    const int steps = steps_of(scene.time, scene.bar.length / cells, scene.bar, options.cfl);
+    const double dt = scene.time / steps, width = strip_width(scene.bar, cells);
+    const auto run_strip = [&]<int Dim>() {
+        return run_strips<Dim>(bar_strip<Dim>(scene, cells), options, cross_section<Dim>(width), dt, steps, profile_times);
+    };
     double seconds = 0.0;
-    {
-        const Stopwatch watch(seconds);
-        const int steps = steps_of(scene.time, scene.bar.length / cells, scene.bar, options.cfl);
-        const double dt = scene.time / steps, width = strip_width(scene.bar, cells);
-        const auto run_strip = [&]<int Dim>() {
-            return run_strips<Dim>(bar_strip<Dim>(scene, cells), options, cross_section<Dim>(width), dt, steps,
-                                   profile_times);
-        };
-        switch (options.body) {
-            case BarBody::chain:
-                run = run_chain(scene, cells, dt, steps, profile_times);
-                break;
-            case BarBody::strip2d:
-                run = run_strip.template operator()<2>();
-                break;
-            case BarBody::strip3d:
-                run = run_strip.template operator()<3>();
-                break;
-        }
-    }
+    BarRun run = timed(seconds, [&] {
+        if (options.body == BarBody::chain) return run_chain(scene, cells, dt, steps, profile_times);
+        return options.body == BarBody::strip2d ? run_strip.template operator()<2>() : run_strip.template operator()<3>();
+    });
     run.seconds = seconds;
     return run;
 }
 
 BarRun run_two_bars(const TwoBars& scene, const BarOptions& options, std::array<int, 2> cells) {
-    BarRun run;
+    const int steps = steps_of(scene.time, scene.bar.length / std::ranges::max(cells), scene.bar, options.cfl);
+    const double dt = scene.time / steps, width = two_strips_width(scene.bar, cells);
+    const auto run_both = [&]<int Dim>() {
+        return run_strips<Dim>(two_bar_strips<Dim>(scene, cells), options, cross_section<Dim>(width), dt, steps);
+    };
     double seconds = 0.0;
-    {
-        const Stopwatch watch(seconds);
-        const int steps = steps_of(scene.time, scene.bar.length / std::ranges::max(cells), scene.bar, options.cfl);
-        const double dt = scene.time / steps, width = two_strips_width(scene.bar, cells);
-        const auto run_both = [&]<int Dim>() {
-            return run_strips<Dim>(two_bar_strips<Dim>(scene, cells), options, cross_section<Dim>(width), dt, steps);
-        };
-        run = options.body == BarBody::strip2d ? run_both.template operator()<2>() : run_both.template operator()<3>();
-    }
+    BarRun run = timed(seconds, [&] {
+        return options.body == BarBody::strip2d ? run_both.template operator()<2>() : run_both.template operator()<3>();
+    });
     run.seconds = seconds;
     return run;
 }

@@ -7,7 +7,7 @@
 
 #include "abut/dynamics/particles.hpp"
 #include "abut/run/scene.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 /// Straight elastic bars that hit a rigid wall or each other. With nu = 0 and rollers at their sides their waves are those
 /// of one dimension, so that closed forms exist. All quantities are per area of the cross-section: momentum [N s/m^2],
@@ -153,7 +153,7 @@ struct BarProfile {
 struct BarRun {
     ContactHistory history;
     std::vector<BarProfile> profiles;
-    EnergyFigures energies;                       ///< per area
+    Figures energies;                             ///< with their scale per area
     double energy_start = 0.0, energy_end = 0.0;  ///< H [J/m^2]
     double seconds = 0.0;                         ///< with the set-up
 };

@@ -20,7 +20,6 @@ using std::numbers::pi;
 
 constexpr double cap = 0.7;  // part of the radius above which a round body is kept upright, or below which it is held
 constexpr double block_half_width = 1.5;  // over the radius
-constexpr double of_one_size = 1.4;       // contact radii around the contact point with cells of one size
 constexpr double press = 1e-3;            // of a face, how deep the bodies begin in each other
 constexpr const char* guided_group = "guided";
 constexpr const char* held_group = "held";
@@ -33,27 +32,7 @@ Vector<Dim> up() {
 template <int Dim>
 std::optional<mesh::Refinement<Dim>> refinement(const HertzOptions& options, double size) {
     const double a = hertz_solution<Dim>(options).contact_radius;
-    return mesh::Refinement<Dim>{Vector<Dim>::Zero(), size, options.radius, of_one_size * a};
-}
-
-template <int Dim>
-mesh::Mesh<Dim> round_body(const HertzOptions& options, double height, double size, int variant, const std::string& name) {
-    const auto smaller = refinement<Dim>(options, size);
-    const double coarse = std::max(size, options.coarse * options.radius);
-    if constexpr (Dim == 2)
-        return mesh::disc({.centre = height * up<2>(),
-                           .radius = options.radius,
-                           .size = coarse,
-                           .refinement = smaller,
-                           .variant = variant,
-                           .name = name});
-    else
-        return mesh::sphere({.centre = height * up<3>(),
-                             .radius = options.radius,
-                             .size = coarse,
-                             .refinement = smaller,
-                             .variant = variant,
-                             .name = name});
+    return mesh::Refinement<Dim>{Vector<Dim>::Zero(), size, options.radius, hertz_uniform * a};
 }
 
 /// A boundary group of the faces on which `is_in` holds.
@@ -236,6 +215,17 @@ HertzSolution hertz_solution(const HertzOptions& options) {
 }
 
 template <int Dim>
+mesh::Mesh<Dim> round_body(const HertzOptions& options, double height, double size, int variant, const std::string& name) {
+    const auto smaller = refinement<Dim>(options, size);
+    const double coarse = std::max(size, options.coarse * options.radius);
+    const Vector<Dim> centre = height * up<Dim>();
+    if constexpr (Dim == 2)
+        return mesh::disc({centre, options.radius, coarse, smaller, variant, name});
+    else
+        return mesh::sphere({centre, options.radius, coarse, smaller, variant, name});
+}
+
+template <int Dim>
 HertzResult<Dim> solve_hertz(const HertzOptions& options) {
     const mesh::Mesh<Dim> mesh = touching_bodies<Dim>(options);
     solid::Solid<Dim> solid(mesh, solid_options<Dim>(options, mesh));
@@ -256,6 +246,8 @@ HertzResult<Dim> solve_hertz(const HertzOptions& options) {
 
 template HertzSolution hertz_solution<2>(const HertzOptions&);
 template HertzSolution hertz_solution<3>(const HertzOptions&);
+template mesh::Mesh<2> round_body<2>(const HertzOptions&, double, double, int, const std::string&);
+template mesh::Mesh<3> round_body<3>(const HertzOptions&, double, double, int, const std::string&);
 template HertzResult<2> solve_hertz<2>(const HertzOptions&);
 template HertzResult<3> solve_hertz<3>(const HertzOptions&);
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <string>
 #include <vector>
 
 #include "abut/contact/options.hpp"
@@ -41,6 +42,13 @@ struct HertzSolution {
 };
 template <int Dim>
 [[nodiscard]] HertzSolution hertz_solution(const HertzOptions& options);
+
+/// Contact radii around the contact point with cells of one size.
+inline constexpr double hertz_uniform = 1.4;
+/// A disc or sphere whose centre is at this height [m], with cells of `size` [m] at the contact point.
+template <int Dim>
+[[nodiscard]] mesh::Mesh<Dim> round_body(const HertzOptions& options, double height, double size, int variant,
+                                         const std::string& name);
 
 /// What a boundary face of the upper body carries.
 template <int Dim>

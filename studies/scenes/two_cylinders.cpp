@@ -14,14 +14,6 @@ namespace {
 constexpr double body_radius = 1.0;             // [m]
 constexpr double crossings_after_touch = 10.0;  // after the first touch, of R / sqrt(E / rho): impact, slip and release
 
-/// Centres so that the circles are `gap` apart, measured between their nearest points; the middle is the origin.
-std::array<Vector<2>, 2> centres(const TwoCylinders& options) {
-    const double distance = 2.0 * body_radius + options.gap;
-    const double along_x = std::sqrt(std::max(0.0, distance * distance - options.offset * options.offset));
-    const Vector<2> half(0.5 * along_x, 0.5 * options.offset);
-    return {Vector<2>(-half), half};
-}
-
 /// From the left centre to the right one, at the start and where they touch.
 Vector<2> normal(const TwoCylinders& options) {
     const auto centre = centres(options);
@@ -69,6 +61,13 @@ double restitution(const TwoCylinders& options, const run::RunResult<Dim>& resul
 }
 
 }  // namespace
+
+std::array<Vector<2>, 2> centres(const TwoCylinders& options) {
+    const double distance = 2.0 * body_radius + options.gap;
+    const double along_x = std::sqrt(std::max(0.0, distance * distance - options.offset * options.offset));
+    const Vector<2> half(0.5 * along_x, 0.5 * options.offset);
+    return {Vector<2>(-half), half};
+}
 
 template <int Dim>
 run::Scene<Dim> two_cylinders(const TwoCylinders& options) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "abut/run/scene.hpp"
 
 namespace abut::studies {
@@ -13,6 +15,9 @@ struct TwoCylinders {
     double refine = 1.0;       ///< how many times smaller cells are where the bodies meet first
     double refine_over = 0.5;  ///< distance over which cells grow to their own size from there [m]
 };
+
+/// Centres at the start, of the left one first [m]; the middle between them is the origin.
+[[nodiscard]] std::array<Vector<2>, 2> centres(const TwoCylinders& options);
 
 /// Scene with the modified reconstruction; its finding "restitution" is the speed of separation over that of approach along the
 /// line of the two centres where they first touch [-].

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "abut/run/scene.hpp"
-#include "studies/nodal/impact.hpp"
+#include "studies/nodal/run_case.hpp"
 #include "studies/trade/errors.hpp"
 #include "studies/trade/ladder.hpp"
 
@@ -13,8 +13,8 @@ inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 /// How the host of linear finite elements runs, with contact on its nodes.
 struct NodalRun {
-    nodal::Strain strain = nodal::Strain::small;
-    nodal::ImpactOptions options = {};
+    Kinematics strain = Kinematics::small;
+    run::RunOptions options{.cfl = 1.0};
 };
 
 /// A row of that host beside the cell-centred solid.
@@ -30,11 +30,10 @@ struct NodalOutcome {
     Outcome outcome;
     std::vector<Vector<Dim>> velocity;  ///< of each body at the end [m/s]
 };
-/// The bodies of `scene`, of triangles or tetrahedra, with one spin [rad/s] about one centre each; `speed` is that of the
+/// The bodies of `scene`, of triangles or tetrahedra, with one spin [rad/s] about its centroid each; `speed` is that of the
 /// impact [m/s]. Throws std::runtime_error where the run ends before its time, or takes longer than `limit` [s].
 template <int Dim>
 [[nodiscard]] NodalOutcome<Dim> solve_on_nodes(const run::Scene<Dim>& scene, const std::vector<AxialVector<Dim>>& spin,
-                                               const std::vector<Vector<Dim>>& centre, const NodalRun& run, double speed,
-                                               double limit);
+                                               const NodalRun& run, double speed, double limit);
 
 }  // namespace abut::studies::trade

@@ -26,8 +26,8 @@ Outcome solve_bar(const run::RunOptions& run, int cells, const Reference&, doubl
     };
     const TimedRun<2> timed = run_for<2>(scene, run, limit);
     Outcome outcome = outcome_of<2>(scene, timed, ExactBounce::speed);
-    outcome.errors.restitution = std::abs(timed.result.end.front().velocity.y() / ExactBounce::speed - 1.0);
-    outcome.errors.pressure =
+    outcome.restitution = std::abs(timed.result.end.front().velocity.y() / ExactBounce::speed - 1.0);
+    outcome.pressure =
         middle_pressure(history, exact.hit(), bar.contact_time(), [&](double) { return exact.pressure(0.0); }).rms /
         exact.pressure(0.0);
     return outcome;
@@ -36,10 +36,11 @@ Outcome solve_bar(const run::RunOptions& run, int cells, const Reference&, doubl
 Outcome solve_cylinder_on_block(const run::RunOptions& run, int faces, const Reference&, double) {
     const auto result = solve_hertz<2>(
         {.faces = static_cast<double>(faces), .contact = run.contact, .neumann = run.neumann, .corners = run.corners});
-    return {.errors = {.pressure = result.pressure_error},
-            .cells = result.n_cells,
-            .steps = static_cast<std::int64_t>(result.report.iterations.size()),
-            .seconds = result.seconds};
+    Outcome outcome{{.cells = result.n_cells,
+                     .steps = static_cast<std::int64_t>(result.report.iterations.size()),
+                     .seconds_of_steps = result.seconds}};
+    outcome.pressure = result.pressure_error;
+    return outcome;
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "abut/run/files.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/gnuplot.hpp"
 #include "apps/support/preset.hpp"
+#include "studies/table/columns.hpp"
 
 namespace abut::studies::trade {
 namespace {
@@ -44,59 +44,69 @@ std::string preset_of(const Setting& setting) {
 }
 
 bool is_better(const Row& row, const Row& other, const Measure& measure) {
-    const double error = row.outcome.errors.*measure.error, other_error = other.outcome.errors.*measure.error;
-    return row.outcome.seconds <= other.outcome.seconds && error <= other_error &&
-           (row.outcome.seconds < other.outcome.seconds || error < other_error);
+    const double error = row.outcome.*measure.error, other_error = other.outcome.*measure.error;
+    return row.outcome.seconds_of_steps <= other.outcome.seconds_of_steps && error <= other_error &&
+           (row.outcome.seconds_of_steps < other.outcome.seconds_of_steps || error < other_error);
 }
 
 bool is_on_front(const Row& row, const std::vector<Row>& rows, const Measure& measure) {
-    if (std::isnan(row.outcome.errors.*measure.error)) return false;
+    if (std::isnan(row.outcome.*measure.error)) return false;
     return std::ranges::none_of(rows, [&](const Row& other) {
         return other.problem == row.problem && other.finished() && is_better(other, row, measure);
     });
 }
 
-std::string csv_text(const std::vector<Row>& rows) {
-    std::string text = "problem,level,setting,model,preset,finished,cells,steps,seconds,ratio";
-    for (const Measure& measure : measures) text += fmt::format(",{0}_error,{0}_front", measure.key);
-    text += ",energy_excess_max,parasitic_max,momentum_drift,pseudo_angular_momentum_drift,events,missed_contacts,message\n";
-    for (const Row& row : rows) {
-        const Outcome& outcome = row.outcome;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}", row.problem, row.level, apps::quoted(row.setting),
-                            word_of(row.model), preset_of(row.setting), row.finished() ? 1 : 0, outcome.cells, outcome.steps,
-                            row.finished() ? apps::all_digits(outcome.seconds) : "", apps::all_digits(row.ratio));
-        for (std::size_t i = 0; i < measures.size(); ++i)
-            text += fmt::format(",{},{}", apps::all_digits(outcome.errors.*measures[i].error), row.on_front[i] ? 1 : 0);
-        text += fmt::format(",{},{},{},{},{},{},{}\n", apps::all_digits(outcome.excess), apps::all_digits(outcome.parasitic),
-                            apps::all_digits(outcome.momentum), apps::all_digits(outcome.pseudo_angular), outcome.events,
-                            outcome.missed_contacts, apps::quoted(row.refusal));
-    }
-    return text;
+const Columns<Row>& table() {
+    static const Columns<Row> all = [] {
+        const auto of = [](auto member) { return [=](const Row& row) { return row.outcome.*member; }; };
+        Columns<Row> made{
+            {"problem", "", 0, &Row::problem},
+            {"level", "", 4, &Row::level},
+            {"setting", "", 0, &Row::setting, "", true},
+            {"", "", -54, [](const Row& row) { return "  " + (row.setting.empty() ? "(defaults)" : row.setting); }},
+            {"model", "", 0, [](const Row& row) { return word_of(row.model); }},
+            {"preset", "", 0, [](const Row& row) { return preset_of(row.setting); }},
+            {"finished", "", 0, &Row::finished},
+            {"cells", "", 0, of(&Outcome::cells)},
+            {"steps", "", 0, of(&Outcome::steps)},
+            {"seconds", "seconds", 8,
+             [](const Row& row) { return row.finished() ? row.outcome.seconds_of_steps : run::not_given; }},
+            {"ratio", "", 0, &Row::ratio}};
+        for (std::size_t i = 0; i < measures.size(); ++i) {
+            made.push_back({measures[i].key + "_error", measures[i].key, 12, of(measures[i].error)});
+            made.push_back({measures[i].key + "_front", "", 0, [i](const Row& row) { return row.on_front[i]; }});
+        }
+        made.insert(made.end(), {{"energy_excess_max", "H - H~", 9, of(&Outcome::excess)},
+                                 {"parasitic_max", "|e|/m v", 9, of(&Outcome::parasitic)},
+                                 {"momentum_drift", "P", 9, of(&Outcome::momentum)},
+                                 {"pseudo_angular_momentum_drift", "J~", 9, of(&Outcome::pseudo_angular)},
+                                 {"events", "events", 8, of(&Outcome::events)},
+                                 {"missed_contacts", "missed", 7, of(&Outcome::missed_contacts)},
+                                 {"message", "", 0, &Row::refusal, "", true}});
+        return made;
+    }();
+    return all;
 }
+constexpr std::size_t of_refused = 4;  // columns that are printed of a run that gave no numbers
 
 Json to_json(const Row& row) {
-    const Outcome& outcome = row.outcome;
-    Json json{{"problem", row.problem}, {"level", row.level}, {"setting", row.setting}, {"model", word_of(row.model)}};
-    if (!row.finished()) {
-        json["message"] = row.refusal;
-        return json;
-    }
-    json.update({{"cells", outcome.cells},
-                 {"steps", outcome.steps},
-                 {"seconds", outcome.seconds},
-                 {"seconds_over_balanced", apps::json_number(row.ratio)},
-                 {"errors", Json::object()},
-                 {"on_front", Json::array()},
-                 {"energy_excess_max", apps::json_number(outcome.excess)},
-                 {"parasitic_max", apps::json_number(outcome.parasitic)},
-                 {"momentum_drift", apps::json_number(outcome.momentum)},
-                 {"pseudo_angular_momentum_drift", apps::json_number(outcome.pseudo_angular)},
-                 {"events", outcome.events},
-                 {"missed_contacts", outcome.missed_contacts}});
+    if (!row.finished())
+        return {{"problem", row.problem},
+                {"level", row.level},
+                {"setting", row.setting},
+                {"model", word_of(row.model)},
+                {"message", row.refusal}};
+    Json json = to_json(table(), row);
+    json["seconds_over_balanced"] = json["ratio"];
+    json["errors"] = Json::object();
+    json["on_front"] = Json::array();
     for (std::size_t i = 0; i < measures.size(); ++i) {
-        json["errors"][measures[i].key] = apps::json_number(outcome.errors.*measures[i].error);
-        if (row.on_front[i]) json["on_front"].push_back(measures[i].key);
+        const std::string& key = measures[i].key;
+        json["errors"][key] = json[key + "_error"];
+        if (row.on_front[i]) json["on_front"].push_back(key);
+        json.erase(key + "_error"), json.erase(key + "_front");
     }
+    for (const char* of_files : {"ratio", "message", "finished", "preset"}) json.erase(of_files);
     return json;
 }
 
@@ -117,7 +127,7 @@ std::vector<Setting> never_on_a_front(const std::vector<Row>& rows) {
 std::vector<std::string> problems_with(const Measure& measure, const std::vector<Row>& rows) {
     std::vector<std::string> names;
     for (const Row& row : rows)
-        if (row.finished() && !std::isnan(row.outcome.errors.*measure.error) &&
+        if (row.finished() && !std::isnan(row.outcome.*measure.error) &&
             std::ranges::find(names, row.problem) == names.end())
             names.push_back(row.problem);
     return names;
@@ -129,7 +139,7 @@ std::string front_data(const std::string& name, const std::string& problem, std:
     std::vector<std::pair<double, double>> front;
     for (const Row& row : rows)
         if (row.problem == problem && row.on_front[measure])
-            front.emplace_back(row.outcome.seconds, std::max(row.outcome.errors.*measures[measure].error, least_shown));
+            front.emplace_back(row.outcome.seconds_of_steps, std::max(row.outcome.*measures[measure].error, least_shown));
     std::ranges::sort(front);
     std::string text = name + " << EOD\n";
     for (const auto& [seconds, error] : front) text += fmt::format("{:.6g},{:.6g}\n", seconds, error);
@@ -213,7 +223,7 @@ Model model_of(const run::RunOptions& run) {
     return run.law == solid::ContactLaw::pair_potential ? Model::pair_potential : Model::reconstruction;
 }
 
-Model model_of(const NodalRun& run) { return run.strain == nodal::Strain::small ? Model::nodes : Model::finite_nodes; }
+Model model_of(const NodalRun& run) { return run.strain == Kinematics::small ? Model::nodes : Model::finite_nodes; }
 
 void compare(std::vector<Row>& rows) {
     for (Row& row : rows) {
@@ -221,35 +231,23 @@ void compare(std::vector<Row>& rows) {
         for (std::size_t i = 0; i < measures.size(); ++i) row.on_front[i] = is_on_front(row, rows, measures[i]);
         for (const Row& other : rows)
             if (other.problem == row.problem && other.level == row.level && other.setting.empty() && other.finished())
-                row.ratio = row.outcome.seconds / other.outcome.seconds;
+                row.ratio = row.outcome.seconds_of_steps / other.outcome.seconds_of_steps;
     }
 }
 
-void print_head(const Problem& problem) {
-    fmt::print("{}: {}\n  {:>4}  {:<52}{:>8}", problem.name, problem.text, "", "", "seconds");
-    for (const Measure& measure : measures) fmt::print("{:>12}", measure.key);
-    fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}\n", "H - H~", "|e|/m v", "P", "J~", "events", "missed");
-}
+void print_head(const Problem& problem) { fmt::print("{}: {}\n  {}\n", problem.name, problem.text, heads(table())); }
 
 void print(const Row& row) {
-    fmt::print("  {:>4}  {:<52}", row.level, row.setting.empty() ? "(defaults)" : row.setting);
-    const Outcome& outcome = row.outcome;
-    if (row.finished()) {
-        fmt::print("{:>8.2g}", outcome.seconds);
-        for (const Measure& measure : measures) fmt::print("{:>12}", apps::two_digits(outcome.errors.*measure.error));
-        fmt::print("{:>9}{:>9}{:>9}{:>9}{:>8}{:>7}\n", apps::two_digits(outcome.excess), apps::two_digits(outcome.parasitic),
-                   apps::two_digits(outcome.momentum), apps::two_digits(outcome.pseudo_angular), outcome.events,
-                   outcome.missed_contacts);
-    } else {
-        fmt::print("\n        {}\n", row.refusal);
-    }
+    fmt::print("  {}\n", line(table(), row, row.finished() ? table().size() : of_refused));
+    if (!row.finished()) fmt::print("        {}\n", row.refusal);
     std::fflush(stdout);
 }
 
 void write_report(const apps::Program& program, const std::filesystem::path& out, const Json& options,
                   const std::vector<Row>& rows) {
-    run::write_whole(out / "trade.csv", csv_text(rows));
-    Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"options", options}};
+    run::write_whole(out / "trade.csv", csv_text(table(), rows));
+    Json json = begun_summary(program);
+    json["options"] = options;
     const std::string without_picture = draw(out, picture(rows));
     if (!without_picture.empty()) json["without_picture"] = without_picture;
     json["never_on_a_front"] = never_on_a_front(rows);

@@ -21,7 +21,7 @@ public:
     Impatience(TimedRun<Dim>& timed, double limit) : timed_(timed), limit_(limit) {}
 
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
-        if (run.steps == 0) take_scales(run, solid);
+        if (run.steps == 0) timed_.scales = momentum_scales<Dim>(run, solid.rest_positions());
         const std::chrono::duration<double> waited = Clock::now() - begin_;
         if (waited.count() > limit_)
             throw std::runtime_error(fmt::format("stopped at step {}, t = {:.4g} s: --limit of {:g} s per run is over",
@@ -29,15 +29,6 @@ public:
     }
 
 private:
-    void take_scales(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-        const auto q = as_vectors<Dim>(run.q);
-        for (std::size_t i = 0; i < q.size(); ++i) {
-            const Vector<Dim> p = run.momentum(static_cast<std::ptrdiff_t>(i));
-            timed_.momentum_scale += p.norm();
-            timed_.moment_scale += moment<Dim>(Vector<Dim>(solid.rest_positions()[i] + q[i]), p).norm();
-        }
-    }
-
     using Clock = std::chrono::steady_clock;
     TimedRun<Dim>& timed_;
     double limit_;
@@ -63,20 +54,15 @@ TimedRun<Dim> run_for(const run::Scene<Dim>& scene, run::RunOptions run, double 
 
 template <int Dim>
 Outcome outcome_of(const run::Scene<Dim>& scene, const TimedRun<Dim>& timed, double speed) {
-    const run::RunResult<Dim>& result = timed.result;
-    const dynamics::Ledger<Dim>& ledger = result.ledger;
-    const double scale = result.scale.value;
-    const bool is_free = scene.solid.obstacles.empty();
-    return {.errors = {.drift = ledger.pseudo_energy_drift() / scale, .energy = ledger.energy_drift() / scale},
-            .excess = ledger.energy_excess() / scale,
-            .parasitic = ledger.parasitic() / speed,
-            .momentum = is_free ? ledger.momentum_drift() / timed.momentum_scale : run::not_given,
-            .pseudo_angular = is_free ? ledger.pseudo_angular_momentum_drift() / timed.moment_scale : run::not_given,
-            .events = result.contact.events,
-            .missed_contacts = result.contact.missed_contacts,
-            .cells = scene.mesh.n_cells(),
-            .steps = result.steps,
-            .seconds = timed.seconds};
+    const dynamics::Ledger<Dim>& ledger = timed.result.ledger;
+    Outcome outcome{figures_of(timed.result)};
+    outcome.cells = scene.mesh.n_cells();
+    outcome.seconds_of_steps = timed.seconds;
+    outcome.parasitic /= speed;
+    if (!scene.solid.obstacles.empty()) return outcome;
+    outcome.momentum = ledger.momentum_drift() / timed.scales.linear;
+    outcome.pseudo_angular = ledger.pseudo_angular_momentum_drift() / timed.scales.angular;
+    return outcome;
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                             \

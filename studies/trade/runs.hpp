@@ -8,9 +8,8 @@ namespace abut::studies::trade {
 template <int Dim>
 struct TimedRun {
     run::RunResult<Dim> result;
-    double seconds = 0.0;         ///< of the steps: less set-up and energies
-    double momentum_scale = 0.0;  ///< sum |p| at the start [kg m/s]
-    double moment_scale = 0.0;    ///< sum |x × p| at the start [kg m^2/s]
+    double seconds = 0.0;  ///< of the steps: less set-up and energies
+    MomentumScales scales;
 };
 
 /// On one thread, energies every tenth step: measuring them costs two evaluations of the force. Throws as `simulate`, and

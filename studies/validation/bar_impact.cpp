@@ -37,7 +37,7 @@ Level level(const BarRun& run, const BarOptions& options, int cells) {
     const Bar bar;
     const ExactBounce exact(0.0);
     const double h = bar.length / cells, release = exact.hit() + bar.contact_time();
-    const auto from_least = [&](double allowed) { return cells >= least_cells ? allowed : Quantity{}.allowed; };
+    const auto from_least = [&](double allowed) { return cells >= least_cells ? allowed : no_target; };
     Level level{.name = fmt::format("{}, {} cells", options.body_name(), cells), .size = h, .energies = run.energies};
     level.seconds = run.seconds;
     const auto found = impacts(run.history, 0.5 * bar.contact_time());
@@ -96,12 +96,10 @@ void run_study(const BarOptions& options) {
                .picture = picture(options)});
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(
+    program, default_bar_options(program, {50, 100, 200, 400}),
+    [](Flags& flags, BarOptions& options) { add_bar_options(flags, options); }, run_study));
 
-Entry entry() {
-    return entry_of(
-        program, default_bar_options(program, {50, 100, 200, 400}),
-        [](Flags& flags, BarOptions& options) { add_bar_options(flags, options); }, run_study);
-}
+}  // namespace
 
 }  // namespace abut::studies::bar_impact_study

@@ -12,7 +12,7 @@
 #include "studies/program/entry.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/patch_test.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::bulk_patch_study {
 namespace {
@@ -54,20 +54,15 @@ mesh::Mesh<Dim> box(BoxCells cells, int along_edge) {
 }
 
 double target(FreeFaceRule neumann, double allowed) {
-    return neumann == FreeFaceRule::local_equilibrium ? allowed : std::numeric_limits<double>::infinity();
-}
-
-/// A relative error, which should be 0.
-Quantity error_of(const std::string& name, double value, double allowed) {
-    return {.name = name, .unit = "", .value = value, .reference = 0.0, .scale = 1.0, .allowed = allowed};
+    return neumann == FreeFaceRule::local_equilibrium ? allowed : no_target;
 }
 
 template <int Dim>
 void add_patch(Level& level, const mesh::Mesh<Dim>& mesh, PatchBoundary boundary, const std::string& name,
                FreeFaceRule neumann, double allowed) {
     const BulkPatchErrors errors = patch_test(mesh, boundary, neumann);
-    level.quantities.push_back(error_of("displacement, " + name, errors.displacement, allowed));
-    level.quantities.push_back(error_of("stress, " + name, errors.stress, allowed));
+    level.quantities.at_most("displacement, " + name, errors.displacement, allowed);
+    level.quantities.at_most("stress, " + name, errors.stress, allowed);
 }
 
 template <int Dim>
@@ -75,10 +70,9 @@ void add_modes(Level& level, const mesh::Mesh<Dim>& mesh, const std::string& nam
     const double exact = Dim == 2 ? 3 : 6;
     const ZeroModes modes = zero_modes(mesh, neumann);
     const auto count = static_cast<double>(modes.count);
-    level.quantities.push_back(
-        {.name = "zero modes, " + name, .unit = "", .value = count, .reference = exact, .allowed = target(neumann, 0.0)});
-    level.quantities.push_back(
-        error_of("largest zero over next, " + name, modes.largest_zero / modes.next, target(neumann, allowed_zero)));
+    level.quantities.near("zero modes, " + name, count, exact, target(neumann, 0.0));
+    level.quantities.at_most("largest zero over next, " + name, modes.largest_zero / modes.next,
+                             target(neumann, allowed_zero));
 }
 
 template <int Dim>
@@ -87,9 +81,9 @@ Level level(const PatchOptions& options, BoxCells cells) {
     const Stopwatch watch(result.seconds);
     const auto patch = box<Dim>(cells, options.cells), free_body = box<Dim>(cells, options.mode_cells);
     result.name = fmt::format("{}D, {} {}; modes of {}", Dim, patch.n_cells(), name_of(cells), free_body.n_cells());
-    result.quantities.push_back(
-        error_of("force in single precision",
-                 single_precision_force(patch, PatchBoundary::mixed, FreeFaceRule::local_equilibrium), allowed_single));
+    result.quantities.at_most("force in single precision",
+                              single_precision_force(patch, PatchBoundary::mixed, FreeFaceRule::local_equilibrium),
+                              allowed_single);
     add_patch(result, patch, PatchBoundary::displacement, "imposed", FreeFaceRule::local_equilibrium, allowed_error);
     for (const auto& [name, neumann] : neumann_choices)
         add_patch(result, patch, PatchBoundary::mixed, name, neumann, target(neumann, allowed_error));
@@ -153,8 +147,8 @@ void run_study(const PatchOptions& options) {
     report(program, options.out, study);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, PatchOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, PatchOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::bulk_patch_study

@@ -7,11 +7,10 @@
 #include <algorithm>
 #include <array>
 
-#include "abut/base/stopwatch.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/contact_patch.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::contact_patch_study {
 namespace {
@@ -58,17 +57,13 @@ double target(const PatchOptions& options, const Sides& sides) {
     const bool is_exact = options.mesh == PatchMesh::matching &&
                           options.contact.weighting == contact::InterfaceWeighting::stiffness &&
                           options.neumann == solid::FreeFaceRule::local_equilibrium && sides.is_exact;
-    return is_exact ? exact : std::numeric_limits<double>::infinity();
+    return is_exact ? exact : no_target;
 }
 
 template <int Dim>
 Level level(const PatchOptions& options, const Sides& sides) {
     double seconds = 0.0;
-    ContactPatchErrors errors;
-    {
-        const Stopwatch watch(seconds);
-        errors = solve_patch<Dim>(options);
-    }
+    const ContactPatchErrors errors = timed(seconds, [&] { return solve_patch<Dim>(options); });
     const double allowed = target(options, sides);
     return {.name = fmt::format("{}, {}, {}, sides {} ({:.1g} out of balance)", apps::name_of(meshes, options.mesh),
                                 apps::name_of(weights, options.contact.weighting), apps::name_of(neumanns, options.neumann),
@@ -169,8 +164,8 @@ void run_study(const Options& options) {
     report(program, options.out, options.dim == 2 ? solve<2>(options) : solve<3>(options));
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::contact_patch_study

@@ -11,7 +11,7 @@
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::disc_collision_study {
 namespace {
@@ -65,7 +65,7 @@ Collision collide(const TwoDiscs& discs, const run::RunOptions& options) {
                                {"spin times R, over the speed", "", last.spin * discs.radius, 0.0, discs.speed},
                                {"angular momentum, largest change", "",
                                 result.ledger.angular_momentum_drift() / (momentum * discs.radius), 0.0, 1.0}},
-                .energies = energy_figures(result),
+                .energies = figures_of(result),
                 .seconds = seconds};
     return {std::move(level), curve(observer)};
 }
@@ -132,8 +132,8 @@ void add_options(Flags& flags, Options& options) {
     flags.out(options.run.out);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::disc_collision_study

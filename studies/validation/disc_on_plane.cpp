@@ -12,7 +12,7 @@
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::disc_on_plane_study {
 namespace {
@@ -52,7 +52,7 @@ Fall fall(const DroppedDisc& disc, const run::RunOptions& options) {
         .quantities = {{"first contact", "s", observer.first_contact(), time, 0.0, late / time},
                        {"speed at first contact", "m/s", speed_at_contact, speed, 0.0, late / time},
                        {"energy at the end, true error", "", result.ledger.energy_drift() / result.scale.value, 0.0, 1.0}},
-        .energies = energy_figures(result),
+        .energies = figures_of(result),
         .seconds = seconds};
     return fall;
 }
@@ -109,8 +109,8 @@ void run_study(const Options& options) {
     report(program, options.run.out, study);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::disc_on_plane_study

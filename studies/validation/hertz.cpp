@@ -11,10 +11,9 @@
 
 #include <string>
 
-#include "abut/base/stopwatch.hpp"
 #include "apps/support/comparison.hpp"
 #include "studies/program/entry.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::hertz_study {
 namespace {
@@ -55,10 +54,10 @@ void add_options(Flags& flags, Options& options) {
 
 /// Targets of the reference case, for 5 faces in a and for 10.
 struct Targets {
-    double pressure = std::numeric_limits<double>::infinity();
-    double traction = std::numeric_limits<double>::infinity();
-    double peak = std::numeric_limits<double>::infinity();
-    double radius = std::numeric_limits<double>::infinity();
+    double pressure = no_target;
+    double traction = no_target;
+    double peak = no_target;
+    double radius = no_target;
 };
 Targets targets(int dim, double faces) {
     if (faces != 5.0 && faces != 10.0) return {};
@@ -147,11 +146,7 @@ Study solve(const Options& options) {
         hertz.neumann = options.run.neumann;
         hertz.corners = options.run.corners;
         double seconds = 0.0;
-        HertzResult<Dim> result;
-        {
-            const Stopwatch watch(seconds);
-            result = solve_hertz<Dim>(hertz);
-        }
+        const HertzResult<Dim> result = timed(seconds, [&] { return solve_hertz<Dim>(hertz); });
         study.levels.push_back(level<Dim>(hertz, result, seconds));
         study.curves.emplace_back(curve_name(faces), curve(result));
     }
@@ -188,8 +183,8 @@ void run_study(Options& options) {
     report(program, options.run.out, study);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::hertz_study

@@ -12,7 +12,7 @@
 #include "studies/program/entry.hpp"
 #include "studies/scenes/boxes.hpp"
 #include "studies/scenes/manufactured.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::manufactured_study {
 namespace {
@@ -62,7 +62,7 @@ Level level(const ManufacturedOptions& options, BoxCells cells, int refinement) 
     result.size = mean_cell_size(box);
     for (const auto& [name, error] :
          {std::pair(l2_name(cells), errors.displacement), std::pair(energy_name(cells), errors.energy)})
-        result.quantities.push_back({.name = name, .unit = "", .value = error, .reference = 0.0, .scale = 1.0});
+        result.quantities.at_most(name, error);
     return result;
 }
 
@@ -131,8 +131,8 @@ void run_study(ManufacturedOptions options) {
     report(program, options.out, options.dim == 2 ? study<2>(options) : study<3>(options));
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, ManufacturedOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, ManufacturedOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::manufactured_study

@@ -19,7 +19,7 @@
 #include "studies/program/entry.hpp"
 #include "studies/scenes/dense_stiffness.hpp"
 #include "studies/scenes/plane_wave.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::spectrum_study {
 namespace {
@@ -125,12 +125,7 @@ apps::Table spectrum(Level& level, const SpectrumOptions& options, PlaneWave wav
         table.rows.push_back({theta, std::sqrt(answer.square) / unit, std::sqrt(square) / unit});
     }
     for (const auto& [name, value] : {std::pair("spectrum", error), std::pair("residual of the eigenvector", residual)})
-        level.quantities.push_back({.name = fmt::format("{} of {}, largest error", name, name_of(wave)),
-                                    .unit = "",
-                                    .value = value / highest,
-                                    .reference = 0.0,
-                                    .scale = 1.0,
-                                    .allowed = allowed});
+        level.quantities.at_most(fmt::format("{} of {}, largest error", name, name_of(wave)), value / highest, allowed);
     return table;
 }
 
@@ -153,15 +148,8 @@ void add_stable_step(Level& level, const SpectrumOptions& options) {
     const double alternating = 2.0 * std::sqrt(dispersion.eta / dispersion.density * (1.0 + 0.5 * (Dim - 1)));
     const double highest = highest_frequency(strip.solid);
     const double estimate = dynamics::stable_step(strip.solid).omega_max / margin;
-    level.quantities.push_back({.name = "omega_max by Lanczos iteration",
-                                .unit = "rad/s",
-                                .value = estimate,
-                                .reference = highest,
-                                .allowed = 0.02});
-    level.quantities.push_back({.name = "highest omega of the strip, of alternating cells",
-                                .unit = "rad/s",
-                                .value = highest,
-                                .reference = alternating});
+    level.quantities.near("omega_max by Lanczos iteration", estimate, highest, 0.02, "rad/s");
+    level.quantities.near("highest omega of the strip, of alternating cells", highest, alternating, no_target, "rad/s");
     level.quantities.push_back({.name = "stable omega below the highest",
                                 .unit = "rad/s",
                                 .value = std::max(0.0, highest - margin * estimate),
@@ -217,8 +205,8 @@ void run_study(const SpectrumOptions& options) {
     report(program, options.out, study);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, SpectrumOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, SpectrumOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::spectrum_study

@@ -16,7 +16,7 @@
 #include "apps/support/preset.hpp"
 #include "studies/program/entry.hpp"
 #include "studies/scenes/impacts.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::sphere_collision_study {
 namespace {
@@ -57,7 +57,7 @@ Impact collide(const TwoSpheres& spheres, const run::RunOptions& options) {
         before = present;
     }
     const double rebound = (observer.samples().back().velocity[1] - observer.samples().back().velocity[0]).x();
-    const double asked = spheres.faces >= 6.0 ? target : std::numeric_limits<double>::infinity();
+    const double asked = spheres.faces >= 6.0 ? target : no_target;
     impact.level = {
         .name = fmt::format("a/h = {:g}, {} cells, {} steps", spheres.faces, scene.mesh.n_cells(), result.steps),
         .size = hertz.contact_radius / spheres.faces,
@@ -68,7 +68,7 @@ Impact collide(const TwoSpheres& spheres, const run::RunOptions& options) {
                        {"speed of separation", "m/s", rebound, spheres.speed},
                        {"momentum, largest change", "",
                         result.ledger.momentum_drift() / (0.5 * spheres.speed * result.start[0].mass), 0.0, 1.0, 1e-12}},
-        .energies = energy_figures(result),
+        .energies = figures_of(result),
         .seconds = seconds};
     return impact;
 }
@@ -151,8 +151,8 @@ void run_study(Options& options) {
     report(program, options.run.out, study);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::sphere_collision_study

@@ -65,7 +65,7 @@ Level level(const BarRun& run, const Options& options, std::array<int, 2> cells)
     const double h = bars.bar.length / std::ranges::min(cells), closing = options.closing_speed();
     const double pressure = bars.bar.impedance() * 0.5 * closing, duration = bars.bar.contact_time();
     const bool is_fine = std::ranges::min(cells) >= least_cells;
-    const auto from_least = [&](double allowed) { return is_fine ? allowed : Quantity{}.allowed; };
+    const auto from_least = [&](double allowed) { return is_fine ? allowed : no_target; };
     Level level{.name = fmt::format("{}, {} and {} cells", options.bars.body_name(), cells[0], cells[1]), .size = h};
     level.energies = run.energies;
     level.seconds = run.seconds;
@@ -141,8 +141,8 @@ void run_study(const Options& options) {
                .complete = add_options_used});
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, Options{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, Options{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::two_bars_study

@@ -21,7 +21,7 @@
 #include "studies/program/entry.hpp"
 #include "studies/scenes/half_plane.hpp"
 #include "studies/scenes/plane_wave.hpp"
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 namespace abut::studies::wave_speeds_study {
 namespace {
@@ -67,12 +67,11 @@ bool includes(const WaveOptions& options, Case which) { return options.which == 
 
 /// Loads start and end at rest: drifts are quoted on the largest energy of the run.
 template <int Dim>
-EnergyFigures energies(const run::RunResult<Dim>& result) {
-    EnergyFigures figures = energy_figures(result);
+Figures energies(const run::RunResult<Dim>& result) {
+    Figures figures = figures_of(result);
     const double largest = result.ledger.largest_energy();
-    for (double* figure : {&figures.drift, &figures.excess}) *figure *= figures.scale / largest;
-    figures.scale = largest;
-    figures.scale_name = "of the largest energy";
+    for (double* figure : {&figures.drift, &figures.excess}) *figure *= figures.scale.value / largest;
+    figures.scale = {"of the largest energy", largest};
     return figures;
 }
 
@@ -91,12 +90,8 @@ void add_speeds(Level& level, const Passage& passage, const Trace& a, const Trac
     const double phase = passage.distance / phase_delay(a, b, passage.frequency, passage.distance / passage.exact);
     const double whole = passage.distance / correlation_delay(a, b);
     const auto add = [&](const std::string& what, double value, double cells) {
-        const double target = cells >= cells_of_target ? allowed : std::numeric_limits<double>::infinity();
-        level.quantities.push_back({.name = fmt::format("{}, {}", passage.name, what),
-                                    .unit = "m/s",
-                                    .value = value,
-                                    .reference = passage.exact,
-                                    .allowed = target});
+        const double target = cells >= cells_of_target ? allowed : no_target;
+        level.quantities.near(fmt::format("{}, {}", passage.name, what), value, passage.exact, target, "m/s");
     };
     add("phase", phase, passage.cells);
     add("wavelet", whole, passage.cells_at_source);
@@ -127,14 +122,10 @@ void compare_with_scheme(Study& study, Level& level, const PlaneWaveOptions& opt
     const ChainDispersion chain{wave_modulus(options.wave, material), material.stabilisation(), material.density,
                                 cell_size(options)};
     const double reference = chain.speed(2.0 * std::numbers::pi * source_frequency, dt);
-    level.quantities.push_back({.name = fmt::format("{}, phase of the scheme at {}",
-                                                    wave_name(options.wave, options.cells, Dim), options.per_wavelength),
-                                .unit = "m/s",
-                                .value = level.quantities.front().value,
-                                .reference = reference,
-                                .allowed = options.per_wavelength >= cells_of_target
-                                               ? allowed_of_scheme
-                                               : std::numeric_limits<double>::infinity()});
+    level.quantities.near(
+        fmt::format("{}, phase of the scheme at {}", wave_name(options.wave, options.cells, Dim), options.per_wavelength),
+        level.quantities.front().value, reference, options.per_wavelength >= cells_of_target ? allowed_of_scheme : no_target,
+        "m/s");
     const std::string name = fmt::format("dispersion_{}", name_of(options.wave));
     if (Dim == 2 && options.per_wavelength == cells_of_target)
         study.curves.emplace_back(name, dispersion_curve(chain, dt, a, b, distance));
@@ -311,8 +302,8 @@ void run_study(const WaveOptions& options) {
     report(program, options.run.out, study);
 }
 
-}  // namespace
+const bool is_listed = list(entry_of(program, WaveOptions{}, add_options, run_study));
 
-Entry entry() { return entry_of(program, WaveOptions{}, add_options, run_study); }
+}  // namespace
 
 }  // namespace abut::studies::wave_speeds_study

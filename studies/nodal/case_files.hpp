@@ -1,33 +1,30 @@
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "abut/mesh/io/write_vtu.hpp"
 #include "apps/support/csv.hpp"
-#include "studies/nodal/impact.hpp"
+#include "studies/nodal/run_case.hpp"
 
 namespace abut::studies::nodal {
 
 /// What a run leaves in its folder: energy.csv and its picture, the series for ParaView.
 template <int Dim>
-class ImpactFiles {
+class CaseFiles {
 public:
     /// Makes the folder. Throws MeshError if it cannot.
-    ImpactFiles(const ImpactOptions& options, const Impact<Dim>& impact, std::int64_t steps);
+    CaseFiles(const std::filesystem::path& folder, const Case<Dim>& one, std::int64_t steps);
 
-    void record(const dynamics::LedgerEntry<Dim>& entry, const AxialVector<Dim>& turning_momentum);
     /// Writes a frame if one is due.
     void look(const dynamics::RunView<Dim>& run, P1Bodies<Dim>& bodies);
-    void finish(const ImpactFigures& figures) const;
+    void finish(const dynamics::Ledger<Dim>& ledger, const Figures& figures) const;
 
 private:
     void write(const dynamics::RunView<Dim>& run, P1Bodies<Dim>& bodies);
 
-    const ImpactOptions& options_;
+    std::filesystem::path folder_;
     std::string title_;
+    int frames_;
     std::int64_t steps_;
-    apps::Table energies_;
-    std::vector<dynamics::LedgerEntry<Dim>> entries_;
     std::optional<mesh::VtuSeries<Dim>> series_;
 };
 

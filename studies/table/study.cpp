@@ -1,4 +1,4 @@
-#include "studies/validation/study.hpp"
+#include "studies/table/study.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "abut/run/files.hpp"
-#include "apps/support/csv.hpp"
+#include "studies/table/columns.hpp"
 
 namespace abut::studies {
 namespace {
@@ -29,17 +29,39 @@ std::string named(const Quantity& quantity) {
     return quantity.unit.empty() ? quantity.name : fmt::format("{} [{}]", quantity.name, quantity.unit);
 }
 
-void print_quantity(const Quantity& quantity) {
-    fmt::print("    {:<44}{:>14.6g}{:>14.6g}{:>11.3g}", named(quantity), quantity.value, quantity.reference,
-               quantity.error());
-    if (quantity.has_target()) fmt::print("{:>11.3g}  {}", quantity.allowed, quantity.is_met() ? "met" : "MISSED");
-    fmt::print("\n");
+/// A quantity of a level.
+struct ValueLine {
+    const Level* level;
+    const Quantity* quantity;
+};
+
+const Columns<ValueLine> value_columns{
+    {"level", "", 0, [](const ValueLine& line) { return line.level->name; }, "", true},
+    {"size", "", 0, [](const ValueLine& line) { return line.level->size; }},
+    {"quantity", "", 0, [](const ValueLine& line) { return line.quantity->name; }, "", true},
+    {"unit", "", 0, [](const ValueLine& line) { return line.quantity->unit; }, "", true},
+    {"", "", -44, [](const ValueLine& line) { return named(*line.quantity); }},
+    {"value", "value", 14, [](const ValueLine& line) { return line.quantity->value; }, "{:.6g}"},
+    {"reference", "reference", 14, [](const ValueLine& line) { return line.quantity->reference; }, "{:.6g}"},
+    {"error", "error", 11, [](const ValueLine& line) { return line.quantity->error(); }, "{:.3g}"},
+    {"allowed", "allowed", 11, [](const ValueLine& line) { return line.quantity->target_or_nan(); }, "{:.3g}"}};
+
+void print(const ValueLine& one) {
+    const bool has_target = one.quantity->has_target();
+    fmt::print("    {}", line(value_columns, one, value_columns.size() - (has_target ? 0 : 1)));
+    fmt::print("{}\n", !has_target ? "" : one.quantity->is_met() ? "  met" : "  MISSED");
 }
 
-void print_energies(const EnergyFigures& energies) {
-    fmt::print("    {:<44}{}\n", "energies",
-               fmt::format("drift of H~ {:.2g} {}, max (H - H~) {:.2g} {}, max |e|/m {:.2g} m/s, {} events", energies.drift,
-                           energies.scale_name, energies.excess, energies.scale_name, energies.parasitic, energies.events));
+const Columns<Figures> energy_columns{{"pseudo_energy_drift", "", 0, &Figures::drift},
+                                      {"energy_excess_max", "", 0, &Figures::excess},
+                                      {"parasitic_max", "", 0, &Figures::parasitic},
+                                      {"events", "", 0, &Figures::events},
+                                      {"scale", "", 0, [](const Figures& run) { return run.scale.value; }},
+                                      {"scale_name", "", 0, [](const Figures& run) { return run.scale.name; }}};
+
+void print_energies(const Figures& run) {
+    fmt::print("    {:<44}drift of H~ {:.2g} {}, max (H - H~) {:.2g} {}, max |e|/m {:.2g} m/s, {} events\n", "energies",
+               run.drift, run.scale.name, run.excess, run.scale.name, run.parasitic, run.events);
 }
 
 std::optional<double> least_order(const Study& study, const std::string& quantity) {
@@ -59,25 +81,17 @@ void print_orders(const Study& study) {
     }
 }
 
-Json to_json(const EnergyFigures& energies) {
-    return {{"pseudo_energy_drift", energies.drift},
-            {"energy_excess_max", energies.excess},
-            {"parasitic_max", energies.parasitic},
-            {"events", energies.events},
-            {"scale", energies.scale},
-            {"scale_name", energies.scale_name}};
-}
-
 Json to_json(const Level& level) {
     Json json{{"name", level.name}, {"seconds", level.seconds}, {"quantities", Json::array()}};
     if (level.size > 0.0) json["size"] = level.size;
     for (const Quantity& quantity : level.quantities) json["quantities"].push_back(to_json(quantity));
-    if (level.energies) json["energies"] = to_json(*level.energies);
+    if (level.energies) json["energies"] = to_json(energy_columns, *level.energies);
     return json;
 }
 
 Json summary(const apps::Program& program, const Study& study) {
-    Json json{{"program", program.name}, {"version", ABUT_VERSION}, {"title", study.title}, {"reference", study.reference}};
+    Json json = begun_summary(program);
+    json.update({{"title", study.title}, {"reference", study.reference}});
     json["options"] = study.options;
     json["levels"] = Json::array();
     for (const Level& level : study.levels) json["levels"].push_back(to_json(level));
@@ -86,17 +100,6 @@ Json summary(const apps::Program& program, const Study& study) {
         if (const auto order = fitted_order(study, name)) json["orders"][name] = *order;
     for (const OrderTarget& target : study.orders) json["orders_least"][target.quantity] = target.least;
     return json;
-}
-
-/// A quotation mark in a name would end it: there are none.
-std::string values_text(const Study& study) {
-    std::string text = "level,size,quantity,unit,value,reference,error,allowed\n";
-    for (const Level& level : study.levels)
-        for (const Quantity& quantity : level.quantities)
-            text += fmt::format("\"{}\",{:.17g},\"{}\",\"{}\",{:.17g},{:.17g},{:.17g},{}\n", level.name, level.size,
-                                quantity.name, quantity.unit, quantity.value, quantity.reference, quantity.error(),
-                                quantity.has_target() ? fmt::format("{:.17g}", quantity.allowed) : "");
-    return text;
 }
 
 }  // namespace
@@ -111,17 +114,16 @@ nlohmann::ordered_json to_json(const Quantity& quantity) {
     return json;
 }
 
-double Quantity::error() const { return std::abs(value - reference) / (scale > 0.0 ? scale : std::abs(reference)); }
-
-template <int Dim>
-EnergyFigures energy_figures(const run::RunResult<Dim>& result) {
-    return {.drift = result.ledger.pseudo_energy_drift() / result.scale.value,
-            .excess = result.ledger.energy_excess() / result.scale.value,
-            .parasitic = result.ledger.parasitic(),
-            .events = result.contact.events,
-            .scale = result.scale.value,
-            .scale_name = result.scale.name};
+void Quantities::at_most(const std::string& name, double value, double allowed) {
+    push_back({.name = name, .unit = "", .value = value, .reference = 0.0, .scale = 1.0, .allowed = allowed});
 }
+
+void Quantities::near(const std::string& name, double value, double reference, double allowed, const std::string& unit) {
+    const double scale = reference == 0.0 ? 1.0 : std::abs(reference);
+    push_back({.name = name, .unit = unit, .value = value, .reference = reference, .scale = scale, .allowed = allowed});
+}
+
+double Quantity::error() const { return std::abs(value - reference) / (scale > 0.0 ? scale : std::abs(reference)); }
 
 std::optional<double> fitted_order(const Study& study, const std::string& quantity) {
     std::set<double> sizes;
@@ -159,23 +161,23 @@ void report(const apps::Program& program, const std::filesystem::path& out, cons
     std::vector<std::string> without_picture;
     for (const apps::Picture& picture : study.pictures)
         if (std::string why = draw(out, picture); !why.empty()) without_picture.push_back(std::move(why));
-    run::write_whole(out / "values.csv", values_text(study));
+    std::vector<ValueLine> lines;
+    for (const Level& level : study.levels)
+        for (const Quantity& quantity : level.quantities) lines.push_back({&level, &quantity});
+    run::write_whole(out / "values.csv", csv_text(value_columns, lines));
     apps::write_json(out / "summary.json", summary(program, study));
 
     fmt::print("{}: {}\n", program.name, study.title);
     fmt::print("  reference: {}\n", study.reference);
-    fmt::print("    {:<44}{:>14}{:>14}{:>11}{:>11}\n", "", "value", "reference", "error", "allowed");
+    fmt::print("    {}\n", heads(value_columns));
     for (const Level& level : study.levels) {
         fmt::print("  {} ({:.2g} s)\n", level.name, level.seconds);
-        for (const Quantity& quantity : level.quantities) print_quantity(quantity);
+        for (const Quantity& quantity : level.quantities) print({&level, &quantity});
         if (level.energies) print_energies(*level.energies);
     }
     print_orders(study);
     for (const std::string& why : without_picture) fmt::print("  no picture: {}\n", why);
     fmt::print("  files: {}\n", out.string());
 }
-
-template EnergyFigures energy_figures<2>(const run::RunResult<2>&);
-template EnergyFigures energy_figures<3>(const run::RunResult<3>&);
 
 }  // namespace abut::studies

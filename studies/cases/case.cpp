@@ -1,4 +1,4 @@
-#include "studies/kinematics/cases.hpp"
+#include "studies/cases/case.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "abut/run/result_files.hpp"
 #include "abut/run/simulation.hpp"
 
-namespace abut::studies::kinematics {
+namespace abut::studies {
 namespace {
 
 template <int Dim>
@@ -28,21 +28,13 @@ std::array<double, Dim> key_of(const Vector<Dim>& x) {
 template <int Dim>
 std::map<std::array<double, Dim>, Vector<Dim>> velocities_at_start(const Case<Dim>& one) {
     const mesh::Mesh<Dim>& mesh = one.scene.mesh;
-    std::vector<Vector<Dim>> centre(one.motion.size(), Vector<Dim>::Zero());
-    std::vector<double> measure(one.motion.size(), 0.0);
-    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
-        centre[body] += mesh.cell_measure[c] * mesh.cell_centroid[c];
-        measure[body] += mesh.cell_measure[c];
-    }
+    const std::vector<Motion<Dim>> motion = motion_of(one);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> noise(-1.0, 1.0);
     std::map<std::array<double, Dim>, Vector<Dim>> velocity;
     for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
-        const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
         const Vector<Dim>& x = mesh.cell_centroid[c];
-        const Vector<Dim> arm = x - centre[body] / measure[body];
-        Vector<Dim> v = one.motion[body].velocity + dynamics::turning_velocity<Dim>(one.motion[body].spin, arm);
+        Vector<Dim> v = motion[static_cast<std::size_t>(mesh.cell_body[c])].at(x);
         for (int d = 0; d < Dim && one.noise > 0.0; ++d) v[d] += one.noise * noise(random);
         velocity[key_of<Dim>(x)] = v;
     }
@@ -79,7 +71,7 @@ public:
     void look(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) override {
         steps_ = run.steps;
         excess_ = std::max(excess_, excess_of(run, solid));
-        if (run.steps == 0) take_scales(run, solid);
+        if (run.steps == 0) scales_ = momentum_scales<Dim>(run, solid.rest_positions());
         report_ = solid.contact_report();
         if (watch_) watch_(run, solid);
         if (run.steps < n_steps_) return;
@@ -97,24 +89,23 @@ public:
 
     [[nodiscard]] CaseResult<Dim> result() const {
         const double energy = ledger_.largest_energy();
-        Figures figures{
-            .steps = steps_,
-            .dt = dt_,
-            .largest_energy = energy,
-            .drift = ledger_.pseudo_energy_drift() / energy,
-            .excess = excess_ / energy,
-            .parasitic = ledger_.parasitic(),
-            .momentum = is_free_ ? ledger_.momentum_drift() / momentum_scale_ : run::not_given,
-            .pseudo_angular = is_free_ && turns_ ? ledger_.pseudo_angular_momentum_drift() / moment_scale_ : run::not_given,
-            .events = report_.events,
-            .missed_contacts = report_.missed_contacts,
-            .pair_steps = pair_steps_,
-            .compression = report_.compression_max,
-            .correction = filter_         ? run::not_given
-                          : forces_ > 0.0 ? corrections_ / forces_
-                                          : 0.0,
-            .correction_max = report_.correction_max,
-            .ending = {}};
+        Figures figures{.steps = steps_,
+                        .dt = dt_,
+                        .scale = {"E", energy},
+                        .drift = ledger_.pseudo_energy_drift() / energy,
+                        .excess = excess_ / energy,
+                        .parasitic = ledger_.parasitic(),
+                        .momentum = is_free_ ? ledger_.momentum_drift() / scales_.linear : run::not_given,
+                        .pseudo_angular =
+                            is_free_ && turns_ ? ledger_.pseudo_angular_momentum_drift() / scales_.angular : run::not_given,
+                        .events = report_.events,
+                        .missed_contacts = report_.missed_contacts,
+                        .pair_steps = pair_steps_,
+                        .compression = report_.compression_max,
+                        .correction = filter_         ? run::not_given
+                                      : forces_ > 0.0 ? corrections_ / forces_
+                                                      : 0.0,
+                        .correction_max = report_.correction_max};
         return {figures, velocity_};
     }
 
@@ -128,48 +119,32 @@ private:
         return 0.125 * sum;
     }
 
-    void take_scales(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid) {
-        const auto u = as_vectors<Dim>(run.q);
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            const Vector<Dim> p = run.momentum(static_cast<std::ptrdiff_t>(i));
-            momentum_scale_ += p.norm();
-            moment_scale_ += moment<Dim>(Vector<Dim>(solid.rest_positions()[i] + u[i]), p).norm();
-        }
-    }
-
     const Watch<Dim>& watch_;
     bool is_free_, turns_, filter_;
     dynamics::Ledger<Dim> ledger_;
     contact::ContactReport report_;
     std::vector<Vector<Dim>> velocity_;
     std::int64_t steps_ = 0, n_steps_ = 0, pair_steps_ = 0;
-    double dt_ = 0.0, excess_ = 0.0, momentum_scale_ = 0.0, moment_scale_ = 0.0;
+    MomentumScales scales_;
+    double dt_ = 0.0, excess_ = 0.0;
     double forces_ = 0.0, corrections_ = 0.0;
 };
 
 }  // namespace
 
-std::string name_of(Kinematics kinematics) {
-    switch (kinematics) {
-        case Kinematics::small:
-            return "small";
-        case Kinematics::floating:
-            return "floating";
-        case Kinematics::finite:
-            return "finite";
-        case Kinematics::rigid:
-            return "rigid";
-    }
-    return "";
+template <int Dim>
+Vector<Dim> Motion<Dim>::at(const Vector<Dim>& x) const {
+    return velocity + dynamics::turning_velocity<Dim>(spin, x - *centre);
 }
 
 template <int Dim>
 Case<Dim> case_of(const std::string& name, const std::vector<mesh::Mesh<Dim>>& meshes, Kinematics kinematics) {
     Case<Dim> one{.name = name};
     one.scene.mesh = meshes.size() == 1 ? meshes.front() : mesh::combine<Dim>(meshes);
-    one.scene.solid.materials.resize(meshes.size());
-    one.scene.solid.kinematics.assign(meshes.size(), kinematics);
-    one.motion.resize(meshes.size());
+    const auto n = static_cast<std::size_t>(one.scene.mesh.n_bodies());
+    one.scene.solid.materials.resize(n);
+    one.scene.solid.kinematics.assign(n, kinematics);
+    one.motion.resize(n);
     return one;
 }
 
@@ -177,6 +152,22 @@ template <int Dim>
 void let_fall(Case<Dim>& one, double gravity) {
     one.scene.solid.acceleration.assign(one.motion.size(), -gravity * Vector<Dim>::Unit(Dim - 1));
     one.is_free = false;
+}
+
+template <int Dim>
+std::vector<Motion<Dim>> motion_of(const Case<Dim>& one) {
+    const mesh::Mesh<Dim>& mesh = one.scene.mesh;
+    std::vector<Vector<Dim>> centre(one.motion.size(), Vector<Dim>::Zero());
+    std::vector<double> measure(one.motion.size(), 0.0);
+    for (std::int32_t c = 0; c < mesh.n_cells(); ++c) {
+        const auto body = static_cast<std::size_t>(mesh.cell_body[c]);
+        centre[body] += mesh.cell_measure[c] * mesh.cell_centroid[c];
+        measure[body] += mesh.cell_measure[c];
+    }
+    std::vector<Motion<Dim>> motion = one.motion;
+    for (std::size_t body = 0; body < motion.size(); ++body)
+        if (!motion[body].centre) motion[body].centre = centre[body] / measure[body];
+    return motion;
 }
 
 template <int Dim>
@@ -211,6 +202,8 @@ CaseResult<Dim> run_case(const Case<Dim>& one, const std::filesystem::path& fold
 }
 
 #define ABUT_INSTANTIATE(Dim)                                                                             \
+    template struct Motion<Dim>;                                                                          \
+    template std::vector<Motion<Dim>> motion_of<Dim>(const Case<Dim>&);                                   \
     template Case<Dim> case_of<Dim>(const std::string&, const std::vector<mesh::Mesh<Dim>>&, Kinematics); \
     template void let_fall<Dim>(Case<Dim>&, double);                                                      \
     template CaseResult<Dim> run_case<Dim>(const Case<Dim>&, const std::filesystem::path&, const Watch<Dim>&);
@@ -218,4 +211,4 @@ ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE
 
-}  // namespace abut::studies::kinematics
+}  // namespace abut::studies

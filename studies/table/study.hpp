@@ -7,14 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "abut/base/stopwatch.hpp"
 #include "abut/run/folder_lock.hpp"
 #include "abut/run/scene.hpp"
 #include "apps/support/csv.hpp"
 #include "apps/support/gnuplot.hpp"
 #include "apps/support/program.hpp"
 #include "apps/support/run_options.hpp"
+#include "studies/table/figures.hpp"
 
 namespace abut::studies {
+
+inline constexpr double no_target = std::numeric_limits<double>::infinity();
 
 /// A number that a computation gave, beside what it should be.
 struct Quantity {
@@ -25,36 +29,42 @@ struct Quantity {
     /// What the error is divided by, in the same unit; 0: |reference|
     double scale = 0.0;
     /// Largest error that counts as reproduced [-]; infinite: none is asked for at this level
-    double allowed = std::numeric_limits<double>::infinity();
+    double allowed = no_target;
 
     /// |value - reference| / scale [-]
     [[nodiscard]] double error() const;
-    [[nodiscard]] bool has_target() const { return allowed < std::numeric_limits<double>::infinity(); }
+    [[nodiscard]] bool has_target() const { return allowed < no_target; }
     [[nodiscard]] bool is_met() const { return error() <= allowed; }
+    /// `allowed`; NaN without a target
+    [[nodiscard]] double target_or_nan() const { return has_target() ? allowed : run::not_given; }
+};
+/// Quantities of a level or of a row.
+struct Quantities : std::vector<Quantity> {
+    using std::vector<Quantity>::vector;
+    /// A figure without a unit that is to be at most `allowed`; by default shown alone.
+    void at_most(const std::string& name, double value, double allowed = no_target);
+    /// A figure with a value to meet, to `allowed` of that; where that is 0, to `allowed` itself.
+    void near(const std::string& name, double value, double reference, double allowed = no_target,
+              const std::string& unit = "");
 };
 /// Value, reference, error, and whether it is met; what is not finite is null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Quantity& quantity);
-
-/// What stands beside every claim about energy. docs/method.md, Time.
-struct EnergyFigures {
-    double drift;      ///< max |H~ - H~0 - work| over `scale` [-]
-    double excess;     ///< max (H - H~) over `scale` [-]
-    double parasitic;  ///< max |e|/m [m/s]
-    std::int64_t events;
-    double scale;  ///< [J]
-    std::string scale_name;
-};
-template <int Dim>
-[[nodiscard]] EnergyFigures energy_figures(const run::RunResult<Dim>& result);
 
 /// One computation of a study.
 struct Level {
     std::string name;   ///< "100 cells"
     double size = 0.0;  ///< of a cell [m], for the order of convergence; 0: not part of a refinement
-    std::vector<Quantity> quantities;
-    std::optional<EnergyFigures> energies;  ///< of a run
-    double seconds = 0.0;                   ///< of the computation, with its set-up
+    Quantities quantities;
+    std::optional<Figures> energies;  ///< of a run
+    double seconds = 0.0;             ///< of the computation, with its set-up
 };
+
+/// What a function returns, and the seconds that it took.
+template <class Run>
+[[nodiscard]] auto timed(double& seconds, const Run& run) {
+    const Stopwatch watch(seconds);
+    return run();
+}
 
 /// The least order of convergence that counts as reproduced.
 struct OrderTarget {
