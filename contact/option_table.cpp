@@ -156,14 +156,29 @@ OptionList<Friction> make_friction_options() {
                 .named = Named::changed})};
 }
 
+/// An option of the first law, that of all pairs. Without a law its values are the defaults, and they make none.
+Option<NodalOptions> of_first_law(const Option<Friction>& inner) {
+    return {static_cast<const OptionFacts&>(inner),
+            [get = inner.get](const NodalOptions& options) {
+                return get(options.friction.any() ? options.friction.laws.front() : Friction{});
+            },
+            [get = inner.get, set = inner.set](NodalOptions& options, const OptionValue& value) {
+                std::vector<Friction>& laws = options.friction.laws;
+                if (laws.empty() && is_same(value, get(Friction{}))) return;
+                if (laws.empty()) laws.emplace_back();
+                set(laws.front(), value);
+            }};
+}
+
 OptionList<NodalOptions> make_nodal_options() {
     using Of = NodalOptions;
     const auto of_search = [](const char* name) { return within(&Of::search, named(search_options(), name)); };
-    const OptionList<Of> facing = within(&Of::facing, facing_options());
-    return {of_search("skin"),       of_search("largest_motion"),
-            of_search("max_pairs"),  compression_warning<Of>(),
-            compression_limit<Of>(), facing.front(),
-            facing.back(),           events<Of>()};
+    OptionList<Of> options{of_search("skin"), of_search("largest_motion"), of_search("max_pairs"), compression_warning<Of>(),
+                           compression_limit<Of>()};
+    for (const Option<Of>& option : within(&Of::facing, facing_options())) options.push_back(option);
+    for (const Option<Friction>& option : friction_options()) options.push_back(of_first_law(option));
+    options.push_back(events<Of>());
+    return options;
 }
 
 }  // namespace

@@ -37,6 +37,51 @@ void set_value(abut_options& options, const OptionField& field, const OptionValu
         field.field);
 }
 
+contact::Friction law_of(const abut_friction_law& given, const std::string& whose) {
+    const double values[] = {given.friction,   given.sliding_friction, given.decay_speed,
+                             given.decay_slip, given.shear_strength,   given.relaxation_time};
+    contact::Friction law;
+    for (std::size_t i = 0; i < std::size(values); ++i) {
+        const Option<contact::Friction>& option = contact::friction_options()[i];
+        check_value(whose, option, values[i], option.get(contact::Friction{}));
+        option.set(law, values[i]);
+    }
+    return law;
+}
+
+/// The law of all pairs is in `friction` already. Laws that never act are left out.
+void add_laws(const abut_options& given, std::int32_t index_base, contact::FrictionOptions& friction) {
+    std::vector<contact::Friction> all{friction.any() ? friction.laws.front() : contact::Friction{}};
+    if (given.own_coefficient != nullptr)
+        all.front().own_coefficient = [given](const contact::Sliding& at) {
+            return call_host([&] { return given.own_coefficient(at.speed, at.slid, at.pressure, given.user); });
+        };
+    for (const abut_friction_law& law : span_of(given.laws, given.n_laws, "abut_options.laws"))
+        all.push_back(law_of(law, "abut_options: laws: "));
+    if (all.size() > 1 && given.law_of == nullptr)
+        throw BadInput("abut_options: there are `laws`, but no `law_of`. Give one that tells which two faces have.");
+    friction.laws.clear();
+    std::vector<std::int32_t> index;
+    for (contact::Friction& law : all) {
+        index.push_back(law.acts() ? static_cast<std::int32_t>(friction.laws.size()) : -1);
+        if (law.acts()) friction.laws.push_back(std::move(law));
+    }
+    if (given.law_of == nullptr) return;
+    friction.law_of = [given, index_base, index](contact::Face face_1, contact::Face face_2) {
+        const std::int32_t law = call_host(
+            [&] { return given.law_of(number_of(face_1) + index_base, number_of(face_2) + index_base, given.user); });
+        if (law >= std::ssize(index))
+            throw BadInput("abut_options: law_of gives " + std::to_string(law) + " for faces " +
+                               std::to_string(number_of(face_1)) + " and " + std::to_string(number_of(face_2)) +
+                               "; give at most n_laws, which is " + std::to_string(given.n_laws) + ".",
+                           {.face_1 = number_of(face_1),
+                            .face_2 = number_of(face_2),
+                            .value = static_cast<double>(law),
+                            .allowed = static_cast<double>(given.n_laws)});
+        return law < 0 ? -1 : index[static_cast<std::size_t>(law)];
+    };
+}
+
 contact::NodalOptions nodal_options(const abut_options& given, std::int32_t index_base) {
     contact::NodalOptions options;
     const contact::NodalOptions plain;
@@ -46,6 +91,7 @@ contact::NodalOptions nodal_options(const abut_options& given, std::int32_t inde
         check_value("abut_options: ", option, value, option.get(plain));
         option.set(options, value);
     }
+    add_laws(given, index_base, options.friction);
     if (given.wanted != nullptr)
         options.wanted = [given, index_base](contact::Face face_1, contact::Face face_2) {
             return call_host([&] {
@@ -134,10 +180,10 @@ int abut_limit_threads(int32_t n, abut_error* error) {
     });
 }
 
-int abut_skin_stiffness(double p_wave_modulus, const double* depth, int64_t n, double* stiffness, abut_error* error) {
+int abut_skin_stiffness(double modulus, const double* depth, int64_t n, double* stiffness, abut_error* error) {
     return guarded(error, 0, [&] {
         check_pointer(stiffness, "stiffness");
-        *stiffness = contact::skin_stiffness(p_wave_modulus, span_of(depth, n, "depth"));
+        *stiffness = contact::skin_stiffness(modulus, span_of(depth, n, "depth"));
     });
 }
 
@@ -192,7 +238,11 @@ int abut_step(abut_contact* handle, double dt, abut_array x_0, abut_array x_1, i
                            static_cast<std::int64_t>(step.pairs.size()),
                            step.report.events,
                            step.report.compression,
-                           step.report.correction};
+                           step.report.correction,
+                           step.report.friction.energy,
+                           step.report.friction.dissipated,
+                           step.report.friction.sticking,
+                           step.report.friction.sliding};
             tell_after_step<Dim>(*handle, contact);
         });
     });

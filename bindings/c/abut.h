@@ -73,12 +73,25 @@ typedef struct abut_faces {
     const int32_t* body;     /* (n_faces); faces of one body do not touch each other */
     const double* depth;     /* (n_faces) half the height of the element behind a face; 0 for a rigid one */
     const double* stiffness; /* (n_bodies) from `abut_skin_stiffness`; infinity: a rigid body */
+    /* (n_bodies) needed with friction, else NULL: mu/(lambda + 2 mu) of `stiffness`, which is `abut_skin_stiffness` of the shear
+       modulus mu with the same depths */
+    const double* shear_stiffness;
     int64_t n_bodies;
     int32_t index_base; /* 0 or 1: from where nodes, offsets, bodies and faces are counted, here and in all results */
 } abut_faces;
-#define ABUT_FACES_INIT {sizeof(abut_faces), 0, 0, 0, 0, 0, 0, 0, 0, 0}
+#define ABUT_FACES_INIT {sizeof(abut_faces), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}
 
 enum { ABUT_NOTE = 0, ABUT_WARNING = 1 };
+
+/* A law of friction, in the words of abut_options. */
+typedef struct abut_friction_law {
+    double friction;
+    double sliding_friction;
+    double decay_speed;
+    double decay_slip;
+    double shear_strength;
+    double relaxation_time;
+} abut_friction_law;
 
 /* All choices; `abut_options_init` fills in the defaults. */
 typedef struct abut_options {
@@ -90,14 +103,28 @@ typedef struct abut_options {
     double compression_limit;   /* |g|/D above which a step is refused */
     double facing_full;         /* n_1 . n_2 up to which a pair acts with all its stiffness, */
     double facing_none;         /* and from which on not at all */
+    double friction;            /* coefficient between faces that touch; 0: none. docs/friction.md */
+    double sliding_friction;    /* that of fast sliding; NaN: the same */
+    double decay_speed;         /* of sliding, at which it has gone 1 - 1/e of the way there [m/s] */
+    double decay_slip;          /* path of sliding after which it is there [m] */
+    double shear_strength;      /* stress that faces in contact bear beside it, whatever presses them [Pa] (Tresca) */
+    double relaxation_time;     /* in which a force that sticks falls by 1/e [s]: damps rigid bodies that flutter */
     int32_t events;             /* not 0: follow what begins and ends inside a step */
     /* Whether two faces may touch; NULL: all. Asked at searches, by the thread that calls. */
     int (*wanted)(int32_t face_1, int32_t face_2, void* user);
+    /* Which law of friction two faces have, in either order: 0 that above, i from 1 on the i-th of `laws`, below 0 none; NULL:
+       all have that above. Asked at searches; it must always tell the same. `laws` are read by `abut_create` alone. */
+    int32_t (*law_of)(int32_t face_1, int32_t face_2, void* user);
+    const abut_friction_law* laws;
+    int64_t n_laws;
+    /* In place of `friction` and the three after it: the coefficient of faces that slide with `speed` [m/s], have `slid` so far [m] and
+       are under `pressure` [Pa]; finite, >= 0, and of these alone. NULL: those are taken. Asked in steps. */
+    double (*own_coefficient)(double speed, double slid, double pressure, void* user);
     /* Asked at the begin of each step; not 0: the step is cancelled. NULL: never. */
     int (*cancel)(void* user);
     /* Told what a user of the host ought to know and that is no error; NULL: nobody. */
     void (*log)(int severity, const char* text, void* user);
-    void* user; /* handed to the three */
+    void* user; /* handed to all of them */
 } abut_options;
 ABUT_API void abut_options_init(abut_options* options);
 
@@ -118,8 +145,13 @@ typedef struct abut_step_result {
     int64_t events;
     double compression; /* largest |g|/D */
     double correction;  /* what closes the balance of energy, over all forces: beyond 1e-3 the step is too long */
+    /* Of friction: V of a host is its own + energy + friction_energy, and H~ + the sum of dissipated - work stays. */
+    double friction_energy; /* E at the end, held by faces that stick; `abut_evaluate` leaves it as it is */
+    double dissipated;      /* D in this step */
+    int64_t sticking_faces;
+    int64_t sliding_faces;
 } abut_step_result;
-#define ABUT_STEP_RESULT_INIT {sizeof(abut_step_result), 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0}
+#define ABUT_STEP_RESULT_INIT {sizeof(abut_step_result), 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0, 0}
 
 /* Vectors have three components everywhere, the last one 0 in 2D; moments of 2D are in the last one. */
 typedef struct abut_pair {
@@ -130,11 +162,24 @@ typedef struct abut_pair {
     double gap_1;     /* the same at the end */
     double area;      /* mean over the step */
     double normal_force;
-    double force[3]; /* on face 2, mean over the step; face 1 feels the opposite */
+    double force[3]; /* on face 2, mean over the step, friction included; face 1 feels the opposite */
     int32_t events;
     double active_share; /* of the step */
     double compression;  /* |g|/D */
+    double friction[3];  /* the part of `force` that is friction */
+    double slip[3];      /* motion of face 2 past face 1 along both, where there is friction */
+    double point[3];     /* where friction acts, at the middle of the step */
 } abut_pair;
+
+/* Friction of a face in a step; a face with four corners appears by halves. */
+typedef struct abut_face_friction {
+    int32_t face;
+    double normal_force; /* that its friction is of: half of that on the face, all of it where the partner is rigid */
+    double force;        /* along the face, mean over the step */
+    double limit;        /* at which it slides */
+    double slip;         /* in this step; 0: it sticks */
+    double dissipated;   /* in this step; below 0 by rounding alone with ABUT_MEAN */
+} abut_face_friction;
 
 typedef struct abut_body {
     int32_t body;
@@ -166,8 +211,18 @@ typedef struct abut_report {
     int64_t tilted_pairs_max;
     double compression_max;
     double correction_max;
+    double friction_dissipated; /* D so far */
+    double least_dissipated;    /* of one face in one step */
+    double friction_ratio_max;  /* largest force of a face over its limit */
+    double sliding_force;       /* sum over faces that slide and all steps, times dt */
+    double sliding_limit;       /* the same of their limits; far above it: their slip alternates from step to step */
+    int64_t sticking_faces;     /* in the last step */
+    int64_t sliding_faces;
+    int64_t sticking_faces_max; /* the most in a step */
+    int64_t sliding_faces_max;
 } abut_report;
-#define ABUT_REPORT_INIT {sizeof(abut_report), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0}
+#define ABUT_REPORT_INIT \
+    {sizeof(abut_report), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0, 0}
 
 typedef struct abut_stable {
     size_t struct_size;
@@ -193,8 +248,8 @@ ABUT_API const char* abut_version(void);
 /* Threads that all handles together use from now on; 0: as many as there are cores. */
 ABUT_API int abut_limit_threads(int32_t n, abut_error* error);
 
-/* One k per body: (lambda + 2 mu) over the mean depth of those of its faces that will touch. */
-ABUT_API int abut_skin_stiffness(double p_wave_modulus, const double* depth, int64_t n, double* stiffness, abut_error* error);
+/* One k per body: lambda + 2 mu over the mean depth of those of its faces that will touch; with mu its shear stiffness. */
+ABUT_API int abut_skin_stiffness(double modulus, const double* depth, int64_t n, double* stiffness, abut_error* error);
 
 /* `rest`: all nodes of the host at rest. Obstacles are rigid bodies, whose nodes the host places. `options` may be NULL. */
 ABUT_API int abut_create(int32_t dim, abut_array rest, const abut_faces* faces, const abut_options* options,
@@ -206,7 +261,8 @@ ABUT_API void abut_destroy(abut_contact* contact);
    (data NULL: does not), which may end before the nodes of obstacles do, but not before those of other faces. `result` may be NULL. */
 ABUT_API int abut_step(abut_contact* contact, double dt, abut_array x_0, abut_array x_1, int32_t take, abut_array force,
                        abut_step_result* result, abut_error* error);
-/* W and forces at any x, without a step: changes nothing that the next steps depend on. */
+/* W and forces at any x, those of friction by the springs of faces that stick as they are, without a step: changes nothing that
+   the next steps depend on. */
 ABUT_API int abut_evaluate(abut_contact* contact, abut_array x, abut_array force, double* energy, abut_error* error);
 
 /* Of the last of these two. They write the number of entries to `n`, and at most `capacity` of them; NULL and 0 ask for the number
@@ -217,6 +273,9 @@ ABUT_API int abut_bodies(const abut_contact* contact, abut_body* bodies, size_t 
                          abut_error* error);
 ABUT_API int abut_body_pairs(const abut_contact* contact, abut_body_pair* pairs, size_t entry_size, int64_t capacity, int64_t* n,
                              abut_error* error);
+/* Of the last step; empty after `abut_evaluate`. */
+ABUT_API int abut_friction(const abut_contact* contact, abut_face_friction* faces, size_t entry_size, int64_t capacity,
+                           int64_t* n, abut_error* error);
 ABUT_API int abut_get_report(const abut_contact* contact, abut_report* report, abut_error* error);
 
 /* `mass`: of each node; `omega_free`: the highest frequency of the host without contact [rad/s]. */

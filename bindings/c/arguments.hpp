@@ -49,7 +49,9 @@ contact::NodalSurface<Dim> surface_of(const abut_array& rest, const abut_faces& 
              .offsets = offsets,
              .body = body,
              .depth = span_of(faces.depth, faces.n_faces, "abut_faces.depth"),
-             .stiffness = span_of(faces.stiffness, faces.n_bodies, "abut_faces.stiffness")}};
+             .stiffness = span_of(faces.stiffness, faces.n_bodies, "abut_faces.stiffness"),
+             .shear_stiffness = faces.shear_stiffness == nullptr ? std::span<const double>()
+                                                                 : span_of(faces.shear_stiffness, faces.n_bodies, "")}};
 }
 
 inline void check_dim(std::int32_t dim) {

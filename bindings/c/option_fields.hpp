@@ -21,6 +21,12 @@ inline constexpr OptionField option_fields[] = {{"skin", &abut_options::skin},
                                                 {"compression_limit", &abut_options::compression_limit},
                                                 {"facing_full", &abut_options::facing_full},
                                                 {"facing_none", &abut_options::facing_none},
+                                                {"friction", &abut_options::friction},
+                                                {"sliding_friction", &abut_options::sliding_friction},
+                                                {"decay_speed", &abut_options::decay_speed},
+                                                {"decay_slip", &abut_options::decay_slip},
+                                                {"shear_strength", &abut_options::shear_strength},
+                                                {"relaxation_time", &abut_options::relaxation_time},
                                                 {"events", &abut_options::events}};
 
 }  // namespace abut::c_layer

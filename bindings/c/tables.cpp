@@ -27,6 +27,27 @@ int abut_pairs(const abut_contact* handle, abut_pair* pairs, size_t entry_size, 
                 entry.events = pair.events;
                 entry.active_share = pair.active_share;
                 entry.compression = pair.compression;
+                copy_vector<Dim>(pair.friction, entry.friction);
+                copy_vector<Dim>(pair.slip, entry.slip);
+                copy_vector<Dim>(pair.point, entry.point);
+                return entry;
+            });
+        });
+    });
+}
+
+int abut_friction(const abut_contact* handle, abut_face_friction* faces, size_t entry_size, int64_t capacity, int64_t* n,
+                  abut_error* error) {
+    return guarded(error, index_base_of(handle), [&] {
+        with_contact(handle, [&](const auto& contact) {
+            copy_entries(contact.last().friction, faces, entry_size, capacity, n, [&](const contact::FaceFriction& face) {
+                abut_face_friction entry{};
+                entry.face = number_of(face.face) + handle->index_base;
+                entry.normal_force = face.normal_force;
+                entry.force = face.force;
+                entry.limit = face.limit;
+                entry.slip = face.slip;
+                entry.dissipated = face.dissipated;
                 return entry;
             });
         });
@@ -74,10 +95,28 @@ int abut_get_report(const abut_contact* handle, abut_report* report, abut_error*
         check_struct(report, "abut_report");
         with_contact(handle, [&](const auto& contact) {
             const contact::ContactReport& from = contact.report();
-            *report = {sizeof(abut_report),        from.candidates,       from.candidates_max,   from.active_pairs,
-                       from.active_pairs_max,      from.events,           from.rebuilds,         from.missed_contacts,
-                       from.inadmissible_overlaps, from.compressed_steps, from.tilted_pairs_max, from.compression_max,
-                       from.correction_max};
+            *report = {.struct_size = sizeof(abut_report),
+                       .candidates = from.candidates,
+                       .candidates_max = from.candidates_max,
+                       .active_pairs = from.active_pairs,
+                       .active_pairs_max = from.active_pairs_max,
+                       .events = from.events,
+                       .rebuilds = from.rebuilds,
+                       .missed_contacts = from.missed_contacts,
+                       .inadmissible_overlaps = from.inadmissible_overlaps,
+                       .compressed_steps = from.compressed_steps,
+                       .tilted_pairs_max = from.tilted_pairs_max,
+                       .compression_max = from.compression_max,
+                       .correction_max = from.correction_max,
+                       .friction_dissipated = from.friction_dissipated,
+                       .least_dissipated = from.least_dissipated,
+                       .friction_ratio_max = from.friction_ratio_max,
+                       .sliding_force = from.sliding_force,
+                       .sliding_limit = from.sliding_limit,
+                       .sticking_faces = from.sticking_faces,
+                       .sliding_faces = from.sliding_faces,
+                       .sticking_faces_max = from.sticking_faces_max,
+                       .sliding_faces_max = from.sliding_faces_max};
         });
     });
 }

@@ -29,9 +29,13 @@ module abut
     integer(c_int64_t) :: n_faces
     type(c_ptr) :: nodes
     integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: offsets, body, depth, stiffness
+    type(c_ptr) :: offsets, body, depth, stiffness, shear_stiffness
     integer(c_int64_t) :: n_bodies
     integer(c_int32_t) :: index_base
+  end type
+
+  type, bind(c), public :: abut_friction_law
+    real(c_double) :: friction, sliding_friction, decay_speed, decay_slip, shear_strength, relaxation_time
   end type
 
   type, bind(c), public :: abut_options
@@ -39,8 +43,12 @@ module abut
     real(c_double) :: skin, largest_motion
     integer(c_int64_t) :: max_pairs
     real(c_double) :: compression_warning, compression_limit, facing_full, facing_none
+    real(c_double) :: friction, sliding_friction, decay_speed, decay_slip, shear_strength, relaxation_time
     integer(c_int32_t) :: events
-    type(c_funptr) :: wanted, cancel, log
+    type(c_funptr) :: wanted, law_of
+    type(c_ptr) :: laws
+    integer(c_int64_t) :: n_laws
+    type(c_funptr) :: own_coefficient, cancel, log
     type(c_ptr) :: user
   end type
 
@@ -48,14 +56,20 @@ module abut
     integer(c_size_t) :: struct_size
     real(c_double) :: energy_0, energy, work
     integer(c_int64_t) :: active_pairs, events
-    real(c_double) :: compression, correction
+    real(c_double) :: compression, correction, friction_energy, dissipated
+    integer(c_int64_t) :: sticking_faces, sliding_faces
   end type
 
   type, bind(c), public :: abut_pair
     integer(c_int32_t) :: face_1, face_2
     real(c_double) :: normal(3), gap_0, gap_1, area, normal_force, force(3)
     integer(c_int32_t) :: events
-    real(c_double) :: active_share, compression
+    real(c_double) :: active_share, compression, friction(3), slip(3), point(3)
+  end type
+
+  type, bind(c), public :: abut_face_friction
+    integer(c_int32_t) :: face
+    real(c_double) :: normal_force, force, limit, slip, dissipated
   end type
 
   type, bind(c), public :: abut_body
@@ -73,7 +87,9 @@ module abut
     integer(c_size_t) :: struct_size
     integer(c_int64_t) :: candidates, candidates_max, active_pairs, active_pairs_max, events, rebuilds, missed_contacts, &
       inadmissible_overlaps, compressed_steps, tilted_pairs_max
-    real(c_double) :: compression_max, correction_max
+    real(c_double) :: compression_max, correction_max, friction_dissipated, least_dissipated, friction_ratio_max, &
+      sliding_force, sliding_limit
+    integer(c_int64_t) :: sticking_faces, sliding_faces, sticking_faces_max, sliding_faces_max
   end type
 
   type, bind(c), public :: abut_stable
@@ -89,9 +105,9 @@ module abut
   end type
 
   public :: abut_options_init, abut_limit_threads, abut_skin_stiffness, abut_create, abut_destroy, abut_step, abut_evaluate, &
-    abut_pairs, abut_bodies, abut_body_pairs, abut_get_report, abut_stable_step, abut_save, abut_restore, &
+    abut_pairs, abut_bodies, abut_body_pairs, abut_friction, abut_get_report, abut_stable_step, abut_save, abut_restore, &
     abut_replace_surface, abut_find_overlaps
-  public :: abut_version, abut_wanted, abut_cancel, abut_log, abut_columns
+  public :: abut_version, abut_wanted, abut_law_of, abut_own_coefficient, abut_cancel, abut_log, abut_columns
   public :: abut_points, abut_nothing, abut_faces_of, abut_new_error, abut_new_result, abut_new_report, abut_new_stable, &
     abut_message
 
@@ -100,6 +116,16 @@ module abut
     integer(c_int) function abut_wanted(face_1, face_2, user) bind(c)
       import
       integer(c_int32_t), value :: face_1, face_2
+      type(c_ptr), value :: user
+    end function
+    integer(c_int32_t) function abut_law_of(face_1, face_2, user) bind(c)
+      import
+      integer(c_int32_t), value :: face_1, face_2
+      type(c_ptr), value :: user
+    end function
+    real(c_double) function abut_own_coefficient(speed, slid, pressure, user) bind(c)
+      import
+      real(c_double), value :: speed, slid, pressure
       type(c_ptr), value :: user
     end function
     integer(c_int) function abut_cancel(user) bind(c)
@@ -124,9 +150,9 @@ module abut
       integer(c_int32_t), value :: n
       type(abut_error), intent(inout) :: error
     end function
-    integer(c_int) function abut_skin_stiffness(p_wave_modulus, depth, n, stiffness, error) bind(c)
+    integer(c_int) function abut_skin_stiffness(modulus, depth, n, stiffness, error) bind(c)
       import
-      real(c_double), value :: p_wave_modulus
+      real(c_double), value :: modulus
       real(c_double), intent(in) :: depth(*)
       integer(c_int64_t), value :: n
       real(c_double), intent(out) :: stiffness
@@ -184,6 +210,15 @@ module abut
       import
       type(c_ptr), value :: contact
       type(abut_body_pair), intent(inout) :: pairs(*)
+      integer(c_size_t), value :: entry_size
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
+      type(abut_error), intent(inout) :: error
+    end function
+    integer(c_int) function abut_friction(contact, faces, entry_size, capacity, n, error) bind(c)
+      import
+      type(c_ptr), value :: contact
+      type(abut_face_friction), intent(inout) :: faces(*)
       integer(c_size_t), value :: entry_size
       integer(c_int64_t), value :: capacity
       integer(c_int64_t), intent(inout) :: n  ! may be the argument `capacity` as well
@@ -303,9 +338,11 @@ contains
   end function
 
   ! Faces of as many corners as dimensions, nodes(corner, face); all counts from 1. The arrays must stay while it is used.
-  function abut_faces_of(nodes, body, depth, stiffness) result(faces)
+  ! `shear_stiffness`: needed with friction, as long as `stiffness`.
+  function abut_faces_of(nodes, body, depth, stiffness, shear_stiffness) result(faces)
     integer(c_int32_t), target, contiguous, intent(in) :: nodes(:, :), body(:)
     real(c_double), target, contiguous, intent(in) :: depth(:), stiffness(:)
+    real(c_double), target, contiguous, intent(in), optional :: shear_stiffness(:)
     type(abut_faces) :: faces
     faces%struct_size = c_sizeof(faces)
     faces%n_faces = size(body, kind=c_int64_t)
@@ -315,6 +352,8 @@ contains
     faces%body = c_loc(body)
     faces%depth = c_loc(depth)
     faces%stiffness = c_loc(stiffness)
+    faces%shear_stiffness = c_null_ptr
+    if (present(shear_stiffness)) faces%shear_stiffness = c_loc(shear_stiffness)
     faces%n_bodies = size(stiffness, kind=c_int64_t)
     faces%index_base = 1
   end function
@@ -332,13 +371,15 @@ contains
 
   function abut_new_result() result(empty)
     type(abut_step_result) :: empty
-    empty = abut_step_result(c_sizeof(empty), 0d0, 0d0, 0d0, 0_c_int64_t, 0_c_int64_t, 0d0, 0d0)
+    integer(c_int64_t), parameter :: zero = 0
+    empty = abut_step_result(c_sizeof(empty), 0d0, 0d0, 0d0, zero, zero, 0d0, 0d0, 0d0, 0d0, zero, zero)
   end function
 
   function abut_new_report() result(report)
     type(abut_report) :: report
     integer(c_int64_t), parameter :: zero = 0
-    report = abut_report(c_sizeof(report), zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, 0d0, 0d0)
+    report = abut_report(c_sizeof(report), zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, 0d0, 0d0, &
+      0d0, 0d0, 0d0, 0d0, 0d0, zero, zero, zero, zero)
   end function
 
   function abut_new_stable() result(stable)

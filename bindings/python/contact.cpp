@@ -4,12 +4,15 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "abut.h"
 #include "contact_arguments.hpp"
@@ -38,6 +41,12 @@ py::array_t<Entry> entries_of(const Ask& ask, std::int64_t expected = 0) {
 using abut::c_layer::option_fields;
 using abut::c_layer::OptionField;
 
+bool is_of_friction(const std::string& name) {
+    static constexpr const char* names[] = {"friction",   "sliding_friction", "decay_speed",
+                                            "decay_slip", "shear_strength",   "relaxation_time"};
+    return std::ranges::find(names, name) != std::end(names);
+}
+
 void take_option(abut_options& options, const std::string& name, const py::handle& value) {
     std::string names;
     for (const OptionField& field : option_fields) {
@@ -58,7 +67,21 @@ void take_option(abut_options& options, const std::string& name, const py::handl
         }
         return;
     }
-    throw py::type_error("there is no option '" + name + "'; there are " + names + ", wanted, cancel, log");
+    throw py::type_error("there is no option '" + name + "'; there are " + names +
+                         ", wanted, law_of, laws, own_coefficient, cancel, log");
+}
+
+/// A law of friction from a dict with the names of the options; what is not there is as the defaults have it.
+abut_friction_law law_from(const py::dict& given) {
+    abut_options options;
+    abut_options_init(&options);
+    for (const auto& [key, value] : given) {
+        const auto name = py::cast<std::string>(key);
+        if (!is_of_friction(name)) throw py::type_error("laws: there is no '" + name + "' in a law of friction");
+        take_option(options, name, value);
+    }
+    return {options.friction,   options.sliding_friction, options.decay_speed,
+            options.decay_slip, options.shear_strength,   options.relaxation_time};
 }
 
 /// "skin=0.0, largest_motion=1.0, ..."
@@ -84,14 +107,25 @@ std::string defaults_of_options() {
 class NodalContact {
 public:
     NodalContact(const py::array& nodes, const py::object& faces, const py::object& body, const Packed<double>& depth,
-                 const Packed<double>& stiffness, const py::object& offsets, py::object wanted, py::object cancel,
-                 py::object log, const py::kwargs& given)
+                 const Packed<double>& stiffness, const py::object& offsets, const py::object& shear_stiffness,
+                 py::object wanted, py::object cancel, py::object log, py::object law_of, const std::vector<py::dict>& laws,
+                 py::object own_coefficient, const py::kwargs& given)
         : dim_(dimension_of(nodes)),
-          callbacks_(new Callbacks{std::move(wanted), std::move(cancel), std::move(log), std::nullopt, {}}) {
-        const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
+          callbacks_(new Callbacks{std::move(wanted),
+                                   std::move(cancel),
+                                   std::move(log),
+                                   std::move(law_of),
+                                   std::move(own_coefficient),
+                                   std::nullopt,
+                                   {}}) {
+        const Faces of_host(faces, body, depth, stiffness, offsets, shear_stiffness, dim_);
         abut_options options;
         abut_options_init(&options);
         for (const auto& [name, value] : given) take_option(options, py::cast<std::string>(name), value);
+        std::vector<abut_friction_law> more_laws;
+        for (const py::dict& law : laws) more_laws.push_back(law_from(law));
+        options.laws = more_laws.data();
+        options.n_laws = std::ssize(more_laws);
         callbacks_->put_into(options);
         const abut_array rest = view_of(nodes, dim_, "nodes");
         abut_contact* handle = nullptr;
@@ -112,7 +146,9 @@ public:
         using namespace py::literals;
         return py::dict("energy_0"_a = result.energy_0, "energy"_a = result.energy, "work"_a = result.work,
                         "active_pairs"_a = result.active_pairs, "events"_a = result.events,
-                        "compression"_a = result.compression, "correction"_a = result.correction);
+                        "compression"_a = result.compression, "correction"_a = result.correction,
+                        "friction_energy"_a = result.friction_energy, "dissipated"_a = result.dissipated,
+                        "sticking_faces"_a = result.sticking_faces, "sliding_faces"_a = result.sliding_faces);
     }
 
     double evaluate(const py::array& x, const py::object& out) {
@@ -139,18 +175,29 @@ public:
             });
     }
 
+    [[nodiscard]] py::array_t<abut_face_friction> friction() const {
+        return entries_of<abut_face_friction>(
+            [&](abut_face_friction* entries, std::int64_t capacity, std::int64_t* n, abut_error* error) {
+                return abut_friction(handle_.get(), entries, sizeof(abut_face_friction), capacity, n, error);
+            });
+    }
+
     [[nodiscard]] py::dict report() const {
         abut_report report = ABUT_REPORT_INIT;
         abut_error error = ABUT_ERROR_INIT;
         require_ok(abut_get_report(handle_.get(), &report, &error), error);
         using namespace py::literals;
-        return py::dict("candidates"_a = report.candidates, "candidates_max"_a = report.candidates_max,
-                        "active_pairs"_a = report.active_pairs, "active_pairs_max"_a = report.active_pairs_max,
-                        "events"_a = report.events, "rebuilds"_a = report.rebuilds,
-                        "missed_contacts"_a = report.missed_contacts,
-                        "inadmissible_overlaps"_a = report.inadmissible_overlaps,
-                        "compressed_steps"_a = report.compressed_steps, "tilted_pairs_max"_a = report.tilted_pairs_max,
-                        "compression_max"_a = report.compression_max, "correction_max"_a = report.correction_max);
+        return py::dict(
+            "candidates"_a = report.candidates, "candidates_max"_a = report.candidates_max,
+            "active_pairs"_a = report.active_pairs, "active_pairs_max"_a = report.active_pairs_max,
+            "events"_a = report.events, "rebuilds"_a = report.rebuilds, "missed_contacts"_a = report.missed_contacts,
+            "inadmissible_overlaps"_a = report.inadmissible_overlaps, "compressed_steps"_a = report.compressed_steps,
+            "tilted_pairs_max"_a = report.tilted_pairs_max, "compression_max"_a = report.compression_max,
+            "correction_max"_a = report.correction_max, "friction_dissipated"_a = report.friction_dissipated,
+            "least_dissipated"_a = report.least_dissipated, "friction_ratio_max"_a = report.friction_ratio_max,
+            "sliding_force"_a = report.sliding_force, "sliding_limit"_a = report.sliding_limit,
+            "sticking_faces"_a = report.sticking_faces, "sliding_faces"_a = report.sliding_faces,
+            "sticking_faces_max"_a = report.sticking_faces_max, "sliding_faces_max"_a = report.sliding_faces_max);
     }
 
     [[nodiscard]] py::dict stable_step(const Packed<double>& mass, double omega_free) const {
@@ -178,8 +225,8 @@ public:
 
     void surface_replaced(const py::array& nodes, const py::object& faces, const py::object& body,
                           const Packed<double>& depth, const Packed<double>& stiffness, const py::object& old_face_of,
-                          const py::object& offsets) {
-        const Faces of_host(faces, body, depth, stiffness, offsets, dim_);
+                          const py::object& offsets, const py::object& shear_stiffness) {
+        const Faces of_host(faces, body, depth, stiffness, offsets, shear_stiffness, dim_);
         const Packed<std::int32_t> old = integers_of(old_face_of, "old_face_of");
         if (old.size() != of_host.body.size()) throw py::value_error("old_face_of must have one entry per face");
         const abut_array rest = view_of(nodes, dim_, "nodes");
@@ -209,10 +256,10 @@ py::array_t<abut_overlap> find_overlaps(const py::array& nodes, const py::object
         4 * of_host.view.n_faces);
 }
 
-double skin_stiffness(double p_wave_modulus, const Packed<double>& depth) {
+double skin_stiffness(double modulus, const Packed<double>& depth) {
     double stiffness = 0.0;
     abut_error error = ABUT_ERROR_INIT;
-    require_ok(abut_skin_stiffness(p_wave_modulus, depth.data(), depth.size(), &stiffness, &error), error);
+    require_ok(abut_skin_stiffness(modulus, depth.data(), depth.size(), &stiffness, &error), error);
     return stiffness;
 }
 
@@ -234,7 +281,8 @@ PYBIND11_MODULE(_contact, module) {
     module.doc() = "Contact between deformable solids whose surfaces are made of nodes. docs/languages.md walks through it.";
     module.attr("__version__") = abut_version();
     PYBIND11_NUMPY_DTYPE(abut_pair, face_1, face_2, normal, gap_0, gap_1, area, normal_force, force, events, active_share,
-                         compression);
+                         compression, friction, slip, point);
+    PYBIND11_NUMPY_DTYPE(abut_face_friction, face, normal_force, force, limit, slip, dissipated);
     PYBIND11_NUMPY_DTYPE(abut_body, body, force, moment, work);
     PYBIND11_NUMPY_DTYPE(abut_body_pair, body_1, body_2, active_pairs, force, normal_force);
     PYBIND11_NUMPY_DTYPE(abut_overlap, face_1, face_2, area, normal, gap, distance);
@@ -258,7 +306,10 @@ PYBIND11_MODULE(_contact, module) {
         "Contact of bodies whose surfaces are made of nodes, and whose faces may turn.\n\n"
         "nodes: (n_nodes, dim) at rest; faces: (n_faces, corners), two, three or four of them, or flat with "
         "offsets; body: (n_faces); depth: (n_faces), half the height of the element behind each; stiffness: "
-        "(n_bodies), skin_stiffness or inf for a rigid body; wanted(face_1, face_2): whether they may touch; "
+        "(n_bodies), skin_stiffness or inf for a rigid body; shear_stiffness: the same with the shear modulus in place of "
+        "lambda + 2 mu, needed with friction; wanted(face_1, face_2): whether they may touch; "
+        "law_of(face_1, face_2): their law of friction, 0 that of the options, i the i-th of laws, below 0 none; "
+        "laws: dicts with the names of these options; own_coefficient(speed, slid, pressure): in place of friction; "
         "cancel(): asked at the begin of each step, true cancels it; log(severity, text): told what ought to be known and "
         "is no error; without it warnings.warn tells. They must call nothing of the contact, and nothing that holds it is "
         "ever freed while they refer to "
@@ -266,15 +317,18 @@ PYBIND11_MODULE(_contact, module) {
         defaults_of_options();
     py::class_<NodalContact>(module, "NodalContact", contact_text.c_str())
         .def(py::init<const py::array&, const py::object&, const py::object&, const Packed<double>&, const Packed<double>&,
-                      const py::object&, py::object, py::object, py::object, const py::kwargs&>(),
+                      const py::object&, const py::object&, py::object, py::object, py::object, py::object,
+                      const std::vector<py::dict>&, py::object, const py::kwargs&>(),
              "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a, "offsets"_a = py::none(), py::kw_only(),
-             "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none())
+             "shear_stiffness"_a = py::none(), "wanted"_a = py::none(), "cancel"_a = py::none(), "log"_a = py::none(),
+             "law_of"_a = py::none(), "laws"_a = std::vector<py::dict>(), "own_coefficient"_a = py::none())
         .def("step", &NodalContact::step, "dt"_a, "x_0"_a, "x_1"_a, "out"_a = py::none(), "mode"_a = "mean",
              "From x_0 to x_1 within dt [s], > 0 (without friction nothing depends on it); adds the forces to out, which "
              "may end before the nodes of obstacles do. mode: 'mean' of the "
              "step, exact for energy, or 'end', for central differences. Returns energy_0, energy (W [J] at both ends), "
              "work, active_pairs, "
-             "events, compression and correction.")
+             "events, compression and correction; of friction friction_energy (E [J] at the end), dissipated (D [J] in the "
+             "step), sticking_faces and sliding_faces.")
         .def("evaluate", &NodalContact::evaluate, "x"_a, "out"_a = py::none(),
              "W at x, without a step; adds its forces to out.")
         .def_property_readonly(
@@ -282,6 +336,9 @@ PYBIND11_MODULE(_contact, module) {
             "Active pairs of the last step or evaluate, as a structured array; vectors have three components.")
         .def_property_readonly("bodies", &NodalContact::bodies, "Force, moment and work by body, as a structured array.")
         .def_property_readonly("body_pairs", &NodalContact::body_pairs, "Forces by pair of bodies, as a structured array.")
+        .def_property_readonly("friction", &NodalContact::friction,
+                               "Friction of each face in the last step, as a structured array; a face with four corners "
+                               "appears by halves.")
         .def_property_readonly("report", &NodalContact::report, "Counters since the start; missed_contacts must stay 0.")
         .def("stable_step", &NodalContact::stable_step, "mass"_a, "omega_free"_a,
              "How long a step may be, by estimate: mass of each node, highest frequency without contact [rad/s].")
@@ -289,13 +346,14 @@ PYBIND11_MODULE(_contact, module) {
         .def("restore", &NodalContact::restore, "state"_a,
              "Goes on from state() of a contact of the same surface and options: the next steps have the same bits.")
         .def("surface_replaced", &NodalContact::surface_replaced, "nodes"_a, "faces"_a, "body"_a, "depth"_a, "stiffness"_a,
-             "old_face_of"_a, "offsets"_a = py::none(),
+             "old_face_of"_a, "offsets"_a = py::none(), py::kw_only(), "shear_stiffness"_a = py::none(),
              "Goes on with other faces, between two steps: the old number of each that was there before, else -1.");
     module.def(
         "find_overlaps", &find_overlaps, "nodes"_a, "faces"_a, "body"_a, "distance"_a, "offsets"_a = py::none(),
         "Every pair of faces of two bodies that look at each other, share an area and have a gap of at most distance, as a "
         "structured array with their distance in space beside it; faces with four corners appear by halves.");
-    module.def("skin_stiffness", &skin_stiffness, "p_wave_modulus"_a, "depth"_a,
-               "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch.");
+    module.def("skin_stiffness", &skin_stiffness, "modulus"_a, "depth"_a,
+               "k of a body: lambda + 2 mu over the mean depth of those of its faces that will touch; with mu its shear "
+               "stiffness.");
     module.def("limit_threads", &limit_threads, "n"_a, "Threads that all contacts use together; 0: all cores.");
 }

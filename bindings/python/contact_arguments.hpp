@@ -95,10 +95,17 @@ inline abut_array writable_view_of(const py::object& array, int dim, const char*
 /// Copies of the arrays of the faces, packed: they are read once.
 struct Faces {
     Faces(const py::object& corners, const py::object& of_body, const Packed<double>& depths,
-          const Packed<double>& stiffnesses, const py::object& of_offsets, int dim)
+          const Packed<double>& stiffnesses, const py::object& of_offsets, const py::object& shear_stiffnesses, int dim)
         : Faces(corners, of_body, of_offsets, dim) {
         depth = depths;
         stiffness = stiffnesses;
+        if (!shear_stiffnesses.is_none()) {
+            shear_stiffness = py::cast<Packed<double>>(shear_stiffnesses);
+            if (shear_stiffness.size() != stiffness.size())
+                throw py::value_error("shear_stiffness has " + std::to_string(shear_stiffness.size()) + " entries for " +
+                                      std::to_string(stiffness.size()) + " bodies in stiffness; give one each");
+            view.shear_stiffness = shear_stiffness.data();
+        }
         if (depth.size() != body.size())
             throw py::value_error("depth has " + std::to_string(depth.size()) + " entries for " +
                                   std::to_string(body.size()) + " faces in body; give one each");
@@ -131,13 +138,13 @@ struct Faces {
     }
 
     Packed<std::int32_t> nodes, body, offsets;
-    Packed<double> depth, stiffness;
+    Packed<double> depth, stiffness, shear_stiffness;
     abut_faces view = ABUT_FACES_INIT;
 };
 
 /// Functions of Python behind callbacks of C; None for those that there are not.
 struct Callbacks {
-    py::object wanted, cancel, log;
+    py::object wanted, cancel, log, law_of, own_coefficient;
     std::optional<py::error_already_set> of_log;  // raised once the call is over, which has happened all the same
     std::vector<std::string> untold;              // warnings for which there is no log
 
@@ -145,6 +152,8 @@ struct Callbacks {
         options.user = this;
         if (!wanted.is_none()) options.wanted = ask_wanted;
         if (!cancel.is_none()) options.cancel = ask_cancel;
+        if (!law_of.is_none()) options.law_of = ask_law;
+        if (!own_coefficient.is_none()) options.own_coefficient = ask_coefficient;
         options.log = log.is_none() ? keep : tell;
     }
     /// Raises what the log raised; without a log, tells by warnings.warn, which raises where the host wants that.
@@ -155,23 +164,38 @@ struct Callbacks {
     }
 
 private:
-    /// Whether the answer is true; an exception ends the call, and is raised by it.
-    template <class... Arguments>
-    static int ask(const py::object& function, Arguments... arguments) {
+    /// What `read` makes of the answer; an exception ends the call, and is raised by it.
+    template <class Read, class... Arguments>
+    static auto ask(const Read& read, const py::object& function, Arguments... arguments) {
         const py::gil_scoped_acquire acquire;
         try {
-            const int answer = PyObject_IsTrue(function(arguments...).ptr());
-            if (answer < 0) throw py::error_already_set();
-            return answer;
+            return read(function(arguments...));
         } catch (py::error_already_set& error) {
             error.restore();
-            throw std::exception();
+        } catch (const py::cast_error&) {
+            PyErr_SetString(PyExc_TypeError, "a callback of the contact has not given a number");
         }
+        throw std::exception();
+    }
+    static int is_true(const py::object& answer) {
+        const int truth = PyObject_IsTrue(answer.ptr());
+        if (truth < 0) throw py::error_already_set();
+        return truth;
+    }
+    template <class Value>
+    static Value number(const py::object& answer) {
+        return py::cast<Value>(answer);
     }
     static int ask_wanted(std::int32_t face_1, std::int32_t face_2, void* user) {
-        return ask(static_cast<Callbacks*>(user)->wanted, face_1, face_2);
+        return ask(is_true, static_cast<Callbacks*>(user)->wanted, face_1, face_2);
     }
-    static int ask_cancel(void* user) { return ask(static_cast<Callbacks*>(user)->cancel); }
+    static int ask_cancel(void* user) { return ask(is_true, static_cast<Callbacks*>(user)->cancel); }
+    static std::int32_t ask_law(std::int32_t face_1, std::int32_t face_2, void* user) {
+        return ask(number<std::int32_t>, static_cast<Callbacks*>(user)->law_of, face_1, face_2);
+    }
+    static double ask_coefficient(double speed, double slid, double pressure, void* user) {
+        return ask(number<double>, static_cast<Callbacks*>(user)->own_coefficient, speed, slid, pressure);
+    }
     static void keep(int severity, const char* text, void* user) {
         const py::gil_scoped_acquire acquire;
         if (severity >= ABUT_WARNING) static_cast<Callbacks*>(user)->untold.emplace_back(text);

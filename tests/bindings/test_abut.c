@@ -21,7 +21,8 @@ static const double rest[2 * n_nodes] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0,
 static const int32_t corners[2 * n_faces] = {0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4};
 static const int32_t body[n_faces] = {0, 0, 0, 0, 1, 1, 1, 1};
 static const double depth[n_faces] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1};
-static const double stiffness[2] = {3.0, 6.0}; /* in series: 2 */
+static const double stiffness[2] = {3.0, 6.0};       /* in series: 2 */
+static const double shear_stiffness[2] = {1.0, 2.0}; /* in series: 2/3 */
 
 static abut_faces faces_from(int32_t base, const int32_t* nodes, const int32_t* of_body) {
     abut_faces faces = ABUT_FACES_INIT;
@@ -198,6 +199,170 @@ static void state_goes_on_with_the_same_bits(void) {
     abut_destroy(again);
 }
 
+/* The upper square moved down by so much, and aside. */
+static void aside(double by, double down, double* x) {
+    lowered(down, x);
+    for (int i = 4; i < n_nodes; ++i) x[2 * i] += by;
+}
+
+static abut_contact* rubbing(const abut_options* options) {
+    abut_error error = ABUT_ERROR_INIT;
+    abut_faces faces = faces_from(0, corners, body);
+    faces.shear_stiffness = shear_stiffness;
+    abut_contact* contact = NULL;
+    double x[2 * n_nodes], y[2 * n_nodes];
+    lowered(0.0, x);
+    lowered(0.15, y);
+    CHECK(abut_create(2, packed(x), &faces, options, &contact, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 0.1, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_OK);
+    return contact;
+}
+
+/* Both faces, of length 1, stick by half of the 2/3 of the pair. */
+static void friction_sticks_by_the_shear_in_series_and_slides_at_its_limit(void) {
+    abut_options options;
+    abut_options_init(&options);
+    CHECK(options.friction == 0.0 && isnan(options.sliding_friction) && isinf(options.relaxation_time));
+    options.friction = 0.5;
+    const double s = 0.003, kappa = 2.0 / 3.0;
+    for (int take = ABUT_MEAN; take <= ABUT_END; ++take) {
+        abut_contact* contact = rubbing(&options);
+        abut_step_result result = ABUT_STEP_RESULT_INIT;
+        double x_0[2 * n_nodes], x_1[2 * n_nodes], force[2 * n_nodes] = {0.0};
+        aside(0.0, 0.15, x_0);
+        aside(s, 0.15, x_1);
+        CHECK(abut_step(contact, 0.1, packed(x_0), packed(x_1), take, packed(force), &result, NULL) == ABUT_OK);
+        CHECK(fabs(result.friction_energy - 0.5 * kappa * s * s) < 1e-17);
+        CHECK(fabs(result.dissipated) < 1e-17 && result.sticking_faces == 2 && result.sliding_faces == 0);
+        abut_pair pair;
+        abut_face_friction faces[2];
+        int64_t n = 0;
+        CHECK(abut_pairs(contact, &pair, sizeof(pair), 1, &n, NULL) == ABUT_OK && n == 1);
+        const double friction = take == ABUT_MEAN ? 0.5 * kappa * s : kappa * s; /* its mean, or at the end */
+        CHECK(fabs(pair.friction[0] + friction) < 1e-15 && fabs(pair.friction[1]) < 1e-17 && pair.friction[2] == 0.0);
+        CHECK(fabs(pair.slip[0] - s) < 1e-15 && fabs(pair.slip[1]) < 1e-17);
+        CHECK(pair.point[0] > 0.55 && pair.point[0] < 0.65 && pair.point[1] > 0.9 && pair.point[1] < 1.0);
+        CHECK(abut_friction(contact, NULL, sizeof(faces[0]), 0, &n, NULL) == ABUT_OK && n == 2);
+        CHECK(abut_friction(contact, faces, sizeof(faces[0]) - 8, 2, &n, NULL) == ABUT_MISUSE);
+        CHECK(abut_friction(contact, faces, sizeof(faces[0]), 2, &n, NULL) == ABUT_OK);
+        CHECK(faces[0].face == 2 && faces[1].face == 4 && faces[0].slip == 0.0);
+        CHECK(fabs(faces[0].normal_force - 0.5 * pair.normal_force) < 1e-6 && fabs(faces[1].force - 0.5 * friction) < 1e-15);
+        CHECK(fabs(faces[0].limit - 0.5 * faces[0].normal_force) < 1e-15);
+
+        const double energy = result.energy + result.friction_energy;
+        double work = 0.0;
+        aside(0.2, 0.15, x_0);
+        memset(force, 0, sizeof(force));
+        CHECK(abut_step(contact, 0.1, packed(x_1), packed(x_0), take, packed(force), &result, NULL) == ABUT_OK);
+        CHECK(result.sliding_faces == 2 && result.dissipated > 1e-3);
+        for (int i = 0; i < 2 * n_nodes; ++i) work += force[i] * (x_0[i] - x_1[i]);
+        if (take == ABUT_MEAN)
+            CHECK(fabs(work + result.energy + result.friction_energy - energy + result.dissipated) < 1e-16);
+        abut_report report = ABUT_REPORT_INIT;
+        CHECK(abut_get_report(contact, &report, NULL) == ABUT_OK);
+        CHECK(report.friction_dissipated >= result.dissipated && report.sliding_faces == 2 && report.sliding_faces_max == 2);
+        CHECK(report.sticking_faces_max == 2 && report.friction_ratio_max <= 1.0 + 1e-12 && report.least_dissipated > -1e-17);
+        CHECK(report.sliding_force > 0.0 && report.sliding_force <= report.sliding_limit * (1.0 + 1e-12));
+        abut_destroy(contact);
+    }
+}
+
+typedef struct Laws {
+    int32_t law, asked;
+    double mu;
+} Laws;
+static int32_t tells_law(int32_t face_1, int32_t face_2, void* user) {
+    Laws* laws = user;
+    laws->asked += face_1 == 2 && face_2 == 4;
+    return laws->law;
+}
+static double tells_mu(double speed, double slid, double pressure, void* user) {
+    (void)speed, (void)slid, (void)pressure;
+    return ((Laws*)user)->mu;
+}
+
+static void laws_of_friction_are_told_by_pair(void) {
+    abut_error error = ABUT_ERROR_INIT;
+    Laws laws = {0, 0, 0.25};
+    abut_options options;
+    abut_options_init(&options);
+    options.friction = 0.5;
+    abut_friction_law more[2];
+    for (int i = 0; i < 2; ++i)
+        more[i] = (abut_friction_law){0.125 * i, options.sliding_friction, options.decay_speed,
+                                      options.decay_slip, options.shear_strength, options.relaxation_time};
+    options.law_of = tells_law, options.laws = more, options.n_laws = 2, options.user = &laws;
+    const double mu[4] = {0.0, 0.5, 0.0, 0.125}; /* of law -1, 0, 1, 2 */
+    for (laws.law = -1; laws.law <= 2; ++laws.law) {
+        abut_contact* contact = rubbing(&options);
+        abut_face_friction faces[2];
+        int64_t n = 0;
+        CHECK(abut_friction(contact, faces, sizeof(faces[0]), 2, &n, &error) == ABUT_OK);
+        CHECK(n == (mu[laws.law + 1] > 0.0 ? 2 : 0));
+        if (n == 2) CHECK(fabs(faces[0].limit - mu[laws.law + 1] * faces[0].normal_force) < 1e-15);
+        abut_destroy(contact);
+    }
+    CHECK(laws.asked >= 4);
+    abut_faces faces = faces_from(0, corners, body);
+    faces.shear_stiffness = shear_stiffness;
+    double x[2 * n_nodes], y[2 * n_nodes];
+    lowered(0.0, x);
+    lowered(0.15, y);
+    abut_contact* contact = NULL;
+    laws.law = 3;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_OK);
+    CHECK(abut_step(contact, 1.0, packed(x), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "law_of gives 3") != NULL && error.allowed == 2.0);
+    abut_destroy(contact);
+
+    options.law_of = NULL;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "law_of"));
+    options.law_of = tells_law;
+    static const char* names[6] = {"friction", "sliding_friction", "decay_speed", "decay_slip", "shear_strength", "relaxation_time"};
+    for (int i = 0; i < 6; ++i) {
+        abut_friction_law wrong = more[1];
+        ((double*)&wrong)[i] = -7.0;
+        char text[64];
+        snprintf(text, sizeof(text), "laws: %s is -7", names[i]);
+        options.laws = &wrong, options.n_laws = 1;
+        CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, text));
+    }
+
+    options.law_of = NULL, options.laws = NULL, options.n_laws = 0, options.own_coefficient = tells_mu;
+    contact = rubbing(&options);
+    abut_face_friction of_faces[2];
+    int64_t n = 0;
+    CHECK(abut_friction(contact, of_faces, sizeof(of_faces[0]), 2, &n, &error) == ABUT_OK && n == 2);
+    CHECK(fabs(of_faces[0].limit - 0.25 * of_faces[0].normal_force) < 1e-15);
+    laws.mu = -0.25;
+    CHECK(abut_step(contact, 1.0, packed(y), packed(y), ABUT_MEAN, nothing, NULL, &error) == ABUT_BAD_INPUT);
+    CHECK(strstr(error.message, "own_coefficient is -0.25") != NULL);
+    abut_destroy(contact);
+}
+
+static void friction_goes_on_after_a_restore_with_the_same_bits(void) {
+    abut_options options;
+    abut_options_init(&options);
+    options.friction = 0.02;
+    abut_contact *contact = rubbing(&options), *again = rubbing(&options);
+    double x[2 * n_nodes], y[2 * n_nodes], z[2 * n_nodes], force[2 * n_nodes] = {0.0}, other[2 * n_nodes] = {0.0};
+    aside(0.0, 0.15, x);
+    aside(0.01, 0.15, y);
+    aside(0.012, 0.155, z);
+    CHECK(abut_step(contact, 0.1, packed(x), packed(y), ABUT_MEAN, nothing, NULL, NULL) == ABUT_OK);
+    char state[4096];
+    int64_t n = 0;
+    CHECK(abut_save(contact, state, sizeof(state), &n, NULL) == ABUT_OK && n <= (int64_t)sizeof(state));
+    CHECK(abut_restore(again, state, n, NULL) == ABUT_OK);
+    abut_step_result result = ABUT_STEP_RESULT_INIT, other_result = ABUT_STEP_RESULT_INIT;
+    CHECK(abut_step(contact, 0.1, packed(y), packed(z), ABUT_MEAN, packed(force), &result, NULL) == ABUT_OK);
+    CHECK(abut_step(again, 0.1, packed(y), packed(z), ABUT_MEAN, packed(other), &other_result, NULL) == ABUT_OK);
+    CHECK(memcmp(force, other, sizeof(force)) == 0 && memcmp(&result, &other_result, sizeof(result)) == 0);
+    CHECK(result.dissipated > 0.0);
+    abut_destroy(contact);
+    abut_destroy(again);
+}
+
 typedef struct {
     int wanted, cancelled, told;
     char text[512];
@@ -329,6 +494,11 @@ static void what_is_wrong_is_refused_by_name(void) {
     abut_options_init(&options);
     options.skin = -1.0;
     CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "skin is -1"));
+    abut_options_init(&options);
+    options.friction = -0.5;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "friction is -0.5"));
+    options.friction = 0.5;
+    CHECK(abut_create(2, packed(x), &faces, &options, &contact, &error) == ABUT_BAD_INPUT && strstr(error.message, "shear_stiffness"));
     CHECK(contact == NULL);
     CHECK(abut_step(NULL, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, &error) == ABUT_MISUSE);
     CHECK(abut_step(NULL, 1.0, packed(x), packed(x), ABUT_MEAN, nothing, NULL, NULL) == ABUT_MISUSE); /* nobody asks why */
@@ -425,6 +595,9 @@ int main(void) {
     mean_force_is_exact_for_energy();
     any_strides_and_bases();
     state_goes_on_with_the_same_bits();
+    friction_sticks_by_the_shear_in_series_and_slides_at_its_limit();
+    laws_of_friction_are_told_by_pair();
+    friction_goes_on_after_a_restore_with_the_same_bits();
     callbacks_are_called();
     a_contact_in_use_is_left_alone();
     a_force_that_ends_too_early_is_refused_before_the_step();

@@ -4,7 +4,7 @@ module test_host
   use, intrinsic :: iso_c_binding
   implicit none
   private
-  public :: never, cancels, listens, fresh_host
+  public :: never, cancels, listens, tells_law, tells_coefficient, fresh_host
 
   type, public :: host_type
     integer :: wanted, cancelled, told
@@ -41,6 +41,24 @@ contains
     cancels = merge(1, 0, host%cancelled > 1)
   end function
 
+  integer(c_int32_t) function tells_law(face_1, face_2, user) bind(c)
+    integer(c_int32_t), value :: face_1, face_2
+    type(c_ptr), value :: user
+    type(host_type), pointer :: host
+    host => host_of(user)
+    host%wanted = 10*face_1 + face_2
+    tells_law = 1
+  end function
+
+  real(c_double) function tells_coefficient(speed, slid, pressure, user) bind(c)
+    real(c_double), value :: speed, slid, pressure
+    type(c_ptr), value :: user
+    type(host_type), pointer :: host
+    host => host_of(user)
+    if (min(speed, slid) >= 0 .and. pressure > 0) host%told = host%told + 1
+    tells_coefficient = 0.375d0
+  end function
+
   subroutine listens(severity, text, user) bind(c)
     integer(c_int), value :: severity
     character(kind=c_char), intent(in) :: text(*)
@@ -72,6 +90,7 @@ program test_abut
     reshape([1, 2, 2, 3, 3, 4, 4, 1, 5, 6, 6, 7, 7, 8, 8, 5], [2, n_faces])
   integer(c_int32_t), target, save :: body(n_faces) = [1, 1, 1, 1, 2, 2, 2, 2]
   real(c_double), target, save :: depth(n_faces) = 0.1d0, stiffness(2) = [3.0d0, 6.0d0]  ! in series: 2
+  real(c_double), target, save :: shear_stiffness(2) = [1.0d0, 2.0d0]  ! in series: 2/3
   integer(c_int64_t), parameter :: zero = 0, one = 1, two = 2
   integer :: failures = 0
   type(abut_error) :: error
@@ -84,6 +103,8 @@ program test_abut
   call any_strides_are_read_and_written_in_place()
   call quadrangles_have_offsets()
   call state_goes_on_with_the_same_bits()
+  call friction_sticks_by_the_shear_in_series()
+  call laws_of_friction_are_told_by_pair()
   call surface_is_replaced()
   call callbacks_are_called()
   call what_is_wrong_is_refused_by_name()
@@ -318,6 +339,78 @@ contains
     call expect(abut_bad_input, abut_restore(again, bytes, 3_c_int64_t, error), 'too few bytes')
     call abut_destroy(contact)
     call abut_destroy(again)
+  end subroutine
+
+  ! Made with friction, and pressed in.
+  function rubbing(options) result(contact)
+    type(abut_options), target, intent(in) :: options
+    type(abut_faces) :: faces
+    type(c_ptr) :: contact
+    faces = abut_faces_of(corners, body, depth, stiffness, shear_stiffness)
+    call expect(abut_ok, abut_create(2, abut_points(rest), faces, c_loc(options), contact, error), 'with friction')
+    call expect(abut_ok, step(contact, rest, lowered(0.15d0)), 'a step that presses in')
+  end function
+
+  ! Both faces, of length 1, stick by half of the 2/3 of the pair.
+  subroutine friction_sticks_by_the_shear_in_series()
+    real(c_double), parameter :: s = 0.003d0, kappa = 2d0/3d0
+    real(c_double), target :: x(2, n_nodes)
+    type(abut_options), target :: options
+    type(abut_pair) :: pairs(1)
+    type(abut_face_friction) :: of_faces(2)
+    type(abut_report) :: report
+    type(c_ptr) :: contact
+    integer(c_int64_t) :: n
+    call abut_options_init(options)
+    options%friction = 0.5d0
+    contact = rubbing(options)
+    x = lowered(0.15d0)
+    x(1, 5:) = x(1, 5:) + s
+    call expect(abut_ok, step(contact, lowered(0.15d0), x), 'a step aside')
+    call check(abs(result%friction_energy - 0.5d0*kappa*s**2) < 1d-17 .and. abs(result%dissipated) < 1d-17, 'energy of stick')
+    call check(result%sticking_faces == 2 .and. result%sliding_faces == 0, 'both faces stick')
+    call expect(abut_ok, abut_pairs(contact, pairs, c_sizeof(pairs(1)), one, n, error), 'pairs with friction')
+    call check(all(abs(pairs(1)%friction - [-0.5d0*kappa*s, 0d0, 0d0]) < 1d-15), 'friction of a pair')
+    call check(all(abs(pairs(1)%slip - [s, 0d0, 0d0]) < 1d-15), 'slip of a pair')
+    call expect(abut_ok, abut_friction(contact, of_faces, c_sizeof(of_faces(1)), two, n, error), 'friction of faces')
+    call check(n == 2 .and. all(of_faces%face == [3, 5]), 'faces with friction')
+    call check(all(abs(of_faces%force - 0.25d0*kappa*s) < 1d-15) .and. all(of_faces%slip == 0), 'their force')
+    report = abut_new_report()
+    call expect(abut_ok, abut_get_report(contact, report, error), 'a report with friction')
+    call check(report%sticking_faces == 2 .and. report%sticking_faces_max == 2 .and. report%sliding_faces_max == 0, 'its faces')
+    call abut_destroy(contact)
+  end subroutine
+
+  subroutine laws_of_friction_are_told_by_pair()
+    type(abut_options), target :: options
+    type(abut_friction_law), target :: laws(1)
+    type(abut_face_friction) :: of_faces(2)
+    type(host_type), target :: host
+    type(c_ptr) :: contact
+    integer(c_int64_t) :: n
+    host = fresh_host()
+    call abut_options_init(options)
+    laws(1) = abut_friction_law(0.25d0, options%sliding_friction, options%decay_speed, options%decay_slip, &
+      options%shear_strength, options%relaxation_time)
+    options%law_of = c_funloc(tells_law)
+    options%laws = c_loc(laws)
+    options%n_laws = 1
+    options%user = c_loc(host)
+    contact = rubbing(options)
+    call check(host%wanted > 11, 'law_of counts faces from 1')
+    call expect(abut_ok, abut_friction(contact, of_faces, c_sizeof(of_faces(1)), two, n, error), 'friction of another law')
+    call check(n == 2 .and. all(abs(of_faces%limit - 0.25d0*of_faces%normal_force) < 1d-15), 'its coefficient')
+    call abut_destroy(contact)
+
+    options%law_of = c_null_funptr
+    options%laws = c_null_ptr
+    options%n_laws = 0
+    options%own_coefficient = c_funloc(tells_coefficient)
+    contact = rubbing(options)
+    call expect(abut_ok, abut_friction(contact, of_faces, c_sizeof(of_faces(1)), two, n, error), 'friction of an own law')
+    call check(n == 2 .and. all(abs(of_faces%limit - 0.375d0*of_faces%normal_force) < 1d-15), 'its own coefficient')
+    call check(host%told > 0, 'it is told speed, slip and pressure')
+    call abut_destroy(contact)
   end subroutine
 
   ! The upper body's lower face erodes.

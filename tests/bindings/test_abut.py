@@ -84,6 +84,53 @@ class Contact(unittest.TestCase):
         with self.assertRaises(abut.BadInput):
             contact.surface_replaced(REST, FACES[keep], BODY[keep], DEPTH[keep], [3.0, 6.0], [0, 0, 2, 3, 5, 6, 7])
 
+    def test_friction_sticks_by_the_shear_in_series_and_slides_at_its_limit(self):
+        s, kappa = 0.003, 2.0 / 3.0
+        aside, far = lowered(0.15), lowered(0.15)
+        aside[4:, 0] += s
+        far[4:, 0] += 0.2
+        for mode, force in (("mean", 0.5 * kappa * s), ("end", kappa * s)):
+            contact = made(friction=0.5, shear_stiffness=[1.0, 2.0])
+            contact.step(0.1, REST, lowered(0.15))
+            step = contact.step(0.1, lowered(0.15), aside, mode=mode)
+            self.assertAlmostEqual(step["friction_energy"], 0.5 * kappa * s**2, delta=1e-17)
+            self.assertEqual((step["sticking_faces"], step["sliding_faces"]), (2, 0))
+            np.testing.assert_allclose(contact.pairs["friction"][0], [-force, 0.0, 0.0], atol=1e-15)
+            np.testing.assert_allclose(contact.pairs["slip"][0], [s, 0.0, 0.0], atol=1e-15)
+            np.testing.assert_array_equal(contact.friction["face"], [2, 4])
+            np.testing.assert_allclose(contact.friction["force"], 0.5 * force, atol=1e-15)
+            step = contact.step(0.1, aside, far, mode=mode)
+            self.assertEqual(step["sliding_faces"], 2)
+            self.assertGreater(step["dissipated"], 1e-3)
+            self.assertGreaterEqual(contact.report["friction_dissipated"], step["dissipated"])
+
+    def test_laws_of_friction(self):
+        shear = dict(shear_stiffness=[1.0, 2.0])
+
+        def limit_over_force(**options):
+            contact = made(**shear, **options)
+            contact.step(0.1, REST, lowered(0.15))
+            faces = contact.friction
+            return faces["limit"][0] / faces["normal_force"][0] if len(faces) else 0.0
+
+        several = dict(friction=0.5, laws=[dict(friction=0.25), dict(friction=0.125)])
+        for law, mu in ((-1, 0.0), (0, 0.5), (1, 0.25), (2, 0.125)):
+            self.assertAlmostEqual(limit_over_force(law_of=lambda a, b: law, **several), mu, delta=1e-14)
+        self.assertAlmostEqual(limit_over_force(own_coefficient=lambda speed, slid, pressure: 0.375), 0.375, delta=1e-14)
+        for error, text, options in ((abut.BadInput, "law_of gives 3", dict(several, law_of=lambda a, b: 3)),
+                                     (abut.BadInput, "law_of", several),
+                                     (abut.BadInput, "laws: decay_slip is 0", dict(laws=[dict(friction=0.1, decay_slip=0.0)])),
+                                     (TypeError, "laws: there is no 'skin'", dict(laws=[dict(skin=0.1)])),
+                                     (TypeError, "not given a number", dict(several, law_of=lambda a, b: "first")),
+                                     (KeyError, "of the callback", dict(own_coefficient=lambda *_: {}["of the callback"])),
+                                     (abut.BadInput, "friction is -1", dict(friction=-1.0))):
+            with self.assertRaisesRegex(error, text):
+                limit_over_force(**options)
+        with self.assertRaisesRegex(abut.BadInput, "shear_stiffness"):
+            made(friction=0.5)
+        with self.assertRaisesRegex(ValueError, "shear_stiffness has 1 entries for 2 bodies"):
+            made(friction=0.5, shear_stiffness=[1.0])
+
     def test_callbacks(self):
         asked = []
         contact = made(wanted=lambda a, b: asked.append((a, b)) or False)
@@ -207,7 +254,8 @@ class Contact(unittest.TestCase):
 
     def test_options_out_of_range_are_refused_by_name(self):
         for option, value in dict(max_pairs=-5, skin=-1.0, largest_motion=0.0, compression_warning=math.nan,
-                                  compression_limit=-2.0).items():
+                                  compression_limit=-2.0, friction=-0.1, sliding_friction=-0.1, decay_speed=0.0, decay_slip=0.0,
+                                  shear_strength=-1.0, relaxation_time=0.0).items():
             with self.assertRaisesRegex(abut.BadInput, f"{option} is "):
                 made(**{option: value})
         for option, value in dict(facing_full=0.5, facing_none=0.5).items():

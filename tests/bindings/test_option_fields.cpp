@@ -53,11 +53,25 @@ TEST_CASE("abut_options_init sets the defaults of the table", "[bindings][option
     const contact::NodalOptions plain;
     for (const c_layer::OptionField& field : option_fields) {
         CAPTURE(field.name);
-        CHECK(c_layer::value_of(options, field) == named(contact::nodal_options(), field.name).get(plain));
+        CHECK(is_same(c_layer::value_of(options, field), named(contact::nodal_options(), field.name).get(plain)));
     }
     CHECK(options.struct_size == sizeof(options));
     CHECK(options.wanted == nullptr);
+    CHECK(options.law_of == nullptr);
+    CHECK(options.laws == nullptr);
+    CHECK(options.n_laws == 0);
+    CHECK(options.own_coefficient == nullptr);
     CHECK(options.cancel == nullptr);
     CHECK(options.log == nullptr);
     CHECK(options.user == nullptr);
+}
+
+TEST_CASE("options of friction make a law of all pairs where one is not the default", "[bindings][options]") {
+    contact::NodalOptions options;
+    for (const auto& option : contact::friction_options())
+        named(contact::nodal_options(), option.name).set(options, option.get(contact::Friction{}));
+    CHECK_FALSE(options.friction.any());
+    named(contact::nodal_options(), "friction").set(options, 0.3);
+    REQUIRE(options.friction.laws.size() == 1);
+    CHECK(options.friction.laws.front().coefficient == 0.3);
 }

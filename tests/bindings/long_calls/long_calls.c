@@ -1,4 +1,4 @@
-/* long_calls [rounds]: a million rounds of step, pairs, report and state take no more memory than the first 10,000.
+/* long_calls [rounds]: a million rounds of step, pairs, friction, report and state take no more memory than the first 10,000.
    Each tenth round has a step that is refused and goes on from its state, each thousandth makes the contact again.
 
    One page more is allowed, for buffers of the C library: a block of malloc has 32 bytes at least, so that one lost in each
@@ -26,21 +26,26 @@ static long own_memory(void) {
     return kilobytes;
 }
 
-/* Two unit squares one over the other, the upper one lowered by so much. */
-static void place(double by, double* x) {
+/* Two unit squares one over the other, the upper one lowered by so much and moved aside, so that it rubs. */
+static void place(double by, double aside, double* x) {
     static const double square[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0};
-    for (int i = 0; i < 8; ++i) x[i] = square[i], x[8 + i] = square[i] + (i % 2 == 0 ? 0.2 : 1.1 - by);
+    for (int i = 0; i < 8; ++i) x[i] = square[i], x[8 + i] = square[i] + (i % 2 == 0 ? 0.2 + aside : 1.1 - by);
 }
 
 static abut_contact* made(abut_array rest) {
     static const int32_t corners[2 * n_faces] = {0, 1, 1, 2, 2, 3, 3, 0, 4, 5, 5, 6, 6, 7, 7, 4};
     static const int32_t body[n_faces] = {0, 0, 0, 0, 1, 1, 1, 1};
     static const double depth[n_faces] = {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}, stiffness[2] = {3.0, 6.0};
+    static const double shear_stiffness[2] = {1.0, 2.0};
+    abut_options options;
+    abut_options_init(&options);
+    options.friction = 0.3;
     abut_faces faces = ABUT_FACES_INIT;
     faces.n_faces = n_faces, faces.nodes = corners, faces.n_nodes = 2 * n_faces, faces.body = body;
     faces.depth = depth, faces.stiffness = stiffness, faces.n_bodies = 2;
+    faces.shear_stiffness = shear_stiffness;
     abut_contact* contact = NULL;
-    abut_create(2, rest, &faces, NULL, &contact, NULL);
+    abut_create(2, rest, &faces, &options, &contact, NULL);
     return contact;
 }
 
@@ -51,15 +56,15 @@ int main(int argc, char** argv) {
     double x[4][2 * n_nodes], broken[2 * n_nodes], force[2 * n_nodes];
     abut_array at[4];
     for (int i = 0; i < 4; ++i) {
-        place(lowered[i], x[i]);
+        place(lowered[i], 0.05 * (i % 2), x[i]);
         at[i] = (abut_array){x[i], n_nodes, 2, 1};
     }
-    place(0.0, broken);
+    place(0.0, 0.0, broken);
     broken[11] = (double)NAN;
     const abut_array not_finite = {broken, n_nodes, 2, 1}, f = {force, n_nodes, 2, 1};
 
     abut_contact* contact = NULL;
-    int64_t pairs_seen = 0, refused = 0, n = 0;
+    int64_t pairs_seen = 0, faces_seen = 0, refused = 0, n = 0;
     long warm = 0;
     for (long round = 0; round < rounds; ++round) {
         if (round == warm_up) warm = own_memory();
@@ -72,6 +77,7 @@ int main(int argc, char** argv) {
         abut_step_result result = ABUT_STEP_RESULT_INIT;
         abut_report report = ABUT_REPORT_INIT;
         abut_pair pairs[4];
+        abut_face_friction faces[8];
         unsigned char state[state_capacity];
         const abut_array from = at[round % 4], to = at[(round + 1) % 4];
         const int is_tenth = round % 10 == 9;
@@ -83,6 +89,8 @@ int main(int argc, char** argv) {
             return 1;
         }
         pairs_seen += n;
+        if (abut_friction(contact, faces, sizeof(abut_face_friction), 8, &n, &error) != ABUT_OK) return puts(error.message), 1;
+        faces_seen += n;
         if (abut_save(contact, state, state_capacity, &n, &error) != ABUT_OK || n > state_capacity ||
             (is_tenth && abut_restore(contact, state, n, &error) != ABUT_OK)) {
             printf("round %ld: state of %" PRId64 " bytes: %s\n", round, n, error.message);
@@ -91,7 +99,7 @@ int main(int argc, char** argv) {
     }
     const long growth = own_memory() - warm;
     abut_destroy(contact);
-    printf("%ld rounds, %" PRId64 " pairs, %" PRId64 " refused: %ld kB more than the %ld kB after %ld rounds\n", rounds,
-           pairs_seen, refused, growth, warm, warm_up);
-    return refused == rounds / 10 && pairs_seen > rounds / 2 && (rounds < 100000 || growth <= 4) ? 0 : 1;
+    printf("%ld rounds, %" PRId64 " pairs, %" PRId64 " faces with friction, %" PRId64 " refused: %ld kB more than the %ld kB after %ld rounds\n", rounds,
+           pairs_seen, faces_seen, refused, growth, warm, warm_up);
+    return refused == rounds / 10 && pairs_seen > rounds / 2 && faces_seen > rounds / 2 && (rounds < 100000 || growth <= 4) ? 0 : 1;
 }

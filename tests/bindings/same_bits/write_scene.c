@@ -1,11 +1,12 @@
-/* write_scene <scene>: two cubes of 4 x 4 quadrangles a side; the upper one presses, slides, turns, wobbles, leaves and
+/* write_scene <scene> <friction>: two cubes of 4 x 4 quadrangles a side; the upper one presses, slides, turns, wobbles, leaves and
    comes again. All drivers read the same doubles, so that no sine of a language differs.
 
    Little-endian: int32 nodes, faces and steps; int32 corners[faces][4] and body[faces], from 0; doubles depth[faces],
-   stiffness[2] and positions[steps + 1][nodes][3]. */
+   stiffness[2], shear_stiffness[2], friction and positions[steps + 1][nodes][3]. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 enum { side = 4, edge = side + 1, cube_nodes = edge * edge * edge, cube_faces = 6 * side * side };
 enum { n_nodes = 2 * cube_nodes, n_faces = 2 * cube_faces, n_steps = 200 };
@@ -22,8 +23,8 @@ static int32_t corner(int cube, int axis, int up, int s, int t) {
 }
 
 int main(int argc, char** argv) {
-    FILE* file = argc == 2 ? fopen(argv[1], "wb") : NULL;
-    if (file == NULL) return perror("write_scene <scene>"), 1;
+    FILE* file = argc == 3 ? fopen(argv[1], "wb") : NULL;
+    if (file == NULL) return perror("write_scene <scene> <friction>"), 1;
     static int32_t corners[n_faces][4], body[n_faces];
     static double depth[n_faces], x[n_nodes][3];
     int face = 0;
@@ -40,12 +41,14 @@ int main(int argc, char** argv) {
                     depth[face] = 0.5 / side;
                 }
     const int32_t head[3] = {n_nodes, n_faces, n_steps};
-    const double stiffness[2] = {3.0, 6.0};
+    const double stiffness[2] = {3.0, 6.0}, shear_stiffness[2] = {1.0, 2.0}, friction = atof(argv[2]);
     fwrite(head, sizeof(head), 1, file);
     fwrite(corners, sizeof(corners), 1, file);
     fwrite(body, sizeof(body), 1, file);
     fwrite(depth, sizeof(depth), 1, file);
     fwrite(stiffness, sizeof(stiffness), 1, file);
+    fwrite(shear_stiffness, sizeof(shear_stiffness), 1, file);
+    fwrite(&friction, sizeof(friction), 1, file);
     for (int step = 0; step <= n_steps; ++step) {
         const double t = 6.283185307179586 * step / n_steps;
         for (int i = 0; i < n_nodes; ++i) {
