@@ -53,9 +53,11 @@ typedef struct abut_solid_options {
     double dt;      /* 0: cfl times the stable step */
     double cfl;     /* 0: 0.9 */
     int32_t contact; /* 0: bodies pass through each other */
-    int32_t restart; /* steps from one neutral restart to the next; 0: none. Where tractions answer to the motion of a step: 20 */
+    int32_t restart; /* steps from one neutral restart to the next; 0: none, with friction 10. Where tractions answer to the motion
+                        of a step: 20 */
+    double friction; /* coefficient between all bodies; the neutral filter acts with it. 0: none */
 } abut_solid_options;
-#define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0}
+#define ABUT_SOLID_OPTIONS_INIT {sizeof(abut_solid_options), 0.0, 0.9, 1, 0, 0.0}
 /* Makes the solid and its integrator, MEMM; after an error the same can be tried again. `options` may be NULL. */
 ABUT_API int abut_solid_begin(abut_solid* solid, const abut_solid_options* options, abut_error* error);
 
@@ -86,7 +88,7 @@ ABUT_API int abut_solid_set_step(abut_solid* solid, double dt, int32_t change, a
 /* After ABUT_TOO_DEEP or ABUT_DIVERGED the run is over. */
 ABUT_API int abut_solid_step(abut_solid* solid, abut_error* error);
 
-/* H~ + work_held = its start + work_steps + work_changes + restart_jumps, to round-off. */
+/* H~ + work_held + dissipated = its start + work_steps + work_changes + restart_jumps, to round-off. */
 typedef struct abut_solid_state {
     size_t struct_size;
     int64_t steps;
@@ -103,8 +105,13 @@ typedef struct abut_solid_state {
     double parasitic;        /* largest |e|/m: the alternating mode, as a velocity */
     int64_t active_pairs;    /* of contact, in the last step */
     int64_t missed_contacts; /* must stay 0 */
+    double dissipated;       /* by friction so far */
+    double friction_energy;  /* held by faces that stick, a part of H~ and H */
+    int64_t sticking_faces;  /* in the last step */
+    int64_t sliding_faces;
 } abut_solid_state;
-#define ABUT_SOLID_STATE_INIT {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0}
+#define ABUT_SOLID_STATE_INIT \
+    {sizeof(abut_solid_state), 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0.0, 0.0, 0, 0}
 /* Costs about two forces. */
 ABUT_API int abut_solid_get_state(abut_solid* solid, abut_solid_state* state, abut_error* error);
 

@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "abut/contact/option_table.hpp"
+#include "abut/dynamics/filter.hpp"
 #include "abut/dynamics/ledger.hpp"
 #include "abut/dynamics/memm.hpp"
 #include "abut/dynamics/neutral_restart.hpp"
@@ -29,6 +31,9 @@ using namespace abut;
 using namespace abut::c_layer;
 
 namespace {
+
+/// Without it the slip of faces that vibrate alternates from step to step, and friction vanishes (docs/filter.md).
+constexpr int restart_with_friction = 10;
 
 /// What has been added so far, and then the run.
 template <int Dim>
@@ -71,6 +76,7 @@ private:
     mesh::Mesh<Dim> mesh_;
     std::optional<solid::Solid<Dim>> solid_;
     std::optional<dynamics::Memm<solid::Solid<Dim>>> memm_;
+    std::optional<dynamics::NeutralFilter<solid::Solid<Dim>>> filter_;
     std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
     double stable_dt_ = 0.0;
 };
@@ -80,9 +86,11 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     if (meshes_.empty()) throw Misuse("abut_solid_begin: there is no body. Add one by abut_solid_add_box or _add_file.");
     if (!(given.dt >= 0.0) || !(given.cfl >= 0.0) || given.restart < 0)
         throw BadInput("abut_solid_options: dt, cfl and restart must be 0 or more.", {.allowed = 0.0});
+    check_value("abut_solid_options: ", named(contact::friction_options(), "friction"), given.friction, 0.0);
     memm_.reset();
     mesh_ = mesh::combine<Dim>(std::span<const mesh::Mesh<Dim>>(meshes_));
     solid::SolidOptions<Dim> options = options_;
+    options.friction.coefficient = given.friction;
     if (given.contact != 0) {
         options.contact = contact::ContactOptions{};
         mesh::check_apart(mesh_, "", options.contact->search.broad_phase);
@@ -91,8 +99,14 @@ void SolidRun<Dim>::begin(const abut_solid_options& given) {
     stable_dt_ = dynamics::stable_step(*solid_).dt;
     const double dt = given.dt > 0.0 ? given.dt : (given.cfl > 0.0 ? given.cfl : 0.9) * stable_dt_;
     memm_.emplace(*solid_, std::vector<double>(solid_->size(), 0.0), solid::uniform_momentum<Dim>(*solid_, velocity_), dt);
-    if (given.restart == 0) return;
-    restart_.emplace(*solid_, dynamics::RestartOptions{.period = given.restart});
+    const bool rubs = given.contact != 0 && given.friction > 0.0;
+    if (rubs) {
+        filter_.emplace(*solid_);
+        memm_->set_after_step([this](auto q, double step, auto before, auto after) { (*filter_)(q, step, before, after); });
+    }
+    const int period = given.restart == 0 && rubs ? restart_with_friction : given.restart;
+    if (period == 0) return;
+    restart_.emplace(*solid_, dynamics::RestartOptions{.period = period});
     memm_->set_node_restart([this](auto q, double step, auto before, auto after) { (*restart_)(q, step, before, after); });
 }
 
@@ -137,7 +151,11 @@ void SolidRun<Dim>::write_state(abut_solid_state& state) {
              .restart_jumps = entry.restart_jumps,
              .parasitic = entry.parasitic,
              .active_pairs = entry.active_pairs,
-             .missed_contacts = solid_->contact_report().missed_contacts};
+             .missed_contacts = solid_->contact_report().missed_contacts,
+             .dissipated = entry.dissipated,
+             .friction_energy = entry.friction_energy,
+             .sticking_faces = entry.sticking_faces,
+             .sliding_faces = entry.sliding_faces};
 }
 
 template <int Dim>

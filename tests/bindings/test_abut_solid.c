@@ -86,6 +86,38 @@ static void a_pressed_bar_gives_way_and_gets_the_work(void) {
     abut_solid_destroy(solid);
 }
 
+/* A block that comes down aslant on a clamped one, and rubs. */
+static void friction_takes_what_the_balance_says(void) {
+    for (int rubs = 0; rubs < 2; ++rubs) {
+        abut_error error = ABUT_ERROR_INIT;
+        abut_solid* solid = NULL;
+        const double lower[2] = {0.0, 0.0}, upper[2] = {2.0, 0.5}, above[2] = {0.5, 0.51}, end[2] = {1.1, 0.81}, v[2] = {0.1, -0.1};
+        const int32_t counts[2] = {12, 3}, others[2] = {5, 3};
+        CHECK(abut_solid_create(2, &solid, &error) == ABUT_OK);
+        CHECK(abut_solid_add_box(solid, "floor", lower, upper, counts, material, NULL, &error) == ABUT_OK);
+        CHECK(abut_solid_add_box(solid, "block", above, end, others, material, v, &error) == ABUT_OK);
+        CHECK(abut_solid_clamp(solid, "floor.ymin", &error) == ABUT_OK);
+        abut_solid_options options = ABUT_SOLID_OPTIONS_INIT;
+        options.friction = -0.3;
+        CHECK(abut_solid_begin(solid, &options, &error) == ABUT_BAD_INPUT && strstr(error.message, "friction is -0.3"));
+        options.friction = 0.3 * rubs;
+        CHECK(abut_solid_begin(solid, &options, &error) == ABUT_OK);
+        abut_solid_state start = ABUT_SOLID_STATE_INIT, state = ABUT_SOLID_STATE_INIT;
+        CHECK(abut_solid_get_state(solid, &start, &error) == ABUT_OK);
+        int64_t sticking = 0, sliding = 0;
+        for (int i = 0; i < 80; ++i) {
+            CHECK(abut_solid_step(solid, &error) == ABUT_OK);
+            CHECK(abut_solid_get_state(solid, &state, &error) == ABUT_OK);
+            sticking += state.sticking_faces, sliding += state.sliding_faces;
+            CHECK(fabs(state.pseudo_energy + state.dissipated - start.pseudo_energy) < 1e-12 * start.kinetic);
+            CHECK(state.friction_energy >= 0.0 && (rubs || state.friction_energy == 0.0));
+        }
+        CHECK((sliding > 0) == rubs && (sticking > 0) == rubs && state.missed_contacts == 0);
+        CHECK(rubs ? state.dissipated > 1e-3 * start.kinetic : state.dissipated == 0.0);
+        abut_solid_destroy(solid);
+    }
+}
+
 static void what_cannot_be_is_refused(void) {
     abut_error error = ABUT_ERROR_INIT;
     abut_solid* solid = NULL;
@@ -165,6 +197,7 @@ static void a_file_brings_bodies_and_groups(const char* folder) {
 
 int main(int argc, char** argv) {
     a_pressed_bar_gives_way_and_gets_the_work();
+    friction_takes_what_the_balance_says();
     what_cannot_be_is_refused();
     a_file_brings_bodies_and_groups(argc > 1 ? argv[1] : ".");
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
