@@ -35,7 +35,7 @@ std::string length_range() { return number(least_length) + " to " + number(large
     refuse("face " + std::to_string(face) + " " + what, of_face);
 }
 
-/// FacetCorners of the faces of a host, checked as they are read.
+/// Corners of the faces of a host, checked as they are read.
 template <int Dim>
 class HostFaces {
 public:

@@ -7,12 +7,6 @@
 #include "abut/geometry/plane_frame.hpp"
 
 namespace abut::contact {
-namespace {
-
-/// How the slip of a pair, that of face 2 past face 1, is seen from a side (0 or 1).
-constexpr double sign_of(std::size_t side) { return side == 0 ? -1.0 : 1.0; }
-
-}  // namespace
 
 template <int Dim>
 geometry::Tangents<Dim> FaceFrictionLaw<Dim>::tangents(const SurfaceView<Dim>& surface, const Pair& pair, std::size_t side) {

@@ -9,9 +9,6 @@
 namespace abut::contact {
 namespace {
 
-/// How the slip of a pair, that of face 2 past face 1, is seen from a face (0 or 1).
-constexpr double sign_of(std::size_t face) { return face == 0 ? -1.0 : 1.0; }
-
 /// Index of a value in a sorted range; -1: it is not there.
 template <class Range, class Value, class Key>
 std::int32_t index_of(const Range& range, const Value& value, const Key& key) {
