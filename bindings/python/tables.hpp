@@ -42,7 +42,11 @@ inline py::dict report_of(const contact::ContactReport& report) {
                     "events"_a = report.events, "rebuilds"_a = report.rebuilds, "missed_contacts"_a = report.missed_contacts,
                     "inadmissible_overlaps"_a = report.inadmissible_overlaps, "compressed_steps"_a = report.compressed_steps,
                     "compression_max"_a = report.compression_max, "tilted_pairs_max"_a = report.tilted_pairs_max,
-                    "slipped_pairs"_a = report.slipped_pairs, "sliding_ratio_max"_a = report.sliding_ratio_max);
+                    "slipped_pairs"_a = report.slipped_pairs, "sliding_ratio_max"_a = report.sliding_ratio_max,
+                    "friction_dissipated"_a = report.friction_dissipated, "least_dissipated"_a = report.least_dissipated,
+                    "friction_ratio_max"_a = report.friction_ratio_max, "sliding_force"_a = report.sliding_force,
+                    "sliding_limit"_a = report.sliding_limit, "sticking_faces_max"_a = report.sticking_faces_max,
+                    "sliding_faces_max"_a = report.sliding_faces_max);
 }
 
 /// `motion`: of the centroids over the next step [m].

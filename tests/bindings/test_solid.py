@@ -146,6 +146,33 @@ class Runs(unittest.TestCase):
             ledger = result["ledger"]
             self.assertLess(np.ptp(ledger["pseudo_energy"] - ledger["work"]), 1e-13 * ledger["energy"][0])
 
+    def test_friction_is_an_option_and_its_balance_is_in_the_ledger(self):
+        def thrown(**options):
+            return dict(materials=[solid.Material()] * 2, velocity=[(0.0, 0.0), (0.1, -0.1)], **options)
+        mesh, sticking = two_boxes(), []
+        for options in ({}, dict(friction=1.0), dict(law="reconstruction"), dict(kinematics="floating"), dict(sliding_friction=0.1, decay_slip=0.01)):
+            result = solid.simulate(mesh, **thrown(**{"friction": 0.3, **options}), steps=120, interval=1)
+            ledger, contact = result["ledger"], result["contact"]
+            scale = ledger["energy"][0]
+            self.assertGreater(ledger["dissipated"][-1], 1e-4 * scale)
+            self.assertEqual(ledger["dissipated"][-1], contact["friction_dissipated"])
+            self.assertGreater(ledger["friction_energy"].max(), 0.0)
+            self.assertEqual(ledger["sliding_faces"].max(), contact["sliding_faces_max"])
+            self.assertGreater(contact["sliding_faces_max"], 0)
+            sticking.append(contact["sticking_faces_max"])
+            self.assertLess(contact["friction_ratio_max"], 1.0 + 1e-12)
+            kept = ledger["pseudo_energy"] + ledger["dissipated"] - ledger["work"] - ledger["restart_jumps"]
+            self.assertLess(np.ptp(kept), 1e-12 * scale)
+        self.assertGreater(max(sticking), 0)
+        memm = solid.memm(mesh, **thrown(friction=0.3))
+        memm.step(60)
+        memm.record()
+        self.assertEqual(memm.ledger["dissipated"][-1], memm.contact["friction_dissipated"])
+        without = solid.simulate(mesh, **thrown(), steps=60)["ledger"]
+        self.assertEqual((without["dissipated"][-1], without["friction_energy"].max()), (0.0, 0.0))
+        with self.assertRaisesRegex(ValueError, "friction: -1"):
+            solid.simulate(mesh, **thrown(friction=-1.0), steps=1)
+
     def test_bodies_move_as_their_kinematics_say_in_one_call_and_step_by_step(self):
         def struck(**options):
             return dict(materials=[solid.Material()] * 2, velocity=[(0.0, 0.0), (0.0, -0.1)], **options)
