@@ -12,7 +12,7 @@ namespace abut::contact {
 /// force is.
 struct Sliding {
     double speed;     ///< of the motion past the faces that press on it, mean over the time in which they do [m/s]
-    double slid;      ///< path that it has slid since it was pressed on, at the start of the step [m]
+    double slid;      ///< path that it has slid until the start of the step [m]
     double pressure;  ///< mean normal force over the area in contact [Pa]
 };
 

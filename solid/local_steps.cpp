@@ -12,6 +12,7 @@
 #include "abut/base/sort_unique.hpp"
 #include "abut/dynamics/mode_search.hpp"
 #include "abut/solid/solid.hpp"
+#include "abut/solid/local_step_checks.hpp"
 
 namespace abut::solid {
 namespace {
@@ -236,6 +237,8 @@ std::vector<std::int32_t> contact_cells(Solid<Dim>& solid) {
 template <int Dim>
 SolidLocalSteps local_steps(Solid<Dim>& solid, const dynamics::StableStep& stable, const LocalStepOptions& options) {
     dynamics::refuse_ranks(solid.ranks(), {{"local steps"}});
+    require_local_steps(solid.mesh().name, solid.options(),
+                        !solid.options().contact || (solid.contact() && !solid.options().has_friction()));
     const auto& [most_levels, contact_margin, contact_levels] = options;
     if (most_levels < 1 || most_levels > 20 || contact_margin < 0 || contact_levels < 0 || contact_levels > 10)
         throw BadInput("local steps: " + std::to_string(most_levels) + " levels, a margin of " +

@@ -11,6 +11,7 @@
 #include "abut/solid/largest_motion.hpp"
 #include "abut/solid/loads.hpp"
 #include "abut/solid/local_levels.hpp"
+#include "abut/solid/local_step_checks.hpp"
 #include "abut/solid/outside_loads.hpp"
 #include "abut/solid/point_loads.hpp"
 #include "abut/solid/rank_part.hpp"
@@ -193,11 +194,7 @@ void Solid<Dim>::end_step(double time) {
 template <int Dim>
 void Solid<Dim>::set_levels(std::int32_t n_levels, std::span<const std::int32_t> level) {
     dynamics::refuse_ranks(ranks(), {{"local steps"}});
-    if (frames_->any_turns() || bodies_->any_rigid() || bodies_->any_finite() || (contact_ && !contact_->makes_parts()))
-        throw BadInput(mesh_.name +
-                       ": local steps are for bodies of Kinematics::small under the modified reconstruction, without friction: the frame of a "
-                       "body couples all of its cells, and forces inside a body of Kinematics::finite are not linear. Take "
-                       "one step for all (memm), or other kinematics and law.");
+    require_local_steps(mesh_.name, options_, !contact_ || contact_->makes_parts());
     if (options_.precision == Precision::single_precision)
         throw BadInput(mesh_.name +
                        ": local steps are made in double precision alone. Take Precision::double_precision "

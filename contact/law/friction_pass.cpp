@@ -24,11 +24,12 @@ Memory<N> memory_of(const StickState<N>& state) {
     return memory;
 }
 
-/// Nothing presses on the facet any more: what its spring holds is lost, and the direction is kept.
+/// Nothing presses on the facet any more: what its spring holds is lost. The direction is kept, and the path: faces that vibrate
+/// open for a step or two.
 template <int N>
 double let_go(StickState<N>& state) {
     const double lost = state.energy();
-    state = {.direction = state.direction};
+    state = {.direction = state.direction, .slid = state.slid};
     return lost;
 }
 

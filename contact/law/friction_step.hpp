@@ -17,7 +17,7 @@ struct StickState {
     Along<N> stretch = Along<N>::Zero();    ///< s_e, of the spring by which the face sticks [m]
     Along<N> direction = Along<N>::Zero();  ///< m: the force over its limit when it was last known [-], |m| <= 1
     double stiffness = 0.0;                 ///< K [N/m]; 0: nothing presses on the face
-    double slid = 0.0;                      ///< path that it has slid since something does [m]
+    double slid = 0.0;                      ///< path that it has slid so far [m]
 
     [[nodiscard]] double energy() const { return 0.5 * stiffness * stretch.squaredNorm(); }
 };

@@ -270,7 +270,9 @@ def what_cannot_be_is_refused(programs):
                           (keys(contact__sliding_friction=0.1), "decay_speed"),
                           (["--set", 'contact.pairs=[{bodies=["block", "roof"], friction=0.1}]'], "roof"),
                           (["--set", 'contact.pairs=[{friction=0.1}]'], "bodies"),
-                          (["--integrator", "memm_async", "--kinematics", "small"], "friction")):
+                          (["--integrator", "memm_async", "--kinematics", "small"], "friction"),
+                          ([*keys(contact__friction=0), "--integrator", "memm_async", "--kinematics", "rigid"], "local steps"),
+                          (["--integrator", "bilbao", "--kinematics", "small"], "friction")):
         done = run(programs, "block.toml", *options)
         require(done.code == 1 and word in done.said, f"{options}: {done.said}")
 
