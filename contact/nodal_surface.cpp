@@ -106,7 +106,7 @@ public:
     }
 
     [[nodiscard]] bool has_shear_stiffness() const {
-        return !faces_.shear_stiffness.empty() && faces_.face_stiffness.empty() == faces_.face_shear_stiffness.empty();
+        return !faces_.face_shear_stiffness.empty() || (!faces_.shear_stiffness.empty() && faces_.face_stiffness.empty());
     }
     [[nodiscard]] double shear_stiffness(std::int32_t face) const {
         if (stiffness(face) == rigid) return rigid;

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "abut/base/messages.hpp"
+#include "abut/contact/option_table.hpp"
 #include "abut/ranks/mpi.hpp"
 
 namespace abut::ranks {
@@ -49,10 +50,17 @@ std::vector<NamedValue> named_values(const contact::NodalOptions& options) {
         {"the option compression_warning", options.compression_warning},
         {"the option compression_limit", options.compression_limit},
         {"the number of functions `wanted`", options.wanted ? 1.0 : 0.0},
+        {"the number of functions friction.law_of", options.friction.law_of ? 1.0 : 0.0},
+        {"the number of laws in friction.laws", static_cast<double>(options.friction.laws.size())},
         {"the number of pairs in search.ignored_bodies", static_cast<double>(search.ignored_bodies.size())}};
     for (const auto& [body_1, body_2] : search.ignored_bodies) {
         values.push_back({"a body in search.ignored_bodies", static_cast<double>(body_1)});
         values.push_back({"a body in search.ignored_bodies", static_cast<double>(body_2)});
+    }
+    for (const contact::Friction& law : options.friction.laws) {
+        for (const Option<contact::Friction>& option : contact::friction_options())
+            values.push_back({"the option " + option.name + " of a law of friction", std::get<double>(option.get(law))});
+        values.push_back({"the number of functions own_coefficient of a law", law.own_coefficient ? 1.0 : 0.0});
     }
     return values;
 }

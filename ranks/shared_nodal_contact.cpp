@@ -60,7 +60,7 @@ public:
             if (gets_force(node) && checks_.is_deformable(node))
                 step_.least_force_size = std::max(step_.least_force_size, numbers_.own_node[node] + 1);
     }
-    Implementation(const Implementation&) = delete;  // `wanted` has a view of the numbers
+    Implementation(const Implementation&) = delete;  // `wanted` and `law_of` have views of the numbers
 
     const NodalStep<Dim>& step(double dt, PointsView<Dim> x_0, PointsView<Dim> x_1, contact::TakenForce take) {
         const Look seen = look(dt, x_0, x_1);
@@ -146,6 +146,10 @@ private:
         if (options.wanted)
             options.wanted = [this, wanted = std::move(options.wanted)](Face face_1, Face face_2) {
                 return wanted(number_of_face(face_1), number_of_face(face_2));
+            };
+        if (auto& law_of = options.friction.law_of)
+            law_of = [this, by_number = std::move(law_of)](Face face_1, Face face_2) {
+                return by_number(number_of_face(face_1), number_of_face(face_2));
             };
         return options;
     }
@@ -252,6 +256,8 @@ private:
             pair.face_1 = number_of_face(pair.face_1);
             pair.face_2 = number_of_face(pair.face_2);
         }
+        step_.friction = found.friction;
+        for (contact::FaceFriction& of_face : step_.friction) of_face.face = number_of_face(of_face.face);
         step_.bodies = found.bodies;
         step_.body_pairs = found.body_pairs;
         step_.energy_0 = found.energy_0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -11,6 +13,8 @@
 
 namespace abut::ranks {
 namespace {
+
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 template <int Dim>
 constexpr int most_corners = Dim == 2 ? 2 : 4;
@@ -30,6 +34,7 @@ struct GatheredFace {
     std::int32_t body;
     std::array<std::int32_t, most_corners<Dim>> corners;  // node numbers; -1: none
     double depth, stiffness;
+    double shear_stiffness;  // NaN: the rank has given none
 };
 
 [[nodiscard]] std::string at_rank(int rank) { return " on rank " + std::to_string(rank); }
@@ -150,7 +155,7 @@ void check_kind_of_numbers(const Communicator& communicator, std::size_t n_faces
 /// This rank's faces as they are sent: integers, then values.
 template <int Dim>
 struct PackedFaces {
-    static constexpr int n_integers = 2 + most_corners<Dim>, n_values = 2;
+    static constexpr int n_integers = 2 + most_corners<Dim>, n_values = 3;
     std::vector<std::int32_t> integers;
     std::vector<double> values;
 
@@ -168,6 +173,9 @@ struct PackedFaces {
                                                    : -1);
             values.push_back(faces.depth[face]);
             values.push_back(faces.face_stiffness.empty() ? faces.stiffness[body] : faces.face_stiffness[face]);
+            values.push_back(!faces.face_shear_stiffness.empty() ? faces.face_shear_stiffness[face]
+                             : !faces.shear_stiffness.empty() && faces.face_stiffness.empty() ? faces.shear_stiffness[body]
+                                                                                              : not_given);
         }
     }
 };
@@ -181,16 +189,18 @@ std::vector<GatheredFace<Dim>> gather_faces(const Communicator& communicator, co
     std::vector<GatheredFace<Dim>> faces;
     for (int rank = 0; rank < communicator.size(); ++rank) {
         const auto of_rank = integers.from(rank);
-        const auto depths = values.from(rank);
+        const auto of_faces = values.from(rank);
         for (std::size_t i = 0; i * own.n_integers < of_rank.size(); ++i) {
             const auto packed = of_rank.subspan(i * own.n_integers, own.n_integers);
+            const auto numbers = of_faces.subspan(i * own.n_values, own.n_values);
             const auto next = static_cast<std::int32_t>(faces.size());
             GatheredFace<Dim>& face = faces.emplace_back(GatheredFace<Dim>{.number = packed[0] < 0 ? next : packed[0],
                                                                            .rank = rank,
                                                                            .local = static_cast<std::int32_t>(i),
                                                                            .body = packed[1],
-                                                                           .depth = depths[2 * i],
-                                                                           .stiffness = depths[2 * i + 1]});
+                                                                           .depth = numbers[0],
+                                                                           .stiffness = numbers[1],
+                                                                           .shear_stiffness = numbers[2]});
             std::ranges::copy(packed.subspan(2), face.corners.begin());
         }
     }
@@ -210,7 +220,7 @@ template <int Dim>
 contact::NodalSurface<Dim> make_surface(std::span<const Vector<Dim>> rest, std::span<const GatheredFace<Dim>> faces,
                                         std::span<const double> stiffness, SharedNumbers& numbers) {
     std::vector<std::int32_t> nodes, offsets{0}, body;
-    std::vector<double> depth, face_stiffness;
+    std::vector<double> depth, face_stiffness, face_shear_stiffness;
     for (const GatheredFace<Dim>& face : faces) {
         for (const std::int32_t corner : face.corners)
             if (corner >= 0) nodes.push_back(index_of(numbers.node, corner));
@@ -218,15 +228,18 @@ contact::NodalSurface<Dim> make_surface(std::span<const Vector<Dim>> rest, std::
         body.push_back(face.body);
         depth.push_back(face.depth);
         face_stiffness.push_back(face.stiffness);
+        face_shear_stiffness.push_back(face.shear_stiffness);
         numbers.face.push_back(face.number);
     }
+    if (std::ranges::any_of(face_shear_stiffness, [](double k) { return std::isnan(k); })) face_shear_stiffness.clear();
     return {rest,
             {.nodes = nodes,
              .offsets = offsets,
              .body = body,
              .depth = depth,
              .stiffness = stiffness,
-             .face_stiffness = face_stiffness}};
+             .face_stiffness = face_stiffness,
+             .face_shear_stiffness = face_shear_stiffness}};
 }
 
 std::vector<NamedValue> named_stiffnesses(std::span<const double> stiffness) {

@@ -26,6 +26,23 @@ inline Gives scattered_faces(const ranks::Communicator& all, std::int32_t n, int
     };
 }
 
+/// Of each body, for friction.
+template <int Dim>
+std::vector<double> shear_stiffnesses(const NodalScene<Dim>& scene) {
+    std::vector<double> shear = scene.faces.stiffness;
+    for (double& k : shear) k *= 0.3;
+    return shear;
+}
+
+/// The whole of a scene on one rank.
+template <int Dim>
+contact::NodalSurface<Dim> surface_with_shear(const NodalScene<Dim>& scene) {
+    const std::vector<double> shear = shear_stiffnesses(scene);
+    contact::NodalFaces<Dim> faces = scene.faces.view();
+    faces.shear_stiffness = shear;
+    return {scene.rest, faces};
+}
+
 /// What a rank has of a scene: its faces, their nodes, and some nodes of the faces of others, in decreasing order.
 template <int Dim>
 struct ScenePart {
@@ -33,6 +50,7 @@ struct ScenePart {
     std::vector<std::int32_t> node;  ///< of each, the node of the scene
     contact::NodalFaceArrays<Dim> faces;
     std::vector<std::int32_t> face;  ///< of each, the face of the scene
+    std::vector<double> shear_stiffness;
 
     ScenePart(const ranks::Communicator& all, const NodalScene<Dim>& scene, const Gives& gives) {
         const auto n = static_cast<std::int32_t>(scene.rest.size());
@@ -55,6 +73,7 @@ struct ScenePart {
                 rest.push_back(scene.rest[i]);
             }
         faces.stiffness = scene.faces.stiffness;
+        shear_stiffness = shear_stiffnesses(scene);
         for (const std::int32_t f : face) {
             std::vector<std::int32_t> corners;
             for (const std::int32_t i : corners_of(f)) corners.push_back(own[i]);
@@ -64,6 +83,11 @@ struct ScenePart {
 
     [[nodiscard]] ranks::NodalPart<Dim> view() const {
         return {.rest = rest, .node_number = node, .faces = faces.view(), .face_number = face};
+    }
+    [[nodiscard]] ranks::NodalPart<Dim> view_with_shear() const {
+        ranks::NodalPart<Dim> part = view();
+        part.faces.shear_stiffness = shear_stiffness;
+        return part;
     }
     /// What this rank has of values by node of the scene.
     template <class T>
@@ -88,7 +112,15 @@ bool same_pairs(const std::vector<contact::PairStep<Dim>>& a, const std::vector<
     return std::ranges::equal(a, b, [](const auto& p, const auto& q) {
         return p.face_1 == q.face_1 && p.face_2 == q.face_2 && p.normal == q.normal && p.gap_0 == q.gap_0 &&
                p.gap_1 == q.gap_1 && p.area == q.area && p.normal_force == q.normal_force && p.force == q.force &&
-               p.events == q.events && p.active_share == q.active_share && p.compression == q.compression;
+               p.events == q.events && p.active_share == q.active_share && p.compression == q.compression &&
+               p.friction == q.friction && p.slip == q.slip && p.point == q.point;
+    });
+}
+
+inline bool same_friction(const std::vector<contact::FaceFriction>& a, const std::vector<contact::FaceFriction>& b) {
+    return std::ranges::equal(a, b, [](const auto& p, const auto& q) {
+        return p.face == q.face && p.normal_force == q.normal_force && p.force == q.force && p.limit == q.limit &&
+               p.slip == q.slip && p.dissipated == q.dissipated;
     });
 }
 
@@ -138,8 +170,8 @@ struct BothContacts {
         : all(communicator),
           scene(whole),
           part(all, scene, gives),
-          alone(scene.surface(), options),
-          shared(all, part.view(), options) {}
+          alone(surface_with_shear(scene), options),
+          shared(all, part.view_with_shear(), options) {}
 
     /// Whether the last results are the same to the last bit, here.
     [[nodiscard]] bool same() const {
@@ -147,6 +179,8 @@ struct BothContacts {
         return same_bits<Dim>(part.own(forces<Dim>(of_alone, scene.rest.size())),
                               forces<Dim>(of_shared, part.rest.size())) &&
                same_pairs<Dim>(of_alone.pairs, of_shared.pairs) && same_bodies<Dim>(of_alone, of_shared) &&
+               same_friction(of_alone.friction, of_shared.friction) &&
+               of_alone.report.friction.energy == of_shared.report.friction.energy &&
                of_alone.energy_0 == of_shared.energy_0 && of_alone.energy == of_shared.energy &&
                of_alone.work == of_shared.work && of_alone.report.correction == of_shared.report.correction &&
                of_alone.report.most_compressed == of_shared.report.most_compressed &&

@@ -78,6 +78,29 @@ TEMPLATE_TEST_CASE_SIG("nodes and faces of many ranks have the bits of contact o
     if (Dim == 3) CHECK(both.shared.report().tilted_pairs_max > 0);
 }
 
+TEMPLATE_TEST_CASE_SIG("friction on many ranks has the bits of one, with laws by number of face", "[ranks][nodal][friction]",
+                       ((int Dim), Dim), 2, 3) {
+    const Communicator all = world();
+    const NodalScene<Dim> scene = scene_of_boxes<Dim>();
+    const auto n_faces = static_cast<std::int32_t>(scene.faces.body.size());
+    contact::NodalOptions options;
+    options.friction.laws = {{.coefficient = 0.1}, {.coefficient = 0.4}};
+    options.friction.law_of = [](Face face_1, Face face_2) { return (number_of(face_1) + number_of(face_2)) % 3 - 1; };
+    BothContacts<Dim> both(all, scene, scattered_faces(all, n_faces), options);
+    const int n = 40;
+    Points<Dim> x_0 = at_time(scene, 0.0);
+    for (int i = 1; i <= n; ++i) {
+        CAPTURE(all.rank(), i);
+        const Points<Dim> x_1 = at_time(scene, 2.0 * i / n);
+        REQUIRE(both.step(x_0, x_1, i % 7 == 0 ? TakenForce::end : TakenForce::mean));
+        if (i % 5 == 0) REQUIRE(both.evaluate(x_1));
+        if (i % 9 == 0) REQUIRE(both.evaluate(at_time(scene, 2.0 * (i + 0.3) / n)));
+        x_0 = x_1;
+    }
+    CHECK(both.shared.report().sliding_faces_max > 2);
+    CHECK(both.shared.report().friction_dissipated > 0.0);
+}
+
 TEMPLATE_TEST_CASE_SIG("forces on first copies add up to nothing over all ranks, and so do their moments", "[ranks][nodal]",
                        ((int Dim), Dim), 2, 3) {
     const Communicator all = world();
