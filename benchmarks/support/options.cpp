@@ -77,6 +77,7 @@ template Options& Options::add(const std::string&, std::size_t&, const std::stri
 template Options& Options::add(const std::string&, double&, const std::string&);
 template Options& Options::add(const std::string&, std::string&, const std::string&);
 template Options& Options::add(const std::string&, std::vector<int>&, const std::string&);
+template Options& Options::add(const std::string&, std::vector<std::size_t>&, const std::string&);
 template Options& Options::add(const std::string&, std::vector<double>&, const std::string&);
 template Options& Options::add(const std::string&, std::vector<std::string>&, const std::string&);
 
