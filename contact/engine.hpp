@@ -47,6 +47,7 @@ struct CompressionLimits {
 ///   ask about, of a list that is not valid; `drop_list`;
 /// - `is_pressed_in`, `decide_first`: of a pair of the list, by its index;
 /// - `stored_energy`: what the memory of facets holds [J];
+/// - `forget_step`: no later call depends on the last step, which is refused;
 /// - `clear`: a result without a step; `step`: admission and forces of a step, gives the number of pairs that are pressed in
 ///   without being contacts; `evaluate`: forces of one state.
 template <class Law>
@@ -126,8 +127,9 @@ public:
         require_list();
         facets_.begin_step();
         report_.inadmissible_overlaps = law_.step(dt, path, pairs_.memory(), facets_, step_);
-        count_step(report_, step_, dt, limits_.warning);
+        count_step(report_, step_, limits_.warning);
         if (step_.report.compression > limits_.limit) refuse_depth();
+        count_friction(report_, step_.report.friction, dt);
         facets_.end_step();
         return step_;
     }
@@ -243,7 +245,8 @@ private:
         law_.clear(step_);
     }
 
-    [[noreturn]] void refuse_depth() const {
+    [[noreturn]] void refuse_depth() {
+        law_.forget_step();
         const auto& pair = step_.pairs[static_cast<std::size_t>(step_.report.most_compressed)];
         throw too_deep(law_.face_name(pair.face_1), law_.face_name(pair.face_2), pair, limits_.limit);
     }

@@ -14,7 +14,7 @@ namespace abut::contact {
 /// a list. A law without memory of facets has a store without numbers, which costs neither time nor space.
 ///
 /// A law reads where the last step ended, and writes where this one ends; a step that is refused leaves the memory as it was.
-/// A step costs as much as the facets that it writes.
+/// A step costs as much as the facets that have been in use.
 class FacetStore {
 public:
     FacetStore() = default;
@@ -26,7 +26,7 @@ public:
     [[nodiscard]] std::span<const double> operator[](Facet facet) const {
         return {now_.data() + begin(facet), static_cast<std::size_t>(size_)};
     }
-    /// Facets that have ever been written to, increasing.
+    /// Facets whose memory may differ from 0, increasing.
     [[nodiscard]] std::span<const Facet> used() const { return used_; }
 
     void begin_step();

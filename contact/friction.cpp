@@ -5,6 +5,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/base/ids.hpp"
 #include "abut/base/messages.hpp"
 
 namespace abut::contact {
@@ -51,7 +52,13 @@ double coefficient_of(const Friction& law, const Sliding& sliding) {
 
 std::int32_t FrictionOptions::law_between(Face face_1, Face face_2) const {
     if (laws.empty()) return -1;
-    return law_of ? law_of(face_1, face_2) : 0;
+    const std::int32_t law = law_of ? law_of(face_1, face_2) : 0;
+    if (law < -1 || law >= std::ssize(laws))
+        throw BadInput("friction: faces " + std::to_string(number_of(face_1)) + " and " + std::to_string(number_of(face_2)) +
+                           " are given law " + std::to_string(law) + " of " + std::to_string(laws.size()) +
+                           "; laws are counted from 0, and -1 is none.",
+                       {.face_1 = number_of(face_1), .face_2 = number_of(face_2), .value = static_cast<double>(law)});
+    return law;
 }
 
 void check(const FrictionOptions& options) {

@@ -36,7 +36,7 @@ struct Friction {
     /// In place of mu(v, s): gives mu [-], finite and >= 0. It must depend on its argument alone
     std::function<double(const Sliding&)> own_coefficient = {};
 
-    /// Whether there is any.
+    /// True if the law can give a force.
     [[nodiscard]] bool acts() const {
         return coefficient > 0.0 || sliding_coefficient > 0.0 || strength > 0.0 || own_coefficient;
     }
@@ -45,7 +45,7 @@ struct Friction {
 /// mu of a law. Throws BadInput for an `own_coefficient` that is not finite and >= 0.
 [[nodiscard]] double coefficient_of(const Friction& law, const Sliding& sliding);
 
-/// Which laws of friction act between which faces.
+/// Laws of friction, and the faces between which each acts.
 struct FrictionOptions {
     std::vector<Friction> laws = {};  ///< none: no friction anywhere
     /// Index in `laws` of two faces, in either order; -1: none. Asked once per pair of a candidate list, and must always give
@@ -53,7 +53,7 @@ struct FrictionOptions {
     std::function<std::int32_t(Face, Face)> law_of = {};
 
     [[nodiscard]] bool any() const { return !laws.empty(); }
-    /// -1: none.
+    /// Index of the law of two faces; -1: none. Throws BadInput for another index.
     [[nodiscard]] std::int32_t law_between(Face face_1, Face face_2) const;
 };
 

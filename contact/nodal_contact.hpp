@@ -118,7 +118,7 @@ public:
 
     /// Goes on with another surface of the same nodes or of others, between two steps: faces have eroded, and what was
     /// behind them is a face now. `old_face_of`: of each new face that was there before, its old number, else -1 (n_faces).
-    /// Old faces and their pairs keep what they remember. For those with a new face the run begins: what is pressed in by less than
+    /// Old faces, with their corners in the same order, and their pairs keep what they remember. For those with a new face the run begins: what is pressed in by less than
     /// D is a contact, and W jumps by what `evaluate` tells before and after. Throws BadInput, and stays as it is, for numbers
     /// out of range or given twice.
     void surface_replaced(NodalSurface<Dim> surface, std::span<const std::int32_t> old_face_of);

@@ -131,19 +131,22 @@ OptionList<Friction> make_friction_options() {
     return {
         option("friction", &Of::coefficient,
                {.help = "coefficient of friction between faces that touch; 0: none",
-                    .limits = from_zero,
-                    .named = Named::changed}),
+                .limits = from_zero,
+                .named = Named::changed}),
         option("sliding_friction", &Of::sliding_coefficient,
                {.help = "coefficient of fast sliding, where it is another than at rest: give decay_speed or decay_slip, too",
                 .limits = from_zero,
+                .by_default = "that at rest",
                 .named = Named::changed}),
         option("decay_speed", &Of::decay_speed,
                {.help = "speed of sliding at which friction has gone 1 - 1/e of the way from rest to fast sliding",
                 .limits = {.unit = "m/s", .above = 0.0, .endless = true},
+                .by_default = "infinity",
                 .named = Named::changed}),
         option("decay_slip", &Of::decay_slip,
                {.help = "path of sliding after which friction is that of fast sliding",
                 .limits = {.unit = "m", .above = 0.0, .endless = true},
+                .by_default = "infinity",
                 .named = Named::changed}),
         option("shear_strength", &Of::strength,
                {.help = "shear stress that faces in contact bear beside friction, whatever presses them (Tresca)",
@@ -153,6 +156,7 @@ OptionList<Friction> make_friction_options() {
                {.help = "time in which a force by which faces stick falls by 1/e: damps rigid bodies that flutter, and lets "
                         "all creep",
                 .limits = {.unit = "s", .above = 0.0, .endless = true},
+                .by_default = "infinity",
                 .named = Named::changed})};
 }
 

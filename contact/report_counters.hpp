@@ -22,9 +22,9 @@ void for_each_counter(Report& report, const Visit& visit) {
     visit(report.sticking_faces_max), visit(report.sliding_faces_max);
 }
 
-/// Adds what a step of `dt` [s] did.
+/// Adds what a step did, friction apart.
 template <class Step>
-void count_step(ContactReport& report, const Step& step, double dt, double compression_warning) {
+void count_step(ContactReport& report, const Step& step, double compression_warning) {
     const StepReport& of_step = step.report;
     report.active_pairs = static_cast<std::int64_t>(step.pairs.size());
     report.active_pairs_max = std::max(report.active_pairs_max, report.active_pairs);
@@ -36,7 +36,10 @@ void count_step(ContactReport& report, const Step& step, double dt, double compr
     report.tilted_pairs_max = std::max(report.tilted_pairs_max, of_step.tilted_pairs);
     report.correction_max = std::max(report.correction_max, of_step.correction);
     if (of_step.compression > compression_warning) ++report.compressed_steps;
-    const FrictionFigures& friction = of_step.friction;
+}
+
+/// The same of friction, once the step is taken.
+inline void count_friction(ContactReport& report, const FrictionFigures& friction, double dt) {
     report.friction_dissipated += friction.dissipated;
     report.least_dissipated = std::min(report.least_dissipated, friction.least_dissipated);
     report.friction_ratio_max = std::max(report.friction_ratio_max, friction.largest_ratio);

@@ -50,8 +50,9 @@ struct PairStep {
     double active_share;  ///< part of the step in which the pair is active [-], 0 to 1
     double compression;   ///< largest |g|/D at the ends of the step [-]
     Vector<Dim> friction = Vector<Dim>::Zero();  ///< part of `force` that is friction [N]
-    Vector<Dim> slip = Vector<Dim>::Zero();      ///< motion of face 2 past face 1 along both, where there is friction [m]
-    Vector<Dim> point = Vector<Dim>::Zero();     ///< where friction acts, at the middle of the step [m]
+    Vector<Dim> slip =
+        Vector<Dim>::Zero();  ///< motion of face 2 past face 1 along both, where there is friction; of a step alone [m]
+    Vector<Dim> point = Vector<Dim>::Zero();  ///< where friction acts, at the middle of the step [m]
 };
 
 /// Friction of one face in a step: of a facet, where a face has two.

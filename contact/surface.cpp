@@ -74,7 +74,8 @@ void check_values(const SurfaceView<Dim>& surface, std::int32_t face) {
         refuse(surface, face,
                "is said to be " + std::to_string(surface.steps_to_edge(face)) + " steps away from a sharp edge, at most " +
                    std::to_string(far_from_sharp_edge) + " are counted. Take contact::steps_to_sharp_edge.");
-    if (!surface.shear_stiffness.empty() && !(surface.shear_stiffness[face] > 0.0))
+    if (!surface.shear_stiffness.empty() &&
+        (!(surface.shear_stiffness[face] > 0.0) || std::isinf(surface.shear_stiffness[face]) != surface.is_rigid(face)))
         refuse(surface, face,
                "has the shear stiffness " + number(surface.shear_stiffness[face]) +
                    " Pa/m; it must be > 0, and infinity for a rigid face. Give mu |f|/|c|.");

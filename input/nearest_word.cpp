@@ -119,16 +119,15 @@ constexpr std::array synonyms = std::to_array<Synonym>({{"e", "young"},
                                                         {"folder", "out"},
                                                         {"output_dir", "out"}});
 
-/// What users look for and is not there.
-struct Missing {
+/// What users look for in another table.
+struct Elsewhere {
     std::string_view word;
     std::string_view text;
 };
-constexpr std::string_view no_friction = " Friction is not there yet: contact is without it. Leave the key out.";
-constexpr std::array missing = std::to_array<Missing>({{"friction", no_friction},
-                                                       {"friction_coefficient", no_friction},
-                                                       {"coefficient_of_friction", no_friction},
-                                                       {"mu", no_friction}});
+constexpr std::string_view friction =
+    " Friction is contact.friction = 0.3 for all, or a table [[contact.pairs]] with bodies = [\"a\", \"b\"] for two.";
+constexpr std::array elsewhere = std::to_array<Elsewhere>(
+    {{"friction", friction}, {"friction_coefficient", friction}, {"coefficient_of_friction", friction}, {"mu", friction}});
 
 std::string in_small_letters(std::string word) {
     for (char& c : word)
@@ -140,7 +139,7 @@ std::string in_small_letters(std::string word) {
 
 std::string hint_of_key(const std::string& word, const std::vector<std::string>& known) {
     const std::string small = in_small_letters(word);
-    for (const Missing& one : missing)
+    for (const Elsewhere& one : elsewhere)
         if (one.word == small) return std::string(one.text);
     for (const Synonym& synonym : synonyms)
         if (synonym.word == small && std::ranges::find(known, synonym.key) != known.end())

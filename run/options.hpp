@@ -51,8 +51,8 @@ struct RunOptions {
     int contact_levels = 0;    ///< of memm_async: levels that cells in contact are finer than all others
     double gauge = not_given;  ///< c of the Bilbao scheme [J]; not given: the energy at the start
     bool filter = false;       ///< energy-neutral filter of the parasitic mode, near the contact
-    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given, with memm: 10 and the filter where
-    /// there is friction, which is lost without; 50 where a body is finite, whose forces feed the mode; else none
+    /// Steps between neutral restarts, which clear that mode everywhere; 0: none. Not given, with memm: 10, and the filter whatever
+    /// `filter` is, where there is friction, which is lost without; whoever gives `restart` chooses both; 50 where a body is finite, whose forces feed the mode; else none
     int restart = restart_not_given;
     int threads = 0;    ///< at most; 0: all. The results do not depend on it
     int ranks = 0;      ///< that the programs start; 0: none but those of mpirun. The results do not depend on it

@@ -52,6 +52,8 @@ constexpr std::array names_of_cpp = std::to_array<Name>({
     {"SolidOptions::body_load", "the load on its cells"},
     {"SolidOptions::contact", "contact.enabled = true"},
     {"SolidOptions::ignored_pairs", "contact.ignored_pairs"},
+    {"SolidOptions::body_friction", "contact.pairs"},
+    {"SolidOptions::friction", "contact.friction"},
     {"SolidOptions::moments", "[moments]"},
     {"SolidOptions::springs", "[springs]"},
     {"StepDevice::host", "run.device = \"host\""},

@@ -178,13 +178,22 @@ void Bodies<Dim>::check() const {
         throw BadInput(mesh_.name +
                        ": friction is given by faces of the surface of contact, which a solid numbers as it likes. Give "
                        "SolidOptions::friction and body_friction instead.");
-    for (const BodyFriction& one : options_.body_friction)
+    contact::check(contact::FrictionOptions{.laws = {options_.friction}});
+    for (std::size_t i = 0; i < options_.body_friction.size(); ++i) {
+        const BodyFriction& one = options_.body_friction[i];
+        contact::check(contact::FrictionOptions{.laws = {one.law}});
+        for (std::size_t j = 0; j < i; ++j)
+            if (std::ranges::is_permutation(one.bodies, options_.body_friction[j].bodies))
+                throw BadInput(mesh_.name + ": bodies " + std::to_string(one.bodies[0]) + " and " +
+                               std::to_string(one.bodies[1]) +
+                               " have two laws of friction. Give one in SolidOptions::body_friction.");
         for (const std::int32_t body : one.bodies)
             if (body < 0 || body >= n_all)
                 throw BadInput(mesh_.name + ": friction is given for body " + std::to_string(body) +
                                    "; bodies and obstacles are counted from 0 to " + std::to_string(n_all - 1) +
                                    ". Correct SolidOptions::body_friction.",
                                {.value = static_cast<double>(body), .allowed = static_cast<double>(n_all - 1)});
+    }
     for (const auto& pair : options_.ignored_pairs)
         for (const std::int32_t body : pair)
             if (body < 0 || body >= n_all)

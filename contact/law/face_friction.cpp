@@ -24,7 +24,7 @@ void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList
     for (std::int32_t a = 0; a < active.size(); ++a) {
         const ContactPair<Dim>& pair = list[active.pairs[static_cast<std::size_t>(a)]];
         PairStep<Dim>& of_step = step.pairs[static_cast<std::size_t>(a)];
-        if (pair.friction < 0 || !(of_step.normal_force > 0.0)) continue;
+        if (pair.friction < 0 || !(of_step.normal_force > 0.0 && of_step.area > 0.0 && of_step.active_share > 0.0)) continue;
         last_.push_back({.face = {pair.face_1, pair.face_2}, .normal = of_step.normal, .in_step = a});
         Pair& sliding = last_.back();
         const auto motion_of = [&](std::int32_t listed) -> Vector<Dim> { return u_1[listed] - u_0[listed]; };

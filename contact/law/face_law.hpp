@@ -50,8 +50,9 @@ public:
     void list_remembered(std::span<const FacetPair> pairs);
     void drop_list() {
         faces_.clear();
-        friction_.forget();
+        forget_step();
     }
+    void forget_step() { friction_.forget(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State u) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State u, bool run_begins) const;
 

@@ -11,7 +11,7 @@ namespace abut::contact {
 template <int N>
 using Along = Eigen::Matrix<double, N, 1, Eigen::DontAlign>;
 
-/// What a face remembers of friction.
+/// Friction state of a face.
 template <int N>
 struct StickState {
     Along<N> stretch = Along<N>::Zero();    ///< s_e, of the spring by which the face sticks [m]
@@ -25,8 +25,8 @@ struct StickState {
 /// One step of a face under friction.
 template <int N>
 struct FrictionStep {
-    Along<N> force = Along<N>::Zero();  ///< T, against the motion [N]; |T| <= limit
-    double dissipated = 0.0;            ///< D >= 0 [J]: T . motion = energy after - energy before + D
+    Along<N> force = Along<N>::Zero();  ///< T, along the motion [N]: the face feels -T; |T| <= limit
+    double dissipated = 0.0;            ///< D [J], >= 0 in a mean step: T . motion = energy after - energy before + D
     double slip = 0.0;                  ///< part of the motion by which the face slides [m]
     [[nodiscard]] bool slides() const { return slip > 0.0; }
 };

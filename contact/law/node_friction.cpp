@@ -36,17 +36,17 @@ void NodeFriction<Dim>::add(const NodalSurface<Dim>& surface, const NodalPair<Di
     const std::int32_t index = n_pairs_++;
     double normal_force = 0.0;
     for (int v = 0; v < Dim; ++v) normal_force += pressure[v];
-    if (pair.friction < 0 || !(normal_force > 0.0)) return;
+    if (pair.friction < 0 || !(normal_force > 0.0 && area > 0.0 && active_share > 0.0)) return;
     const Surface<Dim>& facets = surface.facets();
     const std::array<std::int32_t, 2> facet{pair.facet_1, pair.facet_2};
     const std::array<bool, 2> rigid{!std::isfinite(facets.stiffness[facet[0]]), !std::isfinite(facets.stiffness[facet[1]])};
 
     sliding_.push_back({.slip = geometry::PairSlip<Dim>(pair.at(x_0_), pair.at(x_1_), pressure),
-                        .place = {.listed = pair.listed,
-                                  .body = {pair.body_1, pair.body_2},
-                                  .body_pair = pair.body_pair,
-                                  .pair = index,
-                                  .bodies_in_order = pair.body_1 < pair.body_2}});
+                        .indices = {.listed = pair.listed,
+                                    .body = {pair.body_1, pair.body_2},
+                                    .body_pair = pair.body_pair,
+                                    .pair = index,
+                                    .bodies_in_order = pair.body_1 < pair.body_2}});
     last_.push_back({.node = pair.node, .facet = {Facet{facet[0]}, Facet{facet[1]}}, .pressure = pressure});
     Sliding& sliding = sliding_.back();
     const Vector<Dim> motion = sliding.slip.motion();
@@ -82,7 +82,7 @@ void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& face
                 last.weight[face] = half.weight;
                 force -= sign_of(face) * geometry::in_space<Dim>(slip.tangents(static_cast<int>(face)), half.force);
             }
-            add_force(last, sliding.place, slip, force, x_0, x_1_, step);
+            add_force(last, sliding.indices, slip, force, x_0, x_1_, step);
         };
         if (take_ == TakenForce::mean) {
             add(sliding.slip, x_0_);
@@ -91,13 +91,13 @@ void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& face
             add(geometry::PairSlip<Dim>(end, end, last.pressure), x_1_);
         }
         const Vector<Dim> motion = sliding.slip.motion(), normal = sliding.slip.normal();
-        step.pairs[static_cast<std::size_t>(sliding.place.pair)].slip = motion - normal * normal.dot(motion);
+        step.pairs[static_cast<std::size_t>(sliding.indices.pair)].slip = motion - normal * normal.dot(motion);
     }
 }
 
 template <int Dim>
 void NodeFriction<Dim>::evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, PointsView<Dim> x,
-                                 NodalStep<Dim>& step) const {
+                                 std::span<const FacetPair> active, NodalStep<Dim>& step) const {
     step.report.friction.energy = stick_energy<n_tangents>(facets);
     for (const Last& last : last_) {
         const Corners at = corners(last, x);
@@ -109,7 +109,9 @@ void NodeFriction<Dim>::evaluate(const NodalSurface<Dim>& surface, const FacetSt
             force -= (sign_of(face) * last.weight[face]) *
                      geometry::in_space<Dim>(slip.tangents(static_cast<int>(face)), state.stiffness * state.stretch);
         }
-        add_force(last, place_in(step, surface, last), slip, force, x, x, step);
+        const Indices indices = indices_in(step, surface, active, last);
+        if (std::ranges::all_of(indices.listed, [](std::int32_t i) { return i >= 0; }))  // else it is far from where it was
+            add_force(last, indices, slip, force, x, x, step);
     }
 }
 
@@ -121,30 +123,30 @@ typename NodeFriction<Dim>::Corners NodeFriction<Dim>::corners(const Last& last,
 }
 
 template <int Dim>
-typename NodeFriction<Dim>::Place NodeFriction<Dim>::place_in(const NodalStep<Dim>& step, const NodalSurface<Dim>& surface,
-                                                              const Last& last) {
-    Place place;
+typename NodeFriction<Dim>::Indices NodeFriction<Dim>::indices_in(const NodalStep<Dim>& step,
+                                                                  const NodalSurface<Dim>& surface,
+                                                                  std::span<const FacetPair> active, const Last& last) {
+    Indices indices;
     for (std::size_t v = 0; v < last.node.size(); ++v)
-        place.listed[v] = index_of(step.nodes, last.node[v], [](std::int32_t node) { return node; });
+        indices.listed[v] = index_of(step.nodes, last.node[v], [](std::int32_t node) { return node; });
     const std::vector<std::int32_t>& body = surface.facets().body;
     const std::int32_t body_1 = body[number_of(last.facet[0])], body_2 = body[number_of(last.facet[1])];
     const auto number_of_body = [](const BodyStep<Dim>& of) { return of.body; };
-    place.body = {index_of(step.bodies, body_1, number_of_body), index_of(step.bodies, body_2, number_of_body)};
-    place.bodies_in_order = body_1 < body_2;
-    place.body_pair = index_of(step.body_pairs, std::pair(std::min(body_1, body_2), std::max(body_1, body_2)),
-                               [](const BodyPairStep<Dim>& of) { return std::pair(of.body_1, of.body_2); });
-    place.pair = index_of(step.pairs, std::pair(surface.face_of(last.facet[0]), surface.face_of(last.facet[1])),
-                          [](const PairStep<Dim>& of) { return std::pair(of.face_1, of.face_2); });
-    return place;
+    indices.body = {index_of(step.bodies, body_1, number_of_body), index_of(step.bodies, body_2, number_of_body)};
+    indices.bodies_in_order = body_1 < body_2;
+    indices.body_pair = index_of(step.body_pairs, std::pair(std::min(body_1, body_2), std::max(body_1, body_2)),
+                                 [](const BodyPairStep<Dim>& of) { return std::pair(of.body_1, of.body_2); });
+    indices.pair = index_of(active, FacetPair{last.facet[0], last.facet[1]}, [](const FacetPair& of) { return of; });
+    return indices;
 }
 
 template <int Dim>
-void NodeFriction<Dim>::add_force(const Last& last, const Place& place, const geometry::PairSlip<Dim>& slip,
+void NodeFriction<Dim>::add_force(const Last& last, const Indices& indices, const geometry::PairSlip<Dim>& slip,
                                   const Vector<Dim>& force, PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step) {
     const Corners on_corners = slip.on_corners(force);
     for (std::size_t v = 0; v < on_corners.size(); ++v) {
-        if (place.listed[v] >= 0) step.gradient[static_cast<std::size_t>(place.listed[v])] -= on_corners[v];
-        if (const std::int32_t b = place.body[v / Dim]; b >= 0) {
+        step.gradient[static_cast<std::size_t>(indices.listed[v])] -= on_corners[v];
+        if (const std::int32_t b = indices.body[v / Dim]; b >= 0) {
             BodyStep<Dim>& body = step.bodies[static_cast<std::size_t>(b)];
             const Vector<Dim> start = x_0[last.node[v]], end = x_1[last.node[v]], middle = 0.5 * (start + end);
             body.force += on_corners[v];
@@ -152,11 +154,11 @@ void NodeFriction<Dim>::add_force(const Last& last, const Place& place, const ge
             body.work -= on_corners[v].dot(end - start);
         }
     }
-    if (place.body_pair >= 0)
-        step.body_pairs[static_cast<std::size_t>(place.body_pair)].force +=
-            place.bodies_in_order ? force : Vector<Dim>(-force);
-    if (place.pair >= 0) {
-        PairStep<Dim>& pair = step.pairs[static_cast<std::size_t>(place.pair)];
+    if (indices.body_pair >= 0)
+        step.body_pairs[static_cast<std::size_t>(indices.body_pair)].force +=
+            indices.bodies_in_order ? force : Vector<Dim>(-force);
+    if (indices.pair >= 0) {
+        PairStep<Dim>& pair = step.pairs[static_cast<std::size_t>(indices.pair)];
         pair.force += force;
         pair.friction += force;
         pair.point = slip.point();

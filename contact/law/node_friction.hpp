@@ -37,7 +37,9 @@ public:
 
     /// The forces of the springs as they are, at x, with the weights of the last step: those that an evaluation adds to the
     /// normal forces. Without a step since the last `forget` there are none.
-    void evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, PointsView<Dim> x, NodalStep<Dim>& step) const;
+    /// `active`: facets of `step.pairs`, in their order.
+    void evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, PointsView<Dim> x,
+                  std::span<const FacetPair> active, NodalStep<Dim>& step) const;
     void forget() { last_.clear(); }
 
 private:
@@ -45,8 +47,8 @@ private:
     using Half = FrictionHalf<n_tangents>;
     using Corners = geometry::PairCorners<Dim>;
 
-    /// Where the forces on a pair belong in a step; -1: the step does not have it.
-    struct Place {
+    /// Indices in a step of all that the forces on a pair are added to; -1: the step does not have it.
+    struct Indices {
         std::array<std::int32_t, 2 * Dim> listed;  // of each corner
         std::array<std::int32_t, 2> body;
         std::int32_t body_pair;
@@ -55,10 +57,10 @@ private:
     };
     struct Sliding {
         geometry::PairSlip<Dim> slip;
-        Place place;
+        Indices indices;
         std::array<std::int32_t, 2> half{-1, -1};  // of each facet; -1: it is rigid
     };
-    /// What a pair of the last step leaves: its corners, where it pressed, and its part in the friction of both facets.
+    /// Pair of the last step: its corners, where it pressed, and its part in the friction of both facets.
     struct Last {
         std::array<std::int32_t, 2 * Dim> node;
         std::array<Facet, 2> facet;
@@ -67,9 +69,10 @@ private:
     };
 
     [[nodiscard]] static Corners corners(const Last& last, PointsView<Dim> x);
-    [[nodiscard]] static Place place_in(const NodalStep<Dim>& step, const NodalSurface<Dim>& surface, const Last& last);
+    [[nodiscard]] static Indices indices_in(const NodalStep<Dim>& step, const NodalSurface<Dim>& surface,
+                                            std::span<const FacetPair> active, const Last& last);
     /// `force`: on face 2.
-    static void add_force(const Last& last, const Place& place, const geometry::PairSlip<Dim>& slip,
+    static void add_force(const Last& last, const Indices& indices, const geometry::PairSlip<Dim>& slip,
                           const Vector<Dim>& force, PointsView<Dim> x_0, PointsView<Dim> x_1, NodalStep<Dim>& step);
 
     FrictionOptions options_;

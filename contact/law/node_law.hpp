@@ -55,8 +55,9 @@ public:
     void list_remembered(std::span<const FacetPair> pairs) { pairs_.assign(surface_, pairs); }
     void drop_list() {
         pairs_.assign(surface_, {});
-        law_.forget_friction();
+        forget_step();
     }
+    void forget_step() { law_.forget_friction(); }
     [[nodiscard]] bool is_pressed_in(std::size_t pair, State x) const;
     [[nodiscard]] FirstAdmission decide_first(std::size_t pair, State x, bool run_begins) const {
         return contact::decide_first<Dim>(pairs_.pairs()[pair], x, sides_, run_begins);

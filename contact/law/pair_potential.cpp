@@ -205,7 +205,12 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
         },
         [](std::size_t) {});
     add_up(surface, listed, pairs, x, x, step);
-    if (friction_.any()) friction_.evaluate(surface, facets, x, step);
+    if (friction_.any()) {
+        active_.clear();
+        for (std::size_t p = 0; p < outcomes_.size(); ++p)
+            if (outcomes_[p].active) active_.push_back({Facet{pairs[p].facet_1}, Facet{pairs[p].facet_2}});
+        friction_.evaluate(surface, facets, x, active_, step);
+    }
     finish(surface, step);
 }
 

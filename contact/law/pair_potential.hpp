@@ -74,6 +74,7 @@ private:
 
     bool events_;
     NodeFriction<Dim> friction_;
+    std::vector<FacetPair> active_;  // work array of `evaluate`
     SharedWork shared_;
     std::vector<Outcome> outcomes_;  // of the pairs in reach
 };

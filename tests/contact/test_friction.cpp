@@ -159,19 +159,31 @@ namespace {
 /// Two boxes that are pressed into each other, with the shear stiffness that friction needs.
 template <int Dim>
 struct Rubbing {
-    explicit Rubbing(const Friction& law, bool with_shear = true) : scene(two_boxes<Dim>(3, 4, -0.01)) {
+    explicit Rubbing(const Friction& law, bool with_shear = true, bool cut = true)
+        : scene(two_boxes<Dim>(3, 4, -0.01, 0.013, 3.0, 5.0, cut)) {
         shear.assign(scene.faces.stiffness.size(), 0.0);
         for (std::size_t body = 0; body < shear.size(); ++body) shear[body] = 0.3 * scene.faces.stiffness[body];
-        contact::NodalFaces<Dim> faces = scene.faces.view();
-        if (with_shear) faces.shear_stiffness = shear;
+        has_shear = with_shear;
         contact::NodalOptions options;
         options.search.largest_motion = 10.0;
         if (law.acts()) options.friction.laws = {law};
-        contact.emplace(contact::NodalSurface<Dim>(scene.rest, faces), options);
+        contact.emplace(surface(), options);
+    }
+    [[nodiscard]] contact::NodalSurface<Dim> surface() const {
+        contact::NodalFaces<Dim> faces = scene.faces.view();
+        if (has_shear) faces.shear_stiffness = shear;
+        return {scene.rest, faces};
+    }
+    [[nodiscard]] std::vector<Vector<Dim>> upper_moved(const Vector<Dim>& by) const {
+        std::vector<Vector<Dim>> x = scene.rest;
+        for (std::size_t n = 0; n < x.size(); ++n)
+            if (scene.node_body[n] == 1) x[n] += by;
+        return x;
     }
 
     NodalScene<Dim> scene;
     std::vector<double> shear;
+    bool has_shear = true;
     std::optional<contact::NodalContact<Dim>> contact;
 };
 
@@ -301,4 +313,53 @@ TEMPLATE_TEST_CASE_SIG("friction goes on after a restore with the same bits", "[
     }
     CHECK(first.contact->report().friction_dissipated > 0.0);
     CHECK(first.contact->report().friction_dissipated == second.contact->report().friction_dissipated);
+}
+
+TEST_CASE("the friction of each pair is told where a state is evaluated, with faces of four corners as well",
+          "[contact][friction][nodal]") {
+    for (const bool cut : {true, false}) {
+        Rubbing<3> rubbing({.coefficient = 0.4}, true, cut);
+        const auto x_1 = rubbing.upper_moved({1e-3, 2e-3, 0.0});
+        rubbing.contact->step(1e-3, rubbing.scene.rest, x_1);
+        const auto& state = rubbing.contact->evaluate(x_1);
+        REQUIRE(!state.pairs.empty());
+        Vector<3> sum = Vector<3>::Zero(), normal_forces = Vector<3>::Zero();
+        for (const auto& pair : state.pairs) {
+            CHECK(pair.friction.norm() > 0.0);
+            CHECK(std::abs(pair.friction.dot(pair.normal)) <= 1e-12 * pair.friction.norm());
+            sum += pair.friction;
+            normal_forces += pair.force - pair.friction;
+        }
+        // the springs of a uniform slip are stretched by it: K/k of the pairs is the same everywhere
+        CHECK(sum[0] / sum[1] == Approx(0.5));
+        CHECK((sum + normal_forces).isApprox(state.body_pairs.front().force, 1e-12));
+    }
+}
+
+TEST_CASE("a step that is refused dissipates nothing", "[contact][friction][nodal]") {
+    Rubbing<2> rubbing({.coefficient = 0.01});
+    const auto x_1 = rubbing.upper_moved({5e-3, 0.0});
+    rubbing.contact->step(1e-3, rubbing.scene.rest, x_1);
+    const double dissipated = rubbing.contact->report().friction_dissipated;
+    CHECK(dissipated > 0.0);
+    CHECK_THROWS_AS(rubbing.contact->step(1e-3, x_1, rubbing.upper_moved({0.1, -0.5})), TooDeep);
+    CHECK(rubbing.contact->report().friction_dissipated == dissipated);
+}
+
+TEST_CASE("what faces hold is dissipated where they go", "[contact][friction][nodal]") {
+    Rubbing<2> rubbing({.coefficient = 0.4});
+    const double held =
+        rubbing.contact->step(1e-3, rubbing.scene.rest, rubbing.upper_moved({1e-3, 0.0})).report.friction.energy;
+    CHECK(held > 0.0);
+    const double before = rubbing.contact->report().friction_dissipated;
+    const std::vector<std::int32_t> all_new(static_cast<std::size_t>(rubbing.contact->surface().n_faces()), -1);
+    rubbing.contact->surface_replaced(rubbing.surface(), all_new);
+    CHECK(rubbing.contact->report().friction_dissipated - before == Approx(held));
+}
+
+TEST_CASE("a law that is not there is refused", "[contact][friction]") {
+    contact::FrictionOptions options{.laws = {{.coefficient = 0.4}}};
+    options.law_of = [](contact::Face, contact::Face) { return 1; };
+    CHECK_THROWS_WITH(static_cast<void>(options.law_between(contact::Face{3}, contact::Face{5})),
+                      Catch::Matchers::Contains("faces 3 and 5 are given law 1 of 1"));
 }

@@ -19,8 +19,8 @@ from abut_runs import main, near, require  # noqa: E402
 INPUTS = pathlib.Path(__file__).parent / "inputs"
 CLAIMS = {}
 G, MU = 10.0, 0.3
-# The law of contact and the kinematics of the body: every way in which a body may rub.
-WAYS = [("reconstruction", "small"), ("pair_potential", "small"), ("pair_potential", "floating"), ("pair_potential", "finite"),
+# Laws of contact and kinematics of the body: all under which a body may rub.
+LAWS_AND_KINEMATICS = [("reconstruction", "small"), ("pair_potential", "small"), ("pair_potential", "floating"), ("pair_potential", "finite"),
         ("pair_potential", "rigid")]
 
 
@@ -38,7 +38,7 @@ def keys(**values):
     return [word for key, value in values.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
 
 
-def way(law, kinematics):
+def with_law(law, kinematics):
     return ["--law", law, "--kinematics", kinematics]
 
 
@@ -76,8 +76,8 @@ def on_incline(degrees):
 def slide_at_30_degrees(programs):
     """a = g (sin - mu cos), within 1 % g; a rigid body within 0.2 %."""
     right = G * (math.sin(math.pi / 6) - MU * math.cos(math.pi / 6))
-    for law, kinematics in WAYS:
-        done = run(programs, "block.toml", *way(law, kinematics), *on_incline(30)).require_end()
+    for law, kinematics in LAWS_AND_KINEMATICS:
+        done = run(programs, "block.toml", *with_law(law, kinematics), *on_incline(30)).require_end()
         rows = done.rows()
         allowed = 0.002 if kinematics == "rigid" else 0.01
         near(acceleration(rows, done.body("block")["mass"]), right, allowed * G, f"{law}, {kinematics}: the acceleration")
@@ -87,8 +87,8 @@ def slide_at_30_degrees(programs):
 @claim
 def stick_at_10_degrees(programs):
     """tan 10 degrees is less than mu: the block, let go from no contact, swings on its own stiffness and does not slide."""
-    for law, kinematics in WAYS:
-        done = run(programs, "block.toml", *way(law, kinematics), *on_incline(10)).require_end()
+    for law, kinematics in LAWS_AND_KINEMATICS:
+        done = run(programs, "block.toml", *with_law(law, kinematics), *on_incline(10)).require_end()
         rows, mass = done.rows(), done.body("block")["mass"]
         half = len(rows) // 2
         drift = (sum(row["linear_momentum_x"] for row in rows[half:]) / len(rows[half:])) / mass
@@ -102,8 +102,8 @@ def stick_at_10_degrees(programs):
 @claim
 def slide_stop_stay(programs):
     """All of the kinetic energy is dissipated, and nothing more once the block has stopped."""
-    for law, kinematics in WAYS:
-        rows = run(programs, "block.toml", *way(law, kinematics), *keys(run__time=4)).require_end().rows()
+    for law, kinematics in LAWS_AND_KINEMATICS:
+        rows = run(programs, "block.toml", *with_law(law, kinematics), *keys(run__time=4)).require_end().rows()
         start, half = rows[0]["kinetic"], rows[len(rows) // 2]
         near(rows[-1]["dissipated"] / start, 1.0, 5e-3, f"{law}, {kinematics}: D/K0")
         require(rows[-1]["dissipated"] - half["dissipated"] <= 2e-3 * start, f"{law}, {kinematics}: it goes on losing")
@@ -127,14 +127,14 @@ def shaken_table(programs):
     table = keys(bodies__block__velocity="[0, 0]", obstacles__floor__path='["0.5/(4*pi)*(1 - cos(4*pi*t))", "0"]',
                  run__time=11.2)
     for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating")):
-        done = run(programs, "block.toml", *way(law, kinematics), *table).require_end()
+        done = run(programs, "block.toml", *with_law(law, kinematics), *table).require_end()
         rows, start = done.rows(), 0.5 * done.body("block")["mass"] * 0.5**2
         last = rows[-1]
         require(20 * start < last["dissipated"] < last["work"], f"{law}: D is {last['dissipated']}, W {last['work']}")
         require(balance(rows) <= 1e-11, f"{law}: the balance is open by {balance(rows):.2g}")
         require(excess(rows) <= 1e-2 * (start + last["work"]), f"{law}: H - H~ is {excess(rows):.3g} J")
         require("alternates" not in done.said, f"{law}: it warns of a slip that alternates")
-        lost = run(programs, "block.toml", *way(law, kinematics), *table, "--filter", "neutral", "--restart", "0")
+        lost = run(programs, "block.toml", *with_law(law, kinematics), *table, "--filter", "neutral", "--restart", "0")
         require(lost.warns_of("H - H~ came to"),
                 f"{law}: without restarts nothing is said:\n{lost.said}")
 
@@ -172,11 +172,13 @@ def pairs_have_their_own_friction(programs):
 
 
 @claim
-def no_friction_has_the_same_bits(programs):
+def no_friction_is_bitwise_identical(programs):
     plain = run(programs, "block.toml", *keys(contact__friction=0), "--filter", "neutral", "--restart", 10)
     with tempfile.TemporaryDirectory() as folder:
         scene = pathlib.Path(folder) / "block.toml"
-        scene.write_text((INPUTS / "block.toml").read_text().replace("friction = 0.3", ""))
+        given = (INPUTS / "block.toml").read_text()
+        require("friction = 0.3" in given, "the scene has another line")
+        scene.write_text(given.replace("friction = 0.3", ""))
         other = abut_runs.Run(programs, scene, "--frames", "0", "--filter", "neutral", "--restart", 10)
     require((plain.out / "energy.csv").read_bytes() == (other.out / "energy.csv").read_bytes(), "mu = 0 changes bits")
     before, after = (plain.require_end().rows()[i]["linear_momentum_x"] for i in (0, -1))
@@ -219,8 +221,8 @@ def spinning_discs(programs):
         done = run(programs, "discs.toml", "--kinematics", kinematics).require_end()
         left = done.body("left")
         change = [after - before for before, after in zip(left["velocity_initial"], left["velocity_final"])]
-        near(-change[1] / (0.1 * -change[0]), 1.0, allowed, f"{kinematics}: J_T/(mu J_N)") if change[1] < 0 else require(
-            False, f"{kinematics}: friction pushes the wrong way")
+        require(change[1] < 0, f"{kinematics}: friction pushes in the wrong direction")
+        near(-change[1] / (0.1 * -change[0]), 1.0, allowed, f"{kinematics}: J_T/(mu J_N)")
         spin = left["spin_final"][0] - left["spin_initial"][0]
         near(spin * 0.2 / (2 * change[1]), 1.0, 0.06, f"{kinematics}: the change of spin over J_T R/I")
         summary = done.summary
@@ -233,11 +235,11 @@ def spinning_discs(programs):
 
 
 @claim
-def same_bits_after_a_restart(programs):
-    """A run that is stopped in mid-slip and goes on has the bits of one that was not."""
+def a_restart_is_bitwise_identical(programs):
+    """A run that is stopped in mid-slip and goes on, and one that was not."""
     for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating"), ("pair_potential", "rigid")):
         with tempfile.TemporaryDirectory() as folder:
-            options = [*way(law, kinematics), "--interval", 7]
+            options = [*with_law(law, kinematics), "--interval", 7]
             whole = run(programs, "block.toml", *options, *keys(run__time=0.3)).require_end()
             first = run(programs, "block.toml", *options, *keys(run__time=0.3), "--checkpoint-steps", 97, "--set",
                         "output.keep_last_checkpoint=true", folder=folder).require_end()
@@ -254,9 +256,9 @@ def same_bits_after_a_restart(programs):
 
 
 @claim
-def same_bits_on_ranks(programs):
+def runs_are_bitwise_identical_on_ranks(programs):
     for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating")):
-        options = [*way(law, kinematics), *keys(run__time=0.01, bodies__block__counts="[24, 12]")]
+        options = [*with_law(law, kinematics), *keys(run__time=0.01, bodies__block__counts="[24, 12]")]
         one = run(programs, "block.toml", *options).require_end()
         for ranks in (2, 3):
             more = run(programs, "block.toml", *options, "--ranks", ranks).require_end()

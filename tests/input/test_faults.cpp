@@ -134,7 +134,8 @@ TEST_CASE("words of other programs are known for keys", "[input][faults]") {
           {"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.nu is an unknown key. Did you mean 'poisson'?"},
           {"[materials.a]\nE = 1\nnu = 0.3\nrho = 1", "materials.a.rho is an unknown key. Did you mean 'density'?"},
           {"t_end = 1", "run.t_end is an unknown key. Did you mean 'time'?"},
-          {"[contact]\nfriction = 0.3", "contact.friction is an unknown key. Friction is not there yet"}}) {
+          {"[contact]\nmu = 0.3", "contact.mu is an unknown key. Friction is contact.friction = 0.3 for all"},
+          {"[materials.a]\nfriction = 0.3", "materials.a.friction is an unknown key. Friction is contact.friction = 0.3"}}) {
         const WrittenScene file(two_blocks(wrong.more));
         CHECK(input::text_of(input::check_scene(file.path()).faults).find(wrong.text) != std::string::npos);
     }

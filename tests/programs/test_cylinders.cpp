@@ -119,7 +119,11 @@ TEST_CASE("energy.csv holds a row for every record and what the summary says", "
                                                     "restarts_shortened",
                                                     "restarts_skipped",
                                                     "restart_paid",
-                                                    "pseudo_angular_momentum"});
+                                                    "pseudo_angular_momentum",
+                                                    "dissipated",
+                                                    "friction_energy",
+                                                    "sticking_faces",
+                                                    "sliding_faces"});
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
     CHECK(table.rows.back().front() == static_cast<double>(steps));
 
