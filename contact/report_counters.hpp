@@ -38,7 +38,7 @@ void count_step(ContactReport& report, const Step& step, double compression_warn
     if (of_step.compression > compression_warning) ++report.compressed_steps;
 }
 
-/// The same of friction, once the step is taken.
+/// Adds the friction of a step of `dt` [s] that is not refused.
 inline void count_friction(ContactReport& report, const FrictionFigures& friction, double dt) {
     report.friction_dissipated += friction.dissipated;
     report.least_dissipated = std::min(report.least_dissipated, friction.least_dissipated);

@@ -56,7 +56,7 @@ struct LedgerEntry {
     std::int64_t sticking_faces;  ///< in the last step
     std::int64_t sliding_faces;   ///< the same
 
-    /// What H~ has got since the start: work, jumps of restarts, less what friction has taken [J].
+    /// Energy that H~ has received since the start: work and jumps of restarts, less dissipation by friction [J].
     [[nodiscard]] double received() const { return work + restart_jumps - dissipated; }
 };
 

@@ -119,7 +119,7 @@ constexpr std::array synonyms = std::to_array<Synonym>({{"e", "young"},
                                                         {"folder", "out"},
                                                         {"output_dir", "out"}});
 
-/// What users look for in another table.
+/// Words for keys of another table.
 struct Elsewhere {
     std::string_view word;
     std::string_view text;

@@ -35,7 +35,7 @@ struct FramePiece {
     std::vector<std::int32_t> boundary;  ///< faces of these cells among Mesh::boundary_faces, increasing (n_faces)
     std::vector<double> pressure;        ///< of contact (n_faces) [Pa]
     std::vector<double> gap;             ///< (n_faces) [m]; gap_in_contact
-    /// Of friction (n_faces), as in solid::ContactField; empty without any
+    /// Fields of friction (n_faces) as in solid::ContactField; empty without any
     std::vector<double> friction, slip, sliding;
 };
 

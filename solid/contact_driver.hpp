@@ -101,7 +101,7 @@ public:
     [[nodiscard]] virtual std::span<const BodyPush<Dim>> rigid_pushes() const { return {}; }
     /// What V has beside the energy of the cells with these corrections [J].
     [[nodiscard]] virtual double energy() const = 0;
-    /// Of the last step or evaluation.
+    /// Figures of friction in the last step or evaluation.
     [[nodiscard]] virtual const contact::FrictionFigures& friction() const = 0;
     /// Sets the forces on the obstacles, and adds the work of these in the step: `share` of it [J].
     virtual void take_obstacle_forces(double share, double& work) = 0;

@@ -45,7 +45,7 @@ struct BodyImpulse {
 struct ContactField {
     std::vector<double> pressure;
     std::vector<double> gap;
-    /// Of friction, empty without any: the size of its traction [Pa]; the slip of each face in the last step [m]; and whether
+    /// Fields of friction, empty without any: the size of its traction [Pa]; the slip of each face in the last step [m]; and whether
     /// it stuck (1) or slid (2) then, 0 without friction.
     std::vector<double> friction = {};
     std::vector<double> slip = {};

@@ -25,7 +25,7 @@ public:
         : events_(events), friction_(std::move(friction)), shared_(sharing) {}
 
     [[nodiscard]] const NodeFriction<Dim>& friction() const { return friction_; }
-    /// What friction did in the last step has no part in evaluations any more.
+    /// Later evaluations have no friction until the next step.
     void forget_friction() { friction_.forget(); }
 
     /// Decides admission at x_0 where W = 0, then takes the forces of the step; fills `step`, whose nodes are set. Returns
@@ -66,7 +66,7 @@ private:
 
     void add_friction(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs, FacetStore& facets, double dt,
                       PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
-    /// What the sums of a step say of bodies.
+    /// Checks the sums of bodies, and adds up the work of rigid ones.
     static void finish(const NodalSurface<Dim>& surface, NodalStep<Dim>& step);
 
     static void add_pair(const NodalSurface<Dim>& surface, const NodalPair<Dim>& pair, const Outcome& outcome,
