@@ -8,6 +8,7 @@
 
 #include "abut/contact/facet_store.hpp"
 #include "abut/contact/friction.hpp"
+#include "abut/contact/law/friction_pair.hpp"
 #include "abut/contact/law/friction_pass.hpp"
 #include "abut/contact/path/pieces.hpp"
 #include "abut/contact/step.hpp"
@@ -45,13 +46,10 @@ private:
     static constexpr int n_tangents = Dim - 1;
     using Half = FrictionHalf<n_tangents>;
 
-    /// Part of a pair in the friction of its faces. The index of a half is -1, and the weight 0, of a rigid face.
     struct Pair {
-        std::array<std::int32_t, 2> face;
+        FrictionPair facets;
         Vector<Dim> normal;
-        std::int32_t in_step = -1;
-        std::array<std::int32_t, 2> half{-1, -1};
-        std::array<double, 2> weight{};
+        std::int32_t in_step = -1;  // its index in the pairs of the step; -1: it is not among them
     };
 
     [[nodiscard]] static geometry::Tangents<Dim> tangents(const SurfaceView<Dim>& surface, const Pair& pair,

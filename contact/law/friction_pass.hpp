@@ -30,9 +30,6 @@ struct FrictionHalf {
     Along<N> force = Along<N>::Zero();  ///< result: against `motion`; what acts on this facet is minus this [N]
 };
 
-/// Sign with which one of the faces of a pair (0 or 1) sees its slip, that of face 2 past face 1.
-constexpr double sign_of(std::size_t face) { return face == 0 ? -1.0 : 1.0; }
-
 /// Numbers that a facet remembers.
 template <int N>
 inline constexpr std::int32_t friction_memory = 2 * N + 2;

@@ -36,35 +36,20 @@ void NodeFriction<Dim>::add(const NodalSurface<Dim>& surface, const NodalPair<Di
     const std::int32_t index = n_pairs_++;
     double normal_force = 0.0;
     for (int v = 0; v < Dim; ++v) normal_force += pressure[v];
-    if (pair.friction < 0 || !(normal_force > 0.0 && area > 0.0 && active_share > 0.0)) return;
-    const Surface<Dim>& facets = surface.facets();
-    const std::array<std::int32_t, 2> facet{pair.facet_1, pair.facet_2};
-    const std::array<bool, 2> rigid{!std::isfinite(facets.stiffness[facet[0]]), !std::isfinite(facets.stiffness[facet[1]])};
-
+    const Pressing pressing{normal_force, area, active_share};
+    if (pair.friction < 0 || !pressing.acts()) return;
     sliding_.push_back({.slip = geometry::PairSlip<Dim>(pair.at(x_0_), pair.at(x_1_), pressure),
                         .indices = {.listed = pair.listed,
                                     .body = {pair.body_1, pair.body_2},
                                     .body_pair = pair.body_pair,
                                     .pair = index,
                                     .bodies_in_order = pair.body_1 < pair.body_2}});
-    last_.push_back({.node = pair.node, .facet = {Facet{facet[0]}, Facet{facet[1]}}, .pressure = pressure});
-    Sliding& sliding = sliding_.back();
-    const Vector<Dim> motion = sliding.slip.motion();
-    for (std::size_t face = 0; face < 2; ++face) {
-        if (rigid[face]) continue;
-        const double share = rigid[1 - face] ? 1.0 : 0.5;
-        sliding.half[face] = static_cast<std::int32_t>(halves_.size());
-        halves_.push_back({.facet = Facet{facet[face]},
-                           .normal_force = share * normal_force,
-                           .active_share = active_share,
-                           .area = share * area,
-                           .pair_area = area,
-                           .facet_area = facets.area[facet[face]],
-                           .stiffness = series_stiffness(facets.shear_stiffness[facet[0]], facets.shear_stiffness[facet[1]]),
-                           .law = &options_.laws[static_cast<std::size_t>(pair.friction)],
-                           .motion = geometry::components<Dim>(sliding.slip.tangents(static_cast<int>(face)),
-                                                               Vector<Dim>(sign_of(face) * motion))});
-    }
+    last_.push_back(
+        {.node = pair.node, .facets = {.facet = {Facet{pair.facet_1}, Facet{pair.facet_2}}}, .pressure = pressure});
+    const geometry::PairSlip<Dim>& slip = sliding_.back().slip;
+    append_halves<Dim>(
+        surface.facets(), options_.laws[static_cast<std::size_t>(pair.friction)], pressing, slip.motion(),
+        [&](std::size_t side) { return slip.tangents(static_cast<int>(side)); }, last_.back().facets, halves_);
 }
 
 template <int Dim>
@@ -75,13 +60,8 @@ void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& face
         const Sliding& sliding = sliding_[s];
         Last& last = last_[s];
         const auto add = [&](const geometry::PairSlip<Dim>& slip, PointsView<Dim> x_0) {
-            Vector<Dim> force = Vector<Dim>::Zero();
-            for (std::size_t face = 0; face < 2; ++face) {
-                if (sliding.half[face] < 0) continue;
-                const Half& half = halves_[static_cast<std::size_t>(sliding.half[face])];
-                last.weight[face] = half.weight;
-                force -= sign_of(face) * geometry::in_space<Dim>(slip.tangents(static_cast<int>(face)), half.force);
-            }
+            const Vector<Dim> force = force_on_second<Dim>(
+                halves_, [&](std::size_t side) { return slip.tangents(static_cast<int>(side)); }, last.facets);
             add_force(last, sliding.indices, slip, force, x_0, x_1_, step);
         };
         if (take_ == TakenForce::mean) {
@@ -102,13 +82,8 @@ void NodeFriction<Dim>::evaluate(const NodalSurface<Dim>& surface, const FacetSt
     for (const Last& last : last_) {
         const Corners at = corners(last, x);
         const geometry::PairSlip<Dim> slip(at, at, last.pressure);
-        Vector<Dim> force = Vector<Dim>::Zero();
-        for (std::size_t face = 0; face < 2; ++face) {
-            if (last.weight[face] == 0.0) continue;
-            const auto state = stick_state<n_tangents>(facets[last.facet[face]]);
-            force -= (sign_of(face) * last.weight[face]) *
-                     geometry::in_space<Dim>(slip.tangents(static_cast<int>(face)), state.stiffness * state.stretch);
-        }
+        const Vector<Dim> force = spring_force_on_second<Dim>(
+            facets, [&](std::size_t side) { return slip.tangents(static_cast<int>(side)); }, last.facets);
         const Indices indices = indices_in(step, surface, active, last);
         if (std::ranges::all_of(indices.listed, [](std::int32_t i) { return i >= 0; }))  // else it is far from where it was
             add_force(last, indices, slip, force, x, x, step);
@@ -130,13 +105,14 @@ typename NodeFriction<Dim>::Indices NodeFriction<Dim>::indices_in(const NodalSte
     for (std::size_t v = 0; v < last.node.size(); ++v)
         indices.listed[v] = index_of(step.nodes, last.node[v], [](std::int32_t node) { return node; });
     const std::vector<std::int32_t>& body = surface.facets().body;
-    const std::int32_t body_1 = body[number_of(last.facet[0])], body_2 = body[number_of(last.facet[1])];
+    const std::int32_t body_1 = body[number_of(last.facets.facet[0])], body_2 = body[number_of(last.facets.facet[1])];
     const auto number_of_body = [](const BodyStep<Dim>& of) { return of.body; };
     indices.body = {index_of(step.bodies, body_1, number_of_body), index_of(step.bodies, body_2, number_of_body)};
     indices.bodies_in_order = body_1 < body_2;
     indices.body_pair = index_of(step.body_pairs, std::pair(std::min(body_1, body_2), std::max(body_1, body_2)),
                                  [](const BodyPairStep<Dim>& of) { return std::pair(of.body_1, of.body_2); });
-    indices.pair = index_of(active, FacetPair{last.facet[0], last.facet[1]}, [](const FacetPair& of) { return of; });
+    indices.pair =
+        index_of(active, FacetPair{last.facets.facet[0], last.facets.facet[1]}, [](const FacetPair& of) { return of; });
     return indices;
 }
 

@@ -8,6 +8,7 @@
 
 #include "abut/contact/facet_store.hpp"
 #include "abut/contact/friction.hpp"
+#include "abut/contact/law/friction_pair.hpp"
 #include "abut/contact/law/friction_pass.hpp"
 #include "abut/contact/nodal_pairs.hpp"
 #include "abut/contact/nodal_step.hpp"
@@ -58,14 +59,12 @@ private:
     struct Sliding {
         geometry::PairSlip<Dim> slip;
         Indices indices;
-        std::array<std::int32_t, 2> half{-1, -1};  // of each facet; -1: it is rigid
     };
     /// Pair of the last step: its corners, where it pressed, and its part in the friction of both facets.
     struct Last {
         std::array<std::int32_t, 2 * Dim> node;
-        std::array<Facet, 2> facet;
+        FrictionPair facets;
         geometry::PairPressure<Dim> pressure;
-        std::array<double, 2> weight{};  // 0: this facet has none
     };
 
     [[nodiscard]] static Corners corners(const Last& last, PointsView<Dim> x);
