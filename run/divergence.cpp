@@ -6,6 +6,7 @@
 #include <string>
 
 #include "abut/base/error.hpp"
+#include "abut/run/remedies.hpp"
 
 namespace abut::run {
 namespace {
@@ -38,10 +39,9 @@ void refuse_diverged(const Scene<Dim>& scene, const RunResult<Dim>& result, doub
                 "J, is allowed: the motion swings from step to step and is no solution, though H~ stays. {} Steps are "
                 "{:.4g} s long, stable are {:.4g} s. {}",
                 entry.step, entry.time, excess, scale, worst_is, result.dt, result.stable.dt,
-                result.dt > result.stable.dt
-                    ? "Lower --cfl or --dt."
-                    : "If bodies meet with edges or tips, blunt them or refine there; else take a lower --cfl, --filter "
-                      "neutral or --restart 50."),
+                result.dt > result.stable.dt ? "Lower --cfl or --dt."
+                                             : "If bodies meet with edges or tips, blunt them or refine there; else take " +
+                                                   calming_choices(result.options) + "."),
             {.cell = worst.cell, .value = excess, .allowed = scale});
     throw Diverged(
         fmt::format("step {}, t = {:.4g} s: the run has diverged: H is {:.3g} J, {:.3g} J of it work from outside, "

@@ -13,6 +13,7 @@
 #include "abut/contact/nodal_contact.hpp"
 #include "abut/run/body_names.hpp"
 #include "abut/run/obstacle_watch.hpp"
+#include "abut/run/remedies.hpp"
 #include "abut/run/user_words.hpp"
 
 namespace abut::run {
@@ -179,18 +180,15 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
         const double excess = ledger.energy_excess() / energy;
         add_above(WarningKind::energy_excess, excess, large_energy_excess,
                   fmt::format("H - H~ came to {:.2g} of the energy in play, {:g} is safe: so much swings from step to step, "
-                              "unseen by H~. A lower --cfl, --filter neutral or --restart 50 help where contact excites it; "
-                              "tips and edges that meet are to be blunted",
-                              excess, large_energy_excess));
+                              "unseen by H~. Where contact excites it take {}; tips and edges that meet are to be blunted",
+                              excess, large_energy_excess, calming_choices(result.options)));
     }
     if (is_memm && result.accounts.speed > 0.0) {
         const double share = ledger.parasitic() / result.accounts.speed;
-        add_above(
-            WarningKind::parasitic, share, large_parasitic_share,
-            fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
-                        "safe: do not read single cells near contact. --filter neutral clears that there, --restart 50 "
-                        "everywhere",
-                        ledger.parasitic(), share, large_parasitic_share));
+        add_above(WarningKind::parasitic, share, large_parasitic_share,
+                  fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
+                              "safe: do not read single cells near contact, or take {}",
+                              ledger.parasitic(), share, large_parasitic_share, calming_choices(result.options)));
         if (share > large_parasitic_share && share <= spoiling_parasitic_share)
             counts.warnings.back().severity = Severity::note;
     }
@@ -315,10 +313,11 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
                         contact.slipped_pairs, contact.slipped_compression_max));
     if (const double share = contact.sliding_force / contact.sliding_limit; share < least_sliding_share)
         add(WarningKind::alternating_slip, share, least_sliding_share,
-            fmt::format("faces that slide feel {:.2g} of the friction that they should, {:g} is safe: their slip alternates from "
-                        "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
-                        "the filter act with friction), or take a lower --cfl",
-                        share, least_sliding_share));
+            fmt::format(
+                "faces that slide feel {:.2g} of the friction that they should, {:g} is safe: their slip alternates from "
+                "step to step, and dissipation is wrong though the balance of energy holds. Leave --restart out (10 and "
+                "the filter act with friction), or take a lower --cfl",
+                share, least_sliding_share));
     if (const double rotation = result.ledger.rotation(); rotation > far_rotation && !result.all_may_turn)
         add(WarningKind::rotation, rotation, far_rotation,
             fmt::format(
@@ -335,8 +334,8 @@ std::vector<Warning> warnings_after(const RunResult<Dim>& result) {
         add(WarningKind::finite_strain, result.finite.strain, large_strain,
             fmt::format("a cell of a finite body was strained by {:.2g}, {:g} is safe, and the least det F was {:.2g}: St. "
                         "Venant and Kirchhoff's material is one of small strains, and weak in compression. Look at H - H~: "
-                        "if noise grows, a lower --cfl and --restart 50 help",
-                        result.finite.strain, large_strain, result.finite.determinant));
+                        "if noise grows, take {}",
+                        result.finite.strain, large_strain, result.finite.determinant, calming_choices(result.options)));
     add_sightings(counts, result);
     counts.add(WarningKind::missed_contacts, Severity::warning, contact.missed_contacts,
                fmt::format("{} contacts were missed, 0 are allowed: the energy is not exact", contact.missed_contacts));
