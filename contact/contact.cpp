@@ -100,6 +100,11 @@ const PairStore& Contact<Dim>::pair_store() const {
 }
 
 template <int Dim>
+void Contact<Dim>::clear_report() {
+    implementation_->engine.clear_report();
+}
+
+template <int Dim>
 std::vector<std::byte> Contact<Dim>::state() const {
     return implementation_->engine.state();
 }

@@ -100,6 +100,7 @@ public:
 
     [[nodiscard]] const SurfaceView<Dim>& surface() const;
     [[nodiscard]] const ContactReport& report() const;
+    void clear_report();  ///< a run begins here: its counts do, while pairs and faces remember what they do
     [[nodiscard]] const CandidateReport& search_report() const;
     [[nodiscard]] double skin() const;                        ///< of the current list [m]
     [[nodiscard]] const FaceCoupling<Dim>& coupling() const;  ///< of the listed faces, as the host gave it

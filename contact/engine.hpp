@@ -168,6 +168,9 @@ public:
 
     // From one run or surface to another
 
+    /// A run begins: its report does, while pairs and facets remember what they do.
+    void clear_report() { report_ = {}; }
+
     [[nodiscard]] std::vector<std::byte> state() const {
         return saved(state_key(), {has_searched_, candidates_.next_skin(), report_, pairs_, facets_, new_facets_});
     }

@@ -145,6 +145,11 @@ std::optional<EdgePair<Dim>> NodalContact<Dim>::unseen_edges() const {
 }
 
 template <int Dim>
+void NodalContact<Dim>::clear_report() {
+    implementation_->engine.clear_report();
+}
+
+template <int Dim>
 std::vector<std::byte> NodalContact<Dim>::state() const {
     return implementation_->engine.state();
 }

@@ -95,6 +95,9 @@ public:
             if (changed && change == StepChange::keep) system_.constrain_along(q_, dt_, p_after_);
     }
 
+    /// Brings all to rest where it is, p^n = 0. Time goes on.
+    void bring_to_rest() { scheme().start(std::vector<double>(q_.size(), 0.0)); }
+
     /// Turns the motion round: a system whose force depends on q alone follows the same path back, up to rounding. Time
     /// goes on.
     void reverse() {

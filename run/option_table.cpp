@@ -29,6 +29,10 @@ List of_time() {
         option("time", &Of::time, {.help = "end of the run", .limits = a_time, .named = Named::never}),
         option("steps", &Of::steps,
                {.help = "steps of the run where no time is given; 0: as many as the time takes", .named = Named::never}),
+        option("settle", &Of::settle,
+               {.help = "bring the bodies to rest under the loads of t = 0 before the run begins, with their friction; their "
+                        "velocities come after that",
+                .named = Named::changed}),
         option("cfl", &Of::cfl,
                {.help = "time step over the stable step, at most 1 (the margin for contact is in the stable step)",
                 .limits = {.above = 0.0,

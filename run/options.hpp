@@ -33,6 +33,7 @@ enum class BodyKinematics { scene, automatic, small, floating, finite, rigid };
 struct RunOptions {
     double time = not_given;      ///< end of the run [s]; not given: as many steps as `steps`, or the scene's own time
     int steps = 0;                ///< of the run where no time is given; 0: not given
+    bool settle = false;          ///< bodies are brought to rest under the loads of t = 0 first (run/settling.hpp)
     double cfl = 0.9;             ///< time step over the stable step [-]
     double dt = not_given;        ///< time step [s], instead of `cfl`
     bool allow_unstable = false;  ///< takes `dt` even above the stable step

@@ -142,6 +142,7 @@ RunOptions of_one_kind(RunOptions options, BodyKinematics kinematics) {
     options.contact_margin = by_default.contact_margin;
     options.contact_levels = by_default.contact_levels;
     options.gauge = by_default.gauge;
+    options.settle = false;
     options.filter = false;
     options.restart = 0;
     options.law = solid::ContactLaw::automatic;

@@ -16,6 +16,7 @@
 #include "abut/run/outputs.hpp"
 #include "abut/run/pilot_report.hpp"
 #include "abut/run/rebalancing.hpp"
+#include "abut/run/settling_report.hpp"
 #include "abut/run/sightings.hpp"
 #include "abut/run/surface_looks.hpp"
 #include "abut/run/value.hpp"
@@ -99,6 +100,7 @@ struct RunResult {
     /// Scale where J~ is conserved: times the root of an energy it is a bound of the angular momentum [kg^(1/2) m]; else 0
     double moment_scale = 0.0;
     std::optional<PilotReport> pilot;              ///< under BodyKinematics::automatic
+    std::optional<SettlingReport> settling;        ///< under RunOptions::settle
     bool all_may_turn = false;                     ///< no body is of Kinematics::small
     std::vector<solid::BodyInertia<Dim>> inertia;  ///< of the bodies; empty except on the first rank
     solid::StencilReport stencils;                 ///< of the faces between cells

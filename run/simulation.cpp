@@ -396,7 +396,7 @@ private:
         }
         const auto& entries = result_.ledger.entries();
         result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
-        if (entries.size() == 1 && scene_.contact) check_contact(entries.front());
+        if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
         on_first([&] { observer_.record(entries.back(), result_); });
         const double scale = std::max(result_.accounts.energy_in_play, result_.scale.value);
         check_alive(entries.back(), scale, excess_before);

@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/base/stopwatch.hpp"
 #include "abut/dynamics/mass.hpp"
 #include "abut/dynamics/ranks.hpp"
 #include "abut/run/of_all_ranks.hpp"
+#include "abut/run/settling.hpp"
+#include "abut/run/start_contact.hpp"
 #include "abut/solid/local_steps.hpp"
 
 namespace abut::run {
@@ -90,6 +93,7 @@ Start<Dim>::Start(const Scene<Dim>& of, const RunOptions& given, std::optional<P
     result.unseen_edges = solid->unseen_edges();
     set_outside();
     set_state();
+    if (options.settle) settle();
 }
 
 /// What changes momentum and angular momentum.
@@ -131,6 +135,34 @@ template <int Dim>
 void Start<Dim>::set_state() {
     q = displacement_at_start(scene, *solid);
     momentum = momentum_at_start(scene, *solid);
+}
+
+/// Where it begins is looked at before: later bodies are pressed together, and the look could not tell why.
+template <int Dim>
+void Start<Dim>::settle() {
+    const dynamics::Ranks& ranks = solid->ranks();
+    const auto is_any = [](const auto& values) {
+        return std::ranges::any_of(values, [](const auto& value) { return !value.isZero(0.0); });
+    };
+    if (solid->has_constraints() && (scene.added_velocity || is_any(scene.spin)))
+        throw BadInput(
+            "--settle: a rigid body takes its spin from velocities of its cells where they are at rest, and comes to rest "
+            "elsewhere. Leave spin and added velocities of the scene out, or --settle.");
+    double seconds = 0.0;
+    {
+        const Stopwatch watch(seconds);
+        const double kinetic = 0.5 * dynamics::mass_product_over(ranks, momentum, solid->inverse_mass(), momentum);
+        const dynamics::IntegratorState all = collected<Dim>(ranks, {.q = q, .p_before = momentum, .p_after = momentum});
+        if (scene.contact)
+            on_first(ranks, [&] {
+                check_start_contact<Dim>(scene, whole ? *whole : *solid, all.q, std::max(kinetic, scene.energy_scale.value));
+            });
+        Settled settled = run::settle(scene, solid->options(), first_share, q, result.stable.dt);
+        q = std::move(settled.q);
+        solid->restore(settled.solid, q);
+        result.settling = settled.report;
+    }
+    result.settling->seconds = seconds;
 }
 
 /// The solid before goes first: there is never more than one of them, and references to it stay good.

@@ -43,6 +43,7 @@ struct Start {
 
 private:
     void set_state();
+    void settle();
     void set_outside();
     void set_local_steps();
 };

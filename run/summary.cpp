@@ -56,6 +56,14 @@ Json pilot_json(const PilotReport& pilot) {
             {"seconds_rigid", seconds(pilot.rigid)}};
 }
 
+Json settling_json(const SettlingReport& settling) {
+    return {{"steps", settling.steps},
+            {"rests", settling.rests},
+            {"speed", settling.speed},
+            {"dissipated", settling.dissipated},
+            {"seconds", settling.seconds}};
+}
+
 template <int Dim>
 Json seconds_json(const RunResult<Dim>& result) {
     const auto& seconds = result.seconds;
@@ -182,14 +190,15 @@ Json friction_json(const RunResult<Dim>& result) {
     const contact::ContactReport& contact = result.contact;
     if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return Json::object();
     const auto& last = result.ledger.entries().back();
-    return {{"friction",
-             {{"dissipated", last.dissipated},
-              {"energy", last.friction_energy},
-              {"least_dissipated", contact.least_dissipated},
-              {"sticking_faces_max", contact.sticking_faces_max},
-              {"sliding_faces_max", contact.sliding_faces_max},
-              {"force_over_limit_max", contact.friction_ratio_max},
-              {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()}}}};
+    return {
+        {"friction",
+         {{"dissipated", last.dissipated},
+          {"energy", last.friction_energy},
+          {"least_dissipated", contact.least_dissipated},
+          {"sticking_faces_max", contact.sticking_faces_max},
+          {"sliding_faces_max", contact.sliding_faces_max},
+          {"force_over_limit_max", contact.friction_ratio_max},
+          {"sliding_share", contact.sliding_limit > 0.0 ? Json(contact.sliding_force / contact.sliding_limit) : Json()}}}};
 }
 
 Json encounter_json(const Encounter& met) {
@@ -280,12 +289,11 @@ std::string friction_lines(const RunResult<Dim>& result) {
     if (contact.sticking_faces_max + contact.sliding_faces_max == 0) return "";
     const auto& last = result.ledger.entries().back();
     const std::string& name = result.scale.name;
-    std::string text =
-        table_line(fmt::format("dissipated by friction, / {}", name),
-                   fmt::format("{:.4g}; held by faces that stick {:.2e}", result.scale.over(last.dissipated),
-                               result.scale.over(last.friction_energy))) +
-        table_line("faces that stick, that slide, at most",
-                   fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
+    std::string text = table_line(fmt::format("dissipated by friction, / {}", name),
+                                  fmt::format("{:.4g}; held by faces that stick {:.2e}", result.scale.over(last.dissipated),
+                                              result.scale.over(last.friction_energy))) +
+                       table_line("faces that stick, that slide, at most",
+                                  fmt::format("{}, {}", contact.sticking_faces_max, contact.sliding_faces_max));
     if (contact.sliding_limit > 0.0)
         text += table_line("force of sliding faces over its limit",
                            fmt::format("{:.3g}", contact.sliding_force / contact.sliding_limit));
@@ -328,6 +336,7 @@ std::string summary_json(const std::string& program, const Scene<Dim>& scene, co
     json.update(friction_json(result));
     for (const Finding& finding : result.findings) json[finding.key] = to_json(finding.value);
     if (result.pilot) json["pilot"] = pilot_json(*result.pilot);
+    if (result.settling) json["settling"] = settling_json(*result.settling);
     json.update({{"mesh", mesh_json(scene.mesh.report)},
                  {"bodies", bodies_json(scene, result)},
                  {"seconds", seconds_json(result)},
@@ -347,6 +356,9 @@ std::string closing_table(const std::string& program, const Scene<Dim>& scene, c
         text += table_line("cells that step with dt, dt/2, ...", fmt::format("{}", fmt::join(result.level_cells, ", ")));
     if (!result.complete)
         text += table_line("asked to stop before the end", fmt::format("t = {:.4g} s", result.ledger.entries().back().time));
+    if (result.settling)
+        text += table_line("brought to rest before the start",
+                           fmt::format("in {} steps, to {:.2g} m/s", result.settling->steps, result.settling->speed));
     if (result.resumed_after > 0)
         text += table_line("gone on from a checkpoint", fmt::format("after step {}", result.resumed_after));
     text += energy_lines(result) + restart_line(result) + contact_lines(result) + friction_lines(result);

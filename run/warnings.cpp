@@ -19,6 +19,8 @@
 namespace abut::run {
 namespace {
 
+constexpr double rounding_of_motion = 1e-12;  // of the energy in play: less kinetic energy is that of bodies at rest
+
 /// In the words of people who write scenes.
 std::vector<Warning> in_user_words(std::vector<Warning> warnings) {
     for (Warning& warning : warnings) warning.text = with_keys(run::in_user_words(std::move(warning.text)));
@@ -183,7 +185,9 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
                               "unseen by H~. Where contact excites it take {}; tips and edges that meet are to be blunted",
                               excess, large_energy_excess, calming_choices(result.options)));
     }
-    if (is_memm && result.accounts.speed > 0.0) {
+    const auto kinetic = [](const auto& entry) { return entry.kinetic; };
+    const double motion = kinetic(std::ranges::max(ledger.entries(), {}, kinetic));
+    if (is_memm && result.accounts.speed > 0.0 && motion > rounding_of_motion * energy) {
         const double share = ledger.parasitic() / result.accounts.speed;
         add_above(WarningKind::parasitic, share, large_parasitic_share,
                   fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "

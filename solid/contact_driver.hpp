@@ -128,6 +128,7 @@ public:
     [[nodiscard]] virtual const contact::Contact<Dim>* by_faces() const { return nullptr; }
     [[nodiscard]] virtual const contact::NodalContact<Dim>* by_nodes() const { return nullptr; }
     [[nodiscard]] virtual contact::ContactReport report() const = 0;
+    virtual void clear_report() = 0;
     [[nodiscard]] virtual double skin() const = 0;  ///< of the candidate list [m]
     [[nodiscard]] virtual std::vector<contact::BlindCorner<Dim>> blind_corners() const = 0;
     [[nodiscard]] virtual std::optional<contact::EdgePair<Dim>> unseen_edges() const = 0;

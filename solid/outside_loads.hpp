@@ -54,6 +54,8 @@ public:
                   const typename PointLoads<Dim>::TurnOf& turn_of);
     [[nodiscard]] OutsideWork work(std::span<const Vector<Dim>> q) const;
 
+    void clear_work() { work_ = {}; }
+
     void save(StateWriter& state) const;  ///< between two steps
     void restore(StateReader& state);
 

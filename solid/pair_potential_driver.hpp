@@ -57,6 +57,7 @@ public:
 
     [[nodiscard]] const contact::NodalContact<Dim>* by_nodes() const override { return &contact_; }
     [[nodiscard]] contact::ContactReport report() const override { return contact_.report(); }
+    void clear_report() override { contact_.clear_report(); }
     [[nodiscard]] double skin() const override { return contact_.skin(); }
     [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override { return corners_.mesh_boundary(face); }
     [[nodiscard]] std::vector<contact::BlindCorner<Dim>> blind_corners() const override;

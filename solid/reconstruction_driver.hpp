@@ -68,6 +68,7 @@ public:
 
     [[nodiscard]] const contact::Contact<Dim>* by_faces() const override { return &*contact_; }
     [[nodiscard]] contact::ContactReport report() const override;
+    void clear_report() override { contact_->clear_report(); }
     [[nodiscard]] BoundaryFace mesh_boundary(contact::Face face) const override {
         const auto i = static_cast<std::size_t>(face);
         return i < boundary_of_surface_.size() ? boundary_of_surface_[i] : no_face;

@@ -159,6 +159,9 @@ public:
     /// next steps have the same bits. Contact has no force on obstacles and no patches before the next step. Throws BadInput
     /// for bytes that are damaged, of another version, mesh or options; the solid is of no use then.
     void restore(std::span<const std::byte> state, std::span<const double> q);
+    /// A run begins in the present state: time, work and all counts are 0 from here on, while loads, dashpots, pairs and faces
+    /// remember what they do. For loads and obstacles whose paths are the same at all times.
+    void begin_run();
 
     /// Largest |g|/D of a pair in contact, in the last step or in the state that was evaluated since; 0 without contact [-].
     [[nodiscard]] double compression() const;

@@ -109,6 +109,17 @@ void Solid<Dim>::restore(std::span<const std::byte> bytes, std::span<const doubl
     state.finish();
 }
 
+template <int Dim>
+void Solid<Dim>::begin_run() {
+    time_ = work_ = 0.0;
+    evaluations_ = 0;
+    finite_extremes_ = {};
+    outside_->clear_work();
+    if (!contact_) return;
+    contact_->clear_report();
+    contact_->restore_impulses({});
+}
+
 // Parts --------------------------------------------------------------------------------------------------------------
 
 template <int Dim>
@@ -226,6 +237,7 @@ void PairPotentialDriver<Dim>::restore(std::span<const std::byte> state, std::sp
 #define ABUT_INSTANTIATE(Dim)                                                                                           \
     template std::vector<std::byte> Solid<Dim>::state() const;                                                          \
     template void Solid<Dim>::restore(std::span<const std::byte>, std::span<const double>);                             \
+    template void Solid<Dim>::begin_run();                                                                              \
     template void Loads<Dim>::save(StateWriter&) const;                                                                 \
     template void Loads<Dim>::restore(StateReader&);                                                                    \
     template void PointLoads<Dim>::save(StateWriter&) const;                                                            \

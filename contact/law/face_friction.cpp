@@ -16,9 +16,9 @@ geometry::Tangents<Dim> FaceFrictionLaw<Dim>::tangents(const SurfaceView<Dim>& s
 }
 
 template <int Dim>
-void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
-                                 double dt, std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
-                                 TakenForce take, FacetStore& facets, ContactStep<Dim>& step) {
+template <class SlipOf>
+void FaceFrictionLaw<Dim>::take_pairs(const SurfaceView<Dim>& surface, const PairList<Dim>& list,
+                                      const ActivePairs<Dim>& active, const SlipOf& slip_of, ContactStep<Dim>& step) {
     halves_.clear();
     last_.clear();
     for (std::int32_t a = 0; a < active.size(); ++a) {
@@ -29,17 +29,28 @@ void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList
         last_.push_back(
             {.facets = {.facet = {Facet{pair.face_1}, Facet{pair.face_2}}}, .normal = of_step.normal, .in_step = a});
         Pair& sliding = last_.back();
+        append_halves<Dim>(
+            surface, options_.laws[static_cast<std::size_t>(pair.friction)], pressing, slip_of(pair, of_step),
+            [&](std::size_t side) { return tangents(surface, sliding, side); }, sliding.facets, halves_);
+    }
+}
+
+template <int Dim>
+void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
+                                 double dt, std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1,
+                                 TakenForce take, FacetStore& facets, ContactStep<Dim>& step) {
+    has_stepped_ = true;
+    const auto slip_of = [&](const ContactPair<Dim>& pair, PairStep<Dim>& of_step) {
         const auto motion_of = [&](std::int32_t listed) -> Vector<Dim> { return u_1[listed] - u_0[listed]; };
         const Vector<Dim> relative = motion_of(pair.listed_2) - motion_of(pair.listed_1);
         of_step.point = 0.5 * (surface.centroid[pair.face_1] + surface.centroid[pair.face_2]) +
                         0.25 * (u_0[pair.listed_1] + u_1[pair.listed_1] + u_0[pair.listed_2] + u_1[pair.listed_2]);
-        of_step.slip = relative - of_step.normal * of_step.normal.dot(relative);
-        append_halves<Dim>(
-            surface, options_.laws[static_cast<std::size_t>(pair.friction)], pressing, of_step.slip,
-            [&](std::size_t side) { return tangents(surface, sliding, side); }, sliding.facets, halves_);
-    }
+        return of_step.slip = relative - of_step.normal * of_step.normal.dot(relative);
+    };
+    take_pairs(surface, list, active, slip_of, step);
     pass_.apply(dt, take, halves_, facets, step.report.friction, step.friction);
     for (Pair& pair : last_) {
+        take_weights<n_tangents>(halves_, pair.facets);
         const Vector<Dim> force = force_on_second<Dim>(
             halves_, [&](std::size_t side) { return tangents(surface, pair, side); }, pair.facets);
         add_force(pair, force, step);
@@ -47,9 +58,15 @@ void FaceFrictionLaw<Dim>::apply(const SurfaceView<Dim>& surface, const PairList
 }
 
 template <int Dim>
-void FaceFrictionLaw<Dim>::evaluate(const SurfaceView<Dim>& surface, const FacetStore& facets,
-                                    ContactStep<Dim>& step) const {
+void FaceFrictionLaw<Dim>::evaluate(const SurfaceView<Dim>& surface, const PairList<Dim>& list,
+                                    const ActivePairs<Dim>& active, const FacetStore& facets, ContactStep<Dim>& step) {
     step.report.friction.energy = stick_energy<n_tangents>(facets);
+    if (!has_stepped_ && !facets.used().empty()) {
+        const auto none = [](const ContactPair<Dim>&, const PairStep<Dim>&) -> Vector<Dim> { return Vector<Dim>::Zero(); };
+        take_pairs(surface, list, active, none, step);
+        pass_.weigh(halves_);
+        for (Pair& pair : last_) take_weights<n_tangents>(halves_, pair.facets);
+    }
     for (const Pair& pair : last_) {
         const Vector<Dim> force = spring_force_on_second<Dim>(
             facets, [&](std::size_t side) { return tangents(surface, pair, side); }, pair.facets);

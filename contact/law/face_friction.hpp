@@ -37,10 +37,14 @@ public:
                std::span<const Vector<Dim>> u_0, std::span<const Vector<Dim>> u_1, TakenForce take, FacetStore& facets,
                ContactStep<Dim>& step);
 
-    /// The forces of the springs as they are, with the weights of the last step. Without one since the last `forget` there are
-    /// none.
-    void evaluate(const SurfaceView<Dim>& surface, const FacetStore& facets, ContactStep<Dim>& step) const;
-    void forget() { last_.clear(); }
+    /// The forces of the springs as they are, with the weights of the last step; before the first one, and after `forget`, with
+    /// those of `step`, an evaluation with these active pairs.
+    void evaluate(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
+                  const FacetStore& facets, ContactStep<Dim>& step);
+    void forget() {
+        last_.clear();
+        has_stepped_ = false;
+    }
 
 private:
     static constexpr int n_tangents = Dim - 1;
@@ -52,6 +56,10 @@ private:
         std::int32_t in_step = -1;  // its index in the pairs of the step; -1: it is not among them
     };
 
+    /// Finds the pairs that press, and their halves. `slip_of(pair, of_step)`: of a pair with friction, across its normal.
+    template <class SlipOf>
+    void take_pairs(const SurfaceView<Dim>& surface, const PairList<Dim>& list, const ActivePairs<Dim>& active,
+                    const SlipOf& slip_of, ContactStep<Dim>& step);
     [[nodiscard]] static geometry::Tangents<Dim> tangents(const SurfaceView<Dim>& surface, const Pair& pair,
                                                           std::size_t side);
     /// `force`: on face 2.
@@ -59,6 +67,7 @@ private:
 
     FrictionOptions options_;
     FrictionPass<n_tangents> pass_;
+    bool has_stepped_ = false;
     std::vector<Half> halves_;
     std::vector<Pair> last_;  // with friction, in the last step
 };

@@ -93,8 +93,8 @@ template <int Dim>
 void FaceLaw<Dim>::evaluate(const FacePath<Dim>& state, std::span<const PairMemory> memory, const FacetStore& facets,
                             ContactStep<Dim>& step) {
     check_path<Dim>(surface_, faces_, state);
-    apply(state, memory, step);
-    if (friction_.any()) friction_.evaluate(surface_, facets, step);
+    const ActivePairs<Dim>& active = apply(state, memory, step);
+    if (friction_.any()) friction_.evaluate(surface_, list_, active, facets, step);
     check_forces<Dim>(surface_, step);
 }
 

@@ -58,15 +58,20 @@ void append_halves(const Facets& facets, const Friction& law, const Pressing& pr
     }
 }
 
-/// Friction on facet 2 of a pair, mean over the step [N], by the results of its halves; takes their weights.
+template <int N>
+void take_weights(std::span<const FrictionHalf<N>> halves, FrictionPair& pair) {
+    for (std::size_t side = 0; side < 2; ++side)
+        if (pair.half[side] >= 0) pair.weight[side] = halves[static_cast<std::size_t>(pair.half[side])].weight;
+}
+
+/// Friction on facet 2 of a pair, mean over the step [N], by the results of its halves.
 template <int Dim, class TangentsOf>
 [[nodiscard]] Vector<Dim> force_on_second(std::span<const FrictionHalf<Dim - 1>> halves, const TangentsOf& tangents_of,
-                                          FrictionPair& pair) {
+                                          const FrictionPair& pair) {
     Vector<Dim> force = Vector<Dim>::Zero();
     for (std::size_t side = 0; side < 2; ++side) {
         if (pair.half[side] < 0) continue;
         const FrictionHalf<Dim - 1>& half = halves[static_cast<std::size_t>(pair.half[side])];
-        pair.weight[side] = half.weight;
         force -= sign_of(side) * geometry::in_space<Dim>(tangents_of(side), half.force);
     }
     return force;

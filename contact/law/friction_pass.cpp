@@ -33,6 +33,12 @@ double let_go(StickState<N>& state) {
     return lost;
 }
 
+/// Of a pair in the force of its facet, which has this normal force.
+template <int N>
+double weight_of(const FrictionHalf<N>& half, double normal_force) {
+    return half.normal_force / normal_force * half.active_share;
+}
+
 }  // namespace
 
 template <int N>
@@ -59,10 +65,6 @@ void FrictionPass<N>::apply(double dt, TakenForce take, std::span<FrictionHalf<N
                             FrictionFigures& figures, std::vector<FaceFriction>& of_facets) {
     figures = {};
     of_facets.clear();
-    order_.resize(halves.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(halves[i].facet, i); });
-
     const auto book = [&](double dissipated) {
         figures.dissipated += dissipated;
         figures.least_dissipated = std::min(figures.least_dissipated, dissipated);
@@ -75,14 +77,13 @@ void FrictionPass<N>::apply(double dt, TakenForce take, std::span<FrictionHalf<N
     };
     auto used = facets.used().begin();
     const auto end_of_used = facets.used().end();
-    for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
-        const Facet facet = halves[order_[begin]].facet;
-        while (end < order_.size() && halves[order_[end]].facet == facet) ++end;
+    for_each_facet(halves, [&](std::span<const std::size_t> of_facet) {
+        const Facet facet = halves[of_facet[0]].facet;
         for (; used != end_of_used && *used < facet; ++used) release(*used);
         if (used != end_of_used && *used == facet) ++used;
 
         StickState<N> state = stick_state<N>(facets[facet]);
-        const FaceFriction found = advance(dt, take, halves, std::span(order_).subspan(begin, end - begin), state);
+        const FaceFriction found = advance(dt, take, halves, of_facet, state);
         facets.set_next(facet, memory_of(state));
         of_facets.push_back(found);
         book(found.dissipated);
@@ -95,8 +96,30 @@ void FrictionPass<N>::apply(double dt, TakenForce take, std::span<FrictionHalf<N
         } else {
             ++figures.sticking;
         }
-    }
+    });
     for (; used != end_of_used; ++used) release(*used);
+}
+
+template <int N>
+void FrictionPass<N>::weigh(std::span<FrictionHalf<N>> halves) {
+    for_each_facet(halves, [&](std::span<const std::size_t> of_facet) {
+        double normal_force = 0.0;
+        for (const std::size_t i : of_facet) normal_force += halves[i].normal_force;
+        for (const std::size_t i : of_facet) halves[i].weight = weight_of(halves[i], normal_force);
+    });
+}
+
+template <int N>
+template <class Visit>
+void FrictionPass<N>::for_each_facet(std::span<const FrictionHalf<N>> halves, const Visit& visit) {
+    order_.resize(halves.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::sort(order_, {}, [&](std::size_t i) { return std::pair(halves[i].facet, i); });
+    for (std::size_t begin = 0, end = 0; begin < order_.size(); begin = end) {
+        const Facet facet = halves[order_[begin]].facet;
+        while (end < order_.size() && halves[order_[end]].facet == facet) ++end;
+        visit(std::span<const std::size_t>(order_).subspan(begin, end - begin));
+    }
 }
 
 template <int N>
@@ -128,7 +151,7 @@ FaceFriction FrictionPass<N>::advance(double dt, TakenForce take, std::span<Fric
     const FrictionStep<N> step = take == TakenForce::mean ? take_mean_step<N>(state, motion, limit, creep)
                                                           : take_end_step<N>(state, motion, limit, creep);
     for (const std::size_t i : of_facet) {
-        halves[i].weight = share(halves[i]) * halves[i].active_share;
+        halves[i].weight = weight_of(halves[i], normal_force);
         halves[i].force = halves[i].weight * step.force;
     }
     return {.face = Face{number_of(halves[of_facet[0]].facet)},

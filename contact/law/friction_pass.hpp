@@ -49,7 +49,13 @@ public:
     void apply(double dt, TakenForce take, std::span<FrictionHalf<N>> halves, FacetStore& facets, FrictionFigures& figures,
                std::vector<FaceFriction>& of_facets);
 
+    /// Fills the weights of the halves alone.
+    void weigh(std::span<FrictionHalf<N>> halves);
+
 private:
+    /// Calls visit(indices) with those of the halves of each facet, by facet.
+    template <class Visit>
+    void for_each_facet(std::span<const FrictionHalf<N>> halves, const Visit& visit);
     FaceFriction advance(double dt, TakenForce take, std::span<FrictionHalf<N>> halves,
                          std::span<const std::size_t> of_facet, StickState<N>& state);
 

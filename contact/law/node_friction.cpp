@@ -54,11 +54,13 @@ void NodeFriction<Dim>::add(const NodalSurface<Dim>& surface, const NodalPair<Di
 
 template <int Dim>
 void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step) {
+    has_stepped_ = true;
     pass_.apply(dt_, take_, halves_, facets, step.report.friction, step.friction);
     for (FaceFriction& of_facet : step.friction) of_facet.face = surface.face_of(Facet{number_of(of_facet.face)});
     for (std::size_t s = 0; s < sliding_.size(); ++s) {
         const Sliding& sliding = sliding_[s];
         Last& last = last_[s];
+        take_weights<n_tangents>(halves_, last.facets);
         const auto add = [&](const geometry::PairSlip<Dim>& slip, PointsView<Dim> x_0) {
             const Vector<Dim> force = force_on_second<Dim>(
                 halves_, [&](std::size_t side) { return slip.tangents(static_cast<int>(side)); }, last.facets);
@@ -73,6 +75,12 @@ void NodeFriction<Dim>::apply(const NodalSurface<Dim>& surface, FacetStore& face
         const Vector<Dim> motion = sliding.slip.motion(), normal = sliding.slip.normal();
         step.pairs[static_cast<std::size_t>(sliding.indices.pair)].slip = motion - normal * normal.dot(motion);
     }
+}
+
+template <int Dim>
+void NodeFriction<Dim>::weigh() {
+    pass_.weigh(halves_);
+    for (Last& last : last_) take_weights<n_tangents>(halves_, last.facets);
 }
 
 template <int Dim>

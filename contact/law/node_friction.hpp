@@ -36,12 +36,18 @@ public:
              double area, double active_share);
     void apply(const NodalSurface<Dim>& surface, FacetStore& facets, NodalStep<Dim>& step);
 
-    /// The forces of the springs as they are, at x, with the weights of the last step: those that an evaluation adds to the
-    /// normal forces. Without a step since the last `forget` there are none.
-    /// `active`: facets of `step.pairs`, in their order.
+    /// Whether the pairs that the springs act on are those of the last step. Before the first one and after `forget` they are
+    /// those of the state that is evaluated: `begin`, with that state at both ends, `add`, `weigh`, then `evaluate`.
+    [[nodiscard]] bool has_stepped() const { return has_stepped_; }
+    void weigh();
+    /// The forces of the springs as they are, at x, with the weights of the last step, or of `weigh`: those that an evaluation
+    /// adds to the normal forces. `active`: facets of `step.pairs`, in their order.
     void evaluate(const NodalSurface<Dim>& surface, const FacetStore& facets, PointsView<Dim> x,
                   std::span<const FacetPair> active, NodalStep<Dim>& step) const;
-    void forget() { last_.clear(); }
+    void forget() {
+        last_.clear();
+        has_stepped_ = false;
+    }
 
 private:
     static constexpr int n_tangents = Dim - 1;
@@ -79,6 +85,7 @@ private:
     double dt_ = 0.0;
     PointsView<Dim> x_0_, x_1_;
     TakenForce take_ = TakenForce::mean;
+    bool has_stepped_ = false;
     std::int32_t n_pairs_ = 0;  // of the step so far
     std::vector<Half> halves_;
     std::vector<Sliding> sliding_;  // pairs with friction

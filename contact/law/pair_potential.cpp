@@ -206,6 +206,11 @@ void PairPotential<Dim>::evaluate(const NodalSurface<Dim>& surface, const NodalP
         [](std::size_t) {});
     add_up(surface, listed, pairs, x, x, step);
     if (friction_.any()) {
+        if (!friction_.has_stepped() && !facets.used().empty()) {
+            friction_.begin(0.0, x, x, TakenForce::end);
+            add_pairs(surface, pairs);
+            friction_.weigh();
+        }
         active_.clear();
         for (std::size_t p = 0; p < outcomes_.size(); ++p)
             if (outcomes_[p].active) active_.push_back({Facet{pairs[p].facet_1}, Facet{pairs[p].facet_2}});
@@ -241,10 +246,15 @@ void PairPotential<Dim>::add_friction(const NodalSurface<Dim>& surface, std::spa
                                       FacetStore& facets, double dt, PointsView<Dim> x_0, PointsView<Dim> x_1,
                                       TakenForce take, NodalStep<Dim>& step) {
     friction_.begin(dt, x_0, x_1, take);
+    add_pairs(surface, pairs);
+    friction_.apply(surface, facets, step);
+}
+
+template <int Dim>
+void PairPotential<Dim>::add_pairs(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs) {
     for (std::size_t p = 0; p < outcomes_.size(); ++p)
         if (const auto& found = outcomes_[p].found; outcomes_[p].active)
             friction_.add(surface, pairs[p], found.pressure, found.area, found.active_share);
-    friction_.apply(surface, facets, step);
 }
 
 template <int Dim>

@@ -66,6 +66,7 @@ private:
 
     void add_friction(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs, FacetStore& facets, double dt,
                       PointsView<Dim> x_0, PointsView<Dim> x_1, TakenForce take, NodalStep<Dim>& step);
+    void add_pairs(const NodalSurface<Dim>& surface, std::span<const NodalPair<Dim>> pairs);
     /// Checks the sums of bodies, and adds up the work of rigid ones.
     static void finish(const NodalSurface<Dim>& surface, NodalStep<Dim>& step);
 

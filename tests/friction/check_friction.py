@@ -17,6 +17,7 @@ import abut_runs  # noqa: E402
 from abut_runs import main, near, require  # noqa: E402
 
 INPUTS = pathlib.Path(__file__).parent / "inputs"
+SCENES = pathlib.Path(__file__).parent.parent.parent / "scenes"
 CLAIMS = {}
 G, MU = 10.0, 0.3
 # Laws of contact and kinematics of the body: all under which a body may rub.
@@ -97,6 +98,19 @@ def stick_at_10_degrees(programs):
         require(balance(rows, weight) <= 1e-12, f"{law}, {kinematics}: the balance is open by {balance(rows, weight):.2g}")
         fallen = mass * G * G * math.sin(math.radians(10)) ** 2 / 2  # what gravity would have done in 1 s without friction
         require(rows[-1]["dissipated"] <= 1e-2 * fallen, f"{law}, {kinematics}: {rows[-1]['dissipated']:.3g} J are lost")
+
+
+@claim
+def a_block_on_a_block_stands_still(programs):
+    """Brought to rest with faces that stick, below their limit: nothing slides, nothing is dissipated, nothing creeps."""
+    for load in (0, 0.3, 0.6):
+        done = run(programs, SCENES / "block_on_block.toml", *keys(values__load=load, run__time=1)).require_end()
+        rows = done.rows()
+        require(rows[-1]["dissipated"] == 0.0, f"load {load}: {rows[-1]['dissipated']:.3g} J are lost")
+        require(max(row["sliding_faces"] for row in rows) == 0, f"load {load}: faces slide")
+        for name in ("block", "slab"):
+            x = [row[f"{name}.displacement_x"] for row in done.rows("probes.csv")]
+            require(max(abs(value - x[0]) for value in x) <= 1e-14, f"load {load}: {name} moves by {max(abs(v - x[0]) for v in x):.2g} m")
 
 
 @claim
@@ -248,9 +262,10 @@ def spinning_discs(programs):
 @claim
 def a_restart_is_bitwise_identical(programs):
     """A run that is stopped in mid-slip and goes on, and one that was not."""
-    for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating"), ("pair_potential", "rigid")):
+    for law, kinematics, *more in (("reconstruction", "small"), ("pair_potential", "floating"), ("pair_potential", "rigid"),
+                                   ("pair_potential", "floating", "--settle")):
         with tempfile.TemporaryDirectory() as folder:
-            options = [*with_law(law, kinematics), "--interval", 7]
+            options = [*with_law(law, kinematics), *more, "--interval", 7]
             whole = run(programs, "block.toml", *options, *keys(run__time=0.3)).require_end()
             first = run(programs, "block.toml", *options, *keys(run__time=0.3), "--checkpoint-steps", 97, "--set",
                         "output.keep_last_checkpoint=true", folder=folder).require_end()
@@ -268,13 +283,14 @@ def a_restart_is_bitwise_identical(programs):
 
 @claim
 def runs_are_bitwise_identical_on_ranks(programs):
-    for law, kinematics in (("reconstruction", "small"), ("pair_potential", "floating")):
-        options = [*with_law(law, kinematics), *keys(run__time=0.01, bodies__block__counts="[24, 12]")]
+    for law, kinematics, *more in (("reconstruction", "small"), ("pair_potential", "floating"), ("reconstruction", "small", "--settle"),
+                                   ("pair_potential", "floating", "--settle")):
+        options = [*with_law(law, kinematics), *more, *keys(run__time=0.01, bodies__block__counts="[24, 12]")]
         one = run(programs, "block.toml", *options).require_end()
         for ranks in (2, 3):
-            more = run(programs, "block.toml", *options, "--ranks", ranks).require_end()
-            require((one.out / "energy.csv").read_bytes() == (more.out / "energy.csv").read_bytes(),
-                    f"{law}, {kinematics}: {ranks} ranks have other bits")
+            shared = run(programs, "block.toml", *options, "--ranks", ranks).require_end()
+            require((one.out / "energy.csv").read_bytes() == (shared.out / "energy.csv").read_bytes(),
+                    f"{options}: {ranks} ranks have other bits")
 
 
 @claim

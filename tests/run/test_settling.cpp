@@ -1,0 +1,118 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "abut/base/error.hpp"
+#include "abut/mesh/shapes/shapes.hpp"
+#include "abut/run/observer.hpp"
+#include "abut/run/simulation.hpp"
+
+using namespace abut;
+using solid::Kinematics;
+
+namespace {
+
+constexpr double g = 10.0, width = 0.8, height = 0.4;
+
+/// A block on a plane without end; gravity leans by `degrees`.
+run::Scene<2> block(Kinematics kinematics, double degrees) {
+    run::Scene<2> scene;
+    scene.mesh = mesh::structured_box<2>({0.0, 0.0}, {width, height}, {8, 4}, mesh::CellShape::quadrangle, "block");
+    scene.solid.materials = {{.young = 1e7, .poisson = 0.3, .density = 1000.0}};
+    scene.solid.kinematics = {kinematics};
+    scene.solid.obstacles = {contact::plane_obstacle<2>(Vector<2>::Zero(), Vector<2>::UnitY(), 10.0)};
+    const double angle = degrees * M_PI / 180.0;
+    scene.solid.acceleration = {g * Vector<2>(std::sin(angle), -std::cos(angle))};
+    scene.velocity = {Vector<2>::Zero()};
+    return scene;
+}
+
+run::RunOptions settling(double friction) {
+    run::RunOptions options;
+    options.settle = true;
+    options.steps = 2000;
+    options.interval = 1;
+    options.friction.coefficient = friction;
+    return options;
+}
+
+/// Looks at the first and the last state, and at what pushes the plane.
+struct Look final : run::Observer<2> {
+    bool wants_look(std::int64_t step) const override { return step == 0 || step == 2000; }
+    void look(const dynamics::RunView<2>& run, solid::Solid<2>& solid) override {
+        (run.steps == 0 ? first : last).assign(run.q.begin(), run.q.end());
+        if (run.steps > 0) push = solid.obstacle_force(0);
+    }
+
+    std::vector<double> first, last;
+    Vector<2> push;
+};
+
+double largest_kinetic(const run::RunResult<2>& result) {
+    double largest = 0.0;
+    for (const auto& entry : result.ledger.entries()) largest = std::max(largest, entry.kinetic);
+    return largest;
+}
+
+}  // namespace
+
+TEST_CASE("a block that was brought to rest stands still, with its whole weight on the plane", "[run][settling]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid);
+    const run::Scene<2> scene = block(kinematics, 0.0);
+    Look look;
+    const run::RunResult<2> result = run::simulate<2>(scene, settling(0.0), look);
+    REQUIRE(result.settling);
+    CHECK(result.settling->rests > 1);
+    const double weight = 1000.0 * width * height * g;
+    CHECK(look.push[1] == Approx(-weight).epsilon(1e-9));
+    CHECK(std::abs(look.push[0]) < 1e-9 * weight);
+    CHECK(largest_kinetic(result) < 1e-18 * weight * height);
+    double drift = 0.0;
+    for (std::size_t i = 0; i < look.first.size(); ++i) drift = std::max(drift, std::abs(look.last[i] - look.first[i]));
+    CHECK(drift < 1e-12);
+    // Where nothing turns or opens, all is linear up to strains of 1e-4: V, the work of the weight taken off, is half of that work
+    // (Clapeyron).
+    double sunk = 0.0;
+    for (std::size_t i = 1; i < look.first.size(); i += 2)
+        sunk -= look.first[i] / (0.5 * static_cast<double>(look.first.size()));
+    CHECK(sunk > 0.0);
+    if (kinematics == Kinematics::small)
+        CHECK(result.ledger.entries().front().potential == Approx(-0.5 * weight * sunk).epsilon(1e-4));
+}
+
+TEST_CASE("a block on 10 degrees sticks from the start: no face slides, friction takes nothing",
+          "[run][settling][friction]") {
+    const Kinematics kinematics = GENERATE(Kinematics::small, Kinematics::floating, Kinematics::finite, Kinematics::rigid);
+    const solid::ContactLaw law = GENERATE(solid::ContactLaw::pair_potential, solid::ContactLaw::reconstruction);
+    if (law == solid::ContactLaw::reconstruction && kinematics != Kinematics::small) return;
+    const run::Scene<2> scene = block(kinematics, 10.0);
+    run::RunOptions options = settling(0.3);
+    options.law = law;
+    Look look;
+    const run::RunResult<2> result = run::simulate<2>(scene, options, look);
+    const double weight = 1000.0 * width * height * g, angle = 10.0 * M_PI / 180.0;
+    CHECK(look.push[0] == Approx(weight * std::sin(angle)).epsilon(1e-9));
+    CHECK(look.push[1] == Approx(-weight * std::cos(angle)).epsilon(1e-9));
+    CHECK(result.contact.sliding_faces_max == 0);
+    CHECK(result.ledger.entries().back().dissipated == 0.0);
+    CHECK(result.ledger.entries().front().friction_energy > 0.0);
+    double drift = 0.0;
+    for (std::size_t i = 0; i < look.first.size(); ++i) drift = std::max(drift, std::abs(look.last[i] - look.first[i]));
+    CHECK(drift < 1e-12);
+}
+
+TEST_CASE("a block that slides under the loads of the start is refused, with its name", "[run][settling]") {
+    const run::Scene<2> scene = block(Kinematics::floating, 30.0);
+    CHECK_THROWS_WITH(run::simulate<2>(scene, settling(0.3)),
+                      Catch::Contains("'block'") && Catch::Contains("do not come to rest"));
+}
+
+TEST_CASE("velocities at the start act after the bodies have come to rest", "[run][settling]") {
+    run::Scene<2> scene = block(Kinematics::floating, 0.0);
+    scene.velocity = {Vector<2>(2.0, 0.0)};
+    const run::RunResult<2> result = run::simulate<2>(scene, settling(0.3));
+    CHECK(result.start[0].velocity[0] == Approx(2.0));
+    CHECK(result.ledger.entries().front().kinetic == Approx(0.5 * 1000.0 * width * height * 4.0));
+    CHECK(result.ledger.entries().front().time == 0.0);
+}
