@@ -1,12 +1,13 @@
 // What contact on nodes costs: an active pair by itself, beside a node-to-segment penalty written plainly; an active pair of
-// two meshes that press on each other, beside the modified reconstruction; and a whole step of bodies of linear finite
-// elements.
+// two meshes that press on each other, beside the modified reconstruction, both without friction and with it; and a whole step
+// of bodies of linear finite elements.
 //
-// Expected: 0.3 (2D) and 2.5 microseconds (3D) for the mean gradient of a pair; less than 2 % of a step where nothing is
-// near.
+// Expected: 0.3 (2D) and 2.5 microseconds (3D) for the mean gradient of a pair; at most 1.7 (2D) and 1.3 times (3D) the time
+// of an active pair with friction; less than 2 % of a step where nothing is near.
 #include <fmt/core.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -196,6 +197,7 @@ struct Plates {
         const std::size_t lower = nodes.size();
         append_plate<Dim>(n * 7 / 6, 0.01 / n, 1, nodes, faces, surface);
         faces.stiffness = {1.0, 1.0};
+        surface.shear_stiffness.assign(surface.stiffness.size(), shear_stiffness[0]);
         start = nodes;
         for (std::size_t i = lower; i < nodes.size(); ++i) start[i] -= 0.05 / n * Vector<Dim>::Unit(Dim - 1);
         end = start;
@@ -207,8 +209,14 @@ struct Plates {
         }
         rest.assign(u_0.size(), Vector<Dim>::Zero());
     }
+    [[nodiscard]] contact::NodalSurface<Dim> nodal_surface() const {
+        contact::NodalFaces<Dim> all = faces.view();
+        all.shear_stiffness = shear_stiffness;
+        return {nodes, all};
+    }
     std::vector<Vector<Dim>> nodes;
     contact::NodalFaceArrays<Dim> faces;
+    std::array<double, 2> shear_stiffness{2.0 / 7.0, 2.0 / 7.0};  // of bodies with nu = 0.3
     contact::Surface<Dim> surface;
     std::vector<Vector<Dim>> start, end;      // of the nodes
     std::vector<Vector<Dim>> rest, u_0, u_1;  // of the faces
@@ -226,25 +234,43 @@ contact::FaceCoupling<Dim> own_coupling(std::span<const contact::Face> listed) {
     return own;
 }
 
+/// Work of the forces of a step with friction against what W, springs of faces that stick and friction make of it.
 template <int Dim>
-nlohmann::json time_laws(int repetitions) {
+void check_friction(contact::NodalContact<Dim>& nodal, const Plates<Dim>& plates) {
+    const double stuck = nodal.step(1.0, plates.start, plates.end).report.friction.energy;
+    const contact::NodalStep<Dim>& step = nodal.step(1.0, plates.start, plates.end);
+    const contact::FrictionFigures& friction = step.report.friction;
+    double balance = step.energy - step.energy_0 + friction.energy - stuck + friction.dissipated;
+    for (std::size_t i = 0; i < step.nodes.size(); ++i) {
+        const auto node = static_cast<std::size_t>(step.nodes[i]);
+        balance -= step.gradient[i].dot(plates.end[node] - plates.start[node]);
+    }
+    benchmark::require_small("balance of energy of plates with friction", std::abs(balance) / step.energy, 1e-12);
+}
+
+/// Both laws of contact, without friction and with it, in turn.
+template <int Dim>
+nlohmann::json time_laws(int repetitions, double coefficient) {
     const Plates<Dim> plates(Dim == 2 ? 2000 : 30);
-    contact::NodalContact<Dim> nodal(contact::NodalSurface<Dim>(plates.nodes, plates.faces.view()));
-    contact::Contact<Dim> by_faces(plates.surface.view());
+    const contact::FrictionOptions friction{.laws = {{.coefficient = coefficient}}};
+    contact::NodalContact<Dim> nodal(plates.nodal_surface()), rubbing_nodal(plates.nodal_surface(), {.friction = friction});
+    contact::Contact<Dim> by_faces(plates.surface.view()), rubbing_by_faces(plates.surface.view(), {.friction = friction});
     const contact::CouplingOf<Dim> coupling = own_coupling<Dim>;
     const auto gradients = [](auto, auto y_0, auto y_1) {
         std::ranges::fill(y_0, Vector<Dim>::Zero());
         std::ranges::fill(y_1, Vector<Dim>::Zero());
     };
-    nodal.step(1.0, plates.nodes, plates.nodes);
-    by_faces.step(1.0, {plates.rest, plates.rest, coupling, gradients});
-    const auto times =
-        benchmark::time_in_turn(repetitions, benchmark::Clock::processor,
-                                {[&] { (void)nodal.step(1.0, plates.start, plates.end); },
-                                 [&] { (void)nodal.step(1.0, plates.start, plates.start, contact::TakenForce::end); },
-                                 [&] {
-                                     (void)by_faces.step(1.0, {plates.u_0, plates.u_1, coupling, gradients});
-                                 }});
+    for (auto* of : {&nodal, &rubbing_nodal}) of->step(1.0, plates.nodes, plates.nodes);
+    for (auto* of : {&by_faces, &rubbing_by_faces}) of->step(1.0, {plates.rest, plates.rest, coupling, gradients});
+    check_friction(rubbing_nodal, plates);
+    const auto step_of = [&](auto& of) { return [&] { (void)of.step(1.0, plates.start, plates.end); }; };
+    const auto step_of_faces = [&](auto& of) {
+        return [&] { (void)of.step(1.0, {plates.u_0, plates.u_1, coupling, gradients}); };
+    };
+    const auto times = benchmark::time_in_turn(
+        repetitions, benchmark::Clock::processor,
+        {step_of(nodal), [&] { (void)nodal.step(1.0, plates.start, plates.start, contact::TakenForce::end); },
+         step_of_faces(by_faces), step_of(rubbing_nodal), step_of_faces(rubbing_by_faces)});
     const double nodal_pairs = static_cast<double>(nodal.report().active_pairs);
     const double face_pairs = static_cast<double>(by_faces.report().active_pairs);
     if (!(nodal_pairs > 0.0) || !(face_pairs > 0.0)) throw Misuse("the plates do not touch under both laws");
@@ -253,10 +279,19 @@ nlohmann::json time_laws(int repetitions) {
         "{:.0f} pairs; modified reconstruction {:.0f}, {:.0f} pairs\n",
         Dim, 1e9 * times[0].least() / nodal_pairs, 1e9 * times[1].least() / nodal_pairs, nodal_pairs,
         1e9 * times[2].least() / face_pairs, face_pairs);
+    const double nodal_ratio = times[3].least() / times[0].least(), face_ratio = times[4].least() / times[2].least();
+    const auto faces = [](const contact::ContactReport& report) {
+        return fmt::format("{} faces stick, {} slide", report.sticking_faces, report.sliding_faces);
+    };
+    fmt::print("{}D, with friction {}, times as long: potential {:.2f} ({}); modified reconstruction {:.2f} ({})\n", Dim,
+               coefficient, nodal_ratio, faces(rubbing_nodal.report()), face_ratio, faces(rubbing_by_faces.report()));
     return {{"dim", Dim},
             {"potential", 1e9 * times[0].least() / nodal_pairs},
             {"potential, end of step", 1e9 * times[1].least() / nodal_pairs},
-            {"modified reconstruction", 1e9 * times[2].least() / face_pairs}};
+            {"modified reconstruction", 1e9 * times[2].least() / face_pairs},
+            {"friction", coefficient},
+            {"potential, with friction over without", nodal_ratio},
+            {"modified reconstruction, with friction over without", face_ratio}};
 }
 
 /// Two discs or rods, `gap` apart.
@@ -310,14 +345,17 @@ nlohmann::json time_steps(int repetitions, double size) {
 
 int run_benchmark(int argc, char** argv) {
     int repetitions = 100;
+    double friction = 0.3;
     std::string json;
     benchmark::Options options("What contact on nodes costs.");
     options.add("--repetitions", repetitions).positive();
+    options.add("--friction", friction, "coefficient of friction [-]: with 0.3 faces stick, with 1e-4 they slide")
+        .positive();
     options.add("--json", json, "file for the result");
     if (const auto status = options.parse(argc, argv)) return *status;
     nlohmann::json result = benchmark::circumstances(argc, argv);
     result["pairs"] = {time_pairs<2>(repetitions), time_pairs<3>(repetitions)};
-    result["laws"] = {time_laws<2>(repetitions), time_laws<3>(repetitions)};
+    result["laws"] = {time_laws<2>(repetitions, friction), time_laws<3>(repetitions, friction)};
     result["steps"] = {time_steps<2>(repetitions, 0.05), time_steps<3>(repetitions, 0.1)};
     benchmark::write(result, json);
     return 0;
