@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <string>
+#include <numbers>
+#include <utility>
 
 #include "abut/base/error.hpp"
+#include "abut/contact/contact.hpp"
 #include "abut/run/remedies.hpp"
+#include "abut/solid/solid.hpp"
 
 namespace abut::run {
 namespace {
@@ -52,9 +56,43 @@ void refuse_diverged(const Scene<Dim>& scene, const RunResult<Dim>& result, doub
         {.cell = worst.cell, .value = own_energy(entry), .allowed = divergence_factor * scale});
 }
 
-#define ABUT_INSTANTIATE(Dim)                                                       \
-    template bool is_alive<Dim>(const dynamics::LedgerEntry<Dim>&, double, double); \
-    template void refuse_diverged<Dim>(const Scene<Dim>&, const RunResult<Dim>&, double, const WorstCell&);
+template <int Dim>
+std::string advice_on_law(const Error& error, const solid::Solid<Dim>& solid) {
+    constexpr double flat = 0.94;  // of 20 degrees
+    const contact::Contact<Dim>* by_faces = solid.contact();
+    const auto [face_1, face_2] = std::pair(error.facts().face_1, error.facts().face_2);
+    if (error.kind() != ErrorKind::too_deep || !by_faces || face_1 < 0 || face_2 < 0) return "";
+    const auto normal = [&](std::int64_t face) { return by_faces->surface().normal[static_cast<std::size_t>(face)]; };
+    const double cosine = -normal(face_1).dot(normal(face_2));
+    if (cosine > flat) return "";
+    return fmt::format(
+        " These faces are tilted by {:.0f} degrees against each other, and law = \"reconstruction\" reads their depth "
+        "between their centres: take law = \"pair_potential\" (contact.law) first, which reads it where they overlap.",
+        std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
+}
+
+template <int Dim>
+std::vector<std::int32_t> named_cells(const Error& error, const dynamics::Ranks& ranks, const solid::Solid<Dim>& whole,
+                                      std::int32_t n_cells) {
+    ErrorFacts facts = error.facts();
+    // A rank numbers cells and faces of its own; those of contact are the same on all.
+    if (!ranks.is_one()) {
+        facts.cell = ErrorFacts::none;
+        if (error.kind() != ErrorKind::too_deep) facts = {};
+    }
+    std::vector<std::int32_t> cells;
+    for (const std::int64_t cell : {facts.cell, std::int64_t{whole.cell_of_contact_face(facts.face_1)},
+                                    std::int64_t{whole.cell_of_contact_face(facts.face_2)}})
+        if (cell >= 0 && cell < n_cells) cells.push_back(static_cast<std::int32_t>(cell));
+    return cells;
+}
+
+#define ABUT_INSTANTIATE(Dim)                                                                                           \
+    template bool is_alive<Dim>(const dynamics::LedgerEntry<Dim>&, double, double);                                     \
+    template void refuse_diverged<Dim>(const Scene<Dim>&, const RunResult<Dim>&, double, const WorstCell&);             \
+    template std::string advice_on_law<Dim>(const Error&, const solid::Solid<Dim>&);                                    \
+    template std::vector<std::int32_t> named_cells<Dim>(const Error&, const dynamics::Ranks&, const solid::Solid<Dim>&, \
+                                                        std::int32_t);
 ABUT_INSTANTIATE(2)
 ABUT_INSTANTIATE(3)
 #undef ABUT_INSTANTIATE

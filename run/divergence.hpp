@@ -1,6 +1,12 @@
 #pragma once
 // Private to the layer.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "abut/base/error.hpp"
 #include "abut/dynamics/ledger.hpp"
+#include "abut/dynamics/ranks.hpp"
 #include "abut/run/failure.hpp"
 #include "abut/run/scene.hpp"
 
@@ -17,5 +23,15 @@ template <int Dim>
 template <int Dim>
 [[noreturn]] void refuse_diverged(const Scene<Dim>& scene, const RunResult<Dim>& result, double scale,
                                   const WorstCell& worst);
+
+/// What the error of a step says further to a user: the modified reconstruction reads the depth of tilted faces between their
+/// centroids, and there the other law is the cure.
+template <int Dim>
+[[nodiscard]] std::string advice_on_law(const Error& error, const solid::Solid<Dim>& solid);
+
+/// The cells of the mesh that the error of a step names. `whole`: on rank 0 the solid of all cells.
+template <int Dim>
+[[nodiscard]] std::vector<std::int32_t> named_cells(const Error& error, const dynamics::Ranks& ranks,
+                                                    const solid::Solid<Dim>& whole, std::int32_t n_cells);
 
 }  // namespace abut::run

@@ -1,0 +1,19 @@
+#pragma once
+// Private to the layer.
+#include <cstdint>
+
+#include "abut/base/vector.hpp"
+#include "abut/run/forward.hpp"
+
+/// Figures of a node of a run that its accounts record (Accounts::record), beside those of the ledger.
+namespace abut::run {
+
+/// Of the points, on all ranks [m/s].
+template <int Dim>
+[[nodiscard]] double largest_speed(const dynamics::RunView<Dim>& run, const solid::Solid<Dim>& solid);
+
+/// Momentum by gravity and by contact with obstacles so far [kg m/s].
+template <int Dim>
+[[nodiscard]] Vector<Dim> momentum_from_outside(double time, std::int32_t n_bodies, const solid::Solid<Dim>& solid);
+
+}  // namespace abut::run

@@ -1,0 +1,435 @@
+#include "abut/run/time_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "abut/base/error.hpp"
+#include "abut/base/stopwatch.hpp"
+#include "abut/base/throw_again.hpp"
+#include "abut/dynamics/filter.hpp"
+#include "abut/dynamics/neutral_restart.hpp"
+#include "abut/dynamics/with_scheme.hpp"
+#include "abut/run/divergence.hpp"
+#include "abut/run/frame_piece.hpp"
+#include "abut/run/obstacle_watch.hpp"
+#include "abut/run/of_all_ranks.hpp"
+#include "abut/run/rank_balance.hpp"
+#include "abut/run/run_identity.hpp"
+#include "abut/run/self_watch.hpp"
+#include "abut/run/start_contact.hpp"
+#include "abut/run/step_figures.hpp"
+#include "abut/run/surface_watch.hpp"
+#include "abut/run/wanted.hpp"
+
+namespace abut::run {
+namespace {
+
+/// H - H~ up to this part of the energy in play: nothing is wrong yet.
+constexpr double sound_share = 0.5;
+
+const std::string observers_kind = "observers of a run";
+constexpr int observers_version = 2;
+const std::string looks_kind = "looks at surfaces";
+constexpr int looks_version = 3;
+constexpr std::int64_t sightings_per_run = 40;  // looks for bodies past a rim and together with themselves, about
+
+/// One run, from the first step to the last.
+template <int Dim, class Integrator>
+class TimeLoop {
+public:
+    /// `make` makes the integrator of a start.
+    TimeLoop(Start<Dim>& start, Observer<Dim>& observer, std::function<Integrator(Start<Dim>&)> make)
+        : start_(start),
+          scene_(start.scene),
+          options_(start.options),
+          observer_(observer),
+          solid_(*start.solid),
+          result_(start.result),
+          filter_(solid_),
+          obstacle_watch_(scene_),
+          self_watch_(scene_, seen()),
+          make_(std::move(make)),
+          integrator_(make_(start)),
+          times_of_setup_(solid_.times()),
+          balance_(start.first_share.again ? options_.rebalance : 0, options_.rebalance_above),
+          watch_(start.scene) {
+        set_filter();
+        make_restart({.period = options_.restart, .report_before = {}});
+    }
+
+    void run(const Checkpoint* from) {
+        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            result_.start = solid::body_motions<Dim>(run, solid);
+        });
+        if (from)
+            resume(*from);
+        else
+            begin();
+        while (integrator_->steps() < result_.steps) {
+            step();
+            const bool records = integrator_->steps() % options_.interval == 0 || integrator_->steps() == result_.steps;
+            if (records) record();
+            const Wanted wanted = ask(records);
+            look(wanted);
+            if (wanted.checkpoint) keep();
+            if (wanted.stop) stop(records);
+            if (balance_.is_due(integrator_->steps()) && integrator_->steps() < result_.steps) rebalance();
+        }
+        const contact::ContactReport contact = solid_.contact_report();
+        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            result_.end = solid::body_motions<Dim>(run, solid);
+            evaluate_whole(run, solid);
+            watch_.end(run, solid, result_.accounts.speed, contact.active_pairs > 0, contact.active_pairs_max > 0);
+        });
+        result_.looks = watch_.looks();
+        result_.local_rotations = solid_.local_rotations(integrator_->q());
+        result_.finite = solid_.finite_extremes();
+        result_.contact = solid_.contact_report();
+        result_.skin = solid_.skin();
+        result_.evaluations = solid_.evaluations();
+        result_.times = added(times_before_, solid_.times(), times_of_setup_);
+        if (balance_.is_on()) balance_.end(solid_.ranks(), own_seconds());
+        result_.rebalancing = balance_.report();
+        on_first([&] {
+            if (scene_.findings) result_.findings = scene_.findings(result_);
+        });
+    }
+
+private:
+    void step() {
+        try {
+            integrator_->step();
+        } catch (const Error& error) {
+            fail_at(error);
+            throw_again(error, at_this_step((error.what() + advice_on_law(error, solid_)).c_str()));
+        } catch (const std::exception& error) {
+            throw std::runtime_error(at_this_step(error.what()));
+        }
+        if (scene_.after_step) scene_.after_step(solid_, result_.dt);
+    }
+
+    // Observers are those of rank 0: the others take part where the whole is brought together.
+
+    template <class Body>
+    void on_first(const Body& body) {
+        run::on_first(solid_.ranks(), body);
+    }
+    [[nodiscard]] dynamics::IntegratorState whole_of(dynamics::IntegratorState state) const {
+        return collected<Dim>(solid_.ranks(), std::move(state));
+    }
+    /// Of all cells, for observers.
+    [[nodiscard]] solid::Solid<Dim>& seen() { return start_.whole ? *start_.whole : solid_; }
+
+    /// Calls see(run, solid) with the present state of the whole, on rank 0.
+    template <class See>
+    void show(const See& see) {
+        if (solid_.ranks().is_one()) return see(dynamics::RunView<Dim>(*integrator_), solid_);
+        const dynamics::IntegratorState state = whole_of(integrator_->state());
+        const std::vector<std::byte> memory = solid_.state();
+        on_first([&] {
+            start_.whole->restore(memory, state.q);
+            see(dynamics::RunView<Dim>(state), *start_.whole);
+        });
+    }
+
+    /// Faces stand where contact has moved them in the last evaluation. On one rank that was at the record before; the whole that
+    /// rank 0 sees was only restored.
+    void evaluate_whole(const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+        if (!solid_.ranks().is_one()) static_cast<void>(solid.potential(run.q));
+    }
+
+    /// What rank 0 wants now, in one message; progress is told of with it.
+    [[nodiscard]] Wanted ask(bool records) {
+        return Wanted::of(first_says(solid_.ranks(), [&] {
+            const std::int64_t step = integrator_->steps();
+            Wanted wanted;
+            wanted.stop = step < result_.steps && observer_.asks_to_stop();
+            wanted.look = observer_.wants_look(step);
+            wanted.measure = records && step > 0 && step < result_.steps && watch_.is_due(step);
+            wanted.piece = observer_.wants_piece(step);
+            wanted.checkpoint = step > 0 && observer_.wants_checkpoint(step, wanted.stop);
+            observer_.progress(step, integrator_->time());
+            return wanted.as_number();
+        }));
+    }
+    void look(const Wanted& wanted) {
+        if (wanted.piece >= 0) make_piece(wanted.piece);
+        if (wanted.measure)
+            show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+                const Stopwatch watch(result_.seconds.looks);
+                evaluate_whole(run, solid);
+                watch_.look(run, solid, result_.accounts.speed, result_.contact.active_pairs > 0);
+            });
+        if (wanted.look)
+            show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) { observer_.look(run, solid); });
+    }
+    void make_piece(std::int64_t frame) {
+        const FramePiece<Dim> piece = frame_piece<Dim>(frame, scene_.mesh, *integrator_, solid_);
+        dynamics::agreed(solid_.ranks(), [&] { observer_.piece(piece); });
+        on_first([&] { observer_.all_pieces(piece); });
+    }
+    void keep() {
+        const Checkpoint kept = checkpoint();
+        on_first([&] { observer_.keep(kept); });
+    }
+
+    // Several ranks share the cells out again
+
+    /// Of this rank, in the operators of its cells, since the last call [s].
+    [[nodiscard]] double own_seconds() {
+        return solid_.times().own_cells - std::exchange(own_seconds_before_, solid_.times().own_cells);
+    }
+
+    /// Where that is worth it. The run goes on as from a checkpoint.
+    void rebalance() {
+        const dynamics::Ranks& ranks = solid_.ranks();
+        const std::vector<double> weights = balance_.weights(ranks, own_seconds());
+        if (weights.empty()) return;
+        double seconds = 0.0;
+        const std::vector<std::int32_t> before(ranks.numbers().begin(), ranks.numbers().end());
+        {
+            const Stopwatch watch(seconds);
+            const dynamics::IntegratorState motion = gathered<Dim>(ranks, integrator_->state());
+            const dynamics::IntegratorState sound = gathered<Dim>(ranks, sound_);
+            const std::vector<std::byte> memory = solid_.state();
+            times_before_ = added(times_before_, solid_.times(), times_of_setup_);
+            start_.take_part(start_.first_share.again(weights));
+            integrator_.emplace(make_(start_));
+            go_on_from(motion, memory);
+            set_filter();
+            if (restart_)
+                make_restart(
+                    {.period = options_.restart, .steps_before = integrator_->steps(), .report_before = restart_->report()});
+            sound_ = own_of<Dim>(solid_.ranks(), sound);
+            times_of_setup_ = solid_.times();
+            own_seconds_before_ = times_of_setup_.own_cells;
+        }
+        balance_.shared_out(integrator_->steps(), before, solid_.ranks(), seconds);
+    }
+
+    /// From a state of the whole.
+    void go_on_from(const dynamics::IntegratorState& motion, std::span<const std::byte> memory) {
+        dynamics::agreed(solid_.ranks(), [&] { integrator_->restore(own_of<Dim>(solid_.ranks(), motion)); });
+        solid_.restore(memory, integrator_->q());
+    }
+
+    void begin() {
+        on_first([&] { observer_.begin(scene_, result_); });
+        record();
+        const Wanted wanted = ask(true);
+        look(wanted);
+        if (wanted.stop) stop(true);
+    }
+
+    /// Here; what was not recorded is, so that the last entry is the last step.
+    void stop(bool recorded) {
+        result_.steps = integrator_->steps();
+        result_.complete = false;
+        if (!recorded) record();
+    }
+
+    [[nodiscard]] Checkpoint checkpoint() {
+        Checkpoint checkpoint{.run = identity(scene_, result_),
+                              .motion = whole_of(integrator_->state()),
+                              .solid = solid_.state(),
+                              .ledger = {},
+                              .restarts = restart_ ? restart_->report() : dynamics::RestartReport{},
+                              .inadmissible_overlaps_max = result_.inadmissible_overlaps_max,
+                              .looks = {},
+                              .observers = {}};
+        for (const auto& entry : result_.ledger.entries()) {
+            const std::vector<double> values = dynamics::ledger_values(entry);
+            checkpoint.ledger.insert(checkpoint.ledger.end(), values.begin(), values.end());
+        }
+        on_first([&] {
+            StateWriter looks(looks_kind, looks_version);
+            result_.accounts.save(looks);
+            watch_.save(looks);
+            result_.sightings.save(looks);
+            checkpoint.looks = std::move(looks).finish();
+            StateWriter state(observers_kind, observers_version);
+            observer_.save(state);
+            checkpoint.observers = std::move(state).finish();
+        });
+        return checkpoint;
+    }
+
+    void resume(const Checkpoint& from) {
+        require_same_run(from.run, identity(scene_, result_), options_.other_end);
+        if (from.motion.steps > result_.steps)
+            throw BadInput(fmt::format(
+                "the run is to end at step {}, t = {:.6g} s, and the checkpoint is of step {}, t = {:.6g} s. "
+                "Give a later end.",
+                result_.steps, static_cast<double>(result_.steps) * result_.dt, from.motion.steps, from.motion.time));
+        go_on_from(from.motion, from.solid);
+        make_restart({.period = options_.restart, .steps_before = integrator_->steps(), .report_before = from.restarts});
+        const std::size_t n = dynamics::ledger_columns<Dim>().size();
+        for (std::span<const double> left(from.ledger); !left.empty(); left = left.subspan(n))
+            result_.ledger.record(dynamics::ledger_entry<Dim>(left.first(std::min(n, left.size()))));
+        if (result_.ledger.entries().empty()) throw BadInput("a checkpoint without ledger cannot be gone on from.");
+        StateReader looks(from.looks, looks_kind, looks_version);
+        result_.accounts.restore(looks);
+        watch_.restore(looks);
+        result_.sightings.restore(looks);
+        looks.finish();
+        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
+        result_.inadmissible_overlaps_max = from.inadmissible_overlaps_max;
+        result_.resumed_after = integrator_->steps();
+        keep_sound();
+        on_first([&] {
+            StateReader state(from.observers, observers_kind, observers_version);
+            observer_.resume(scene_, result_, state);
+            state.finish();
+        });
+    }
+
+    void set_filter() {
+        if constexpr (Integrator::takes_after_step)
+            if (options_.filter)
+                integrator_->set_after_step(
+                    [this](auto q, double dt, auto before, auto after) { filter_(q, dt, before, after); });
+    }
+
+    void make_restart(const dynamics::RestartOptions& options) {
+        if constexpr (Integrator::takes_node_restart) {
+            if (options.period == 0) return;
+            restart_.emplace(solid_, options);
+            integrator_->set_node_restart(
+                [this](auto q, double dt, auto before, auto after) { (*restart_)(q, dt, before, after); });
+        }
+    }
+
+    /// Where a step has no end.
+    void fail_at(const Error& error) {
+        const dynamics::IntegratorState sound = whole_of(sound_);
+        tell({.sound = sound, .lost = nullptr, .cells = named_cells(error, solid_.ranks(), seen(), scene_.mesh.n_cells())});
+    }
+
+    /// The error of the run counts, not one of those who are told of it.
+    void tell(const Failure& failure) {
+        on_first([&] {
+            try {
+                observer_.fail(failure, seen());
+            } catch (...) {
+            }
+        });
+    }
+
+    /// What `fail` needs, without allocation from one record to the next.
+    void keep_sound() {
+        const auto copy = [](std::span<const double> from, std::vector<double>& to) { to.assign(from.begin(), from.end()); };
+        copy(integrator_->q(), sound_.q);
+        copy(integrator_->p_before(), sound_.p_before);
+        copy(integrator_->p_after(), sound_.p_after);
+        was_sound_ = true;
+        sound_.dt = result_.dt;
+        sound_.time = integrator_->time();
+        sound_.steps = integrator_->steps();
+    }
+
+    [[nodiscard]] std::string at_this_step(const char* what) const {
+        return fmt::format("step {}, t = {:.4g} s (steps of {:.4g} s, stable are {:.4g} s): {}", integrator_->steps() + 1,
+                           integrator_->time(), result_.dt, result_.stable.dt, what);
+    }
+
+    void record() {
+        const double excess_before = result_.ledger.energy_excess();
+        {
+            const Stopwatch watch(result_.seconds.ledger);
+            result_.ledger.record(
+                dynamics::measure(*integrator_, solid_, restart_ ? restart_->report() : dynamics::RestartReport{}));
+            const dynamics::RunView<Dim> now(*integrator_);
+            result_.accounts.record(result_.ledger.entries().back(), largest_speed(now, solid_),
+                                    momentum_from_outside(integrator_->time(), scene_.mesh.n_bodies(), solid_));
+            result_.contact = solid_.contact_report();
+            result_.inadmissible_overlaps_max =
+                std::max(result_.inadmissible_overlaps_max, result_.contact.inadmissible_overlaps);
+        }
+        if (is_sighting_due(integrator_->steps())) {
+            const Stopwatch watch(result_.seconds.looks);
+            obstacle_watch_.look(solid_, integrator_->q(), integrator_->time(), result_.sightings.past_rims);
+            if (self_watch_.is_on())
+                show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+                    evaluate_whole(run, solid);
+                    self_watch_.look(solid, run.q, run.time, run.steps, result_.sightings);
+                });
+        }
+        const auto& entries = result_.ledger.entries();
+        result_.scale = known_scale<Dim>(scene_.energy_scale, result_);
+        if (entries.size() == 1 && scene_.contact && !options_.settle) check_contact(entries.front());
+        on_first([&] { observer_.record(entries.back(), result_); });
+        const double scale = std::max(result_.accounts.energy_in_play, result_.scale.value);
+        check_alive(entries.back(), scale, excess_before);
+        const dynamics::LedgerEntry<Dim>& last = entries.back();
+        if (entries.size() == 1 || last.energy - last.pseudo_energy <= sound_share * scale) keep_sound();
+    }
+
+    /// At the end, and at evenly spaced records before it: a look costs about as much as a tenth of a step.
+    [[nodiscard]] bool is_sighting_due(std::int64_t step) const {
+        const std::int64_t interval = options_.interval;
+        const std::int64_t every = interval * std::max<std::int64_t>(1, result_.steps / (interval * sightings_per_run));
+        return step % every == 0 || step == result_.steps;
+    }
+
+    void check_contact(const dynamics::LedgerEntry<Dim>& at_start) {
+        const double scale = std::max(at_start.kinetic, scene_.energy_scale.value);
+        show([&](const dynamics::RunView<Dim>& run, solid::Solid<Dim>& solid) {
+            check_start_contact<Dim>(scene_, solid, run.q, scale);
+        });
+    }
+
+    /// The record before the last one tells of H - H~, and at the end of the run the last one, too.
+    void check_alive(const dynamics::LedgerEntry<Dim>& entry, double scale, double excess_before) {
+        const bool at_end = result_.ledger.entries().size() > 1 && entry.step == result_.steps;
+        if (is_alive(entry, scale, at_end ? result_.ledger.energy_excess() : excess_before)) return;
+        if (!was_sound_) sound_ = integrator_->state();
+        const dynamics::IntegratorState sound = whole_of(sound_), lost = whole_of(integrator_->state());
+        WorstCell worst;
+        on_first([&] { worst = worst_cell<Dim>(lost, seen()); });
+        tell({.sound = sound, .lost = &lost, .cells = {worst.cell}});
+        on_first([&] { refuse_diverged(scene_, result_, scale, worst); });
+    }
+
+    Start<Dim>& start_;
+    const Scene<Dim>& scene_;
+    const RunOptions& options_;
+    Observer<Dim>& observer_;
+    solid::Solid<Dim>& solid_;  // Start::solid, which may change its part
+    RunResult<Dim>& result_;
+    dynamics::NeutralFilter<solid::Solid<Dim>> filter_;
+    std::optional<dynamics::NeutralRestart<solid::Solid<Dim>>> restart_;
+    ObstacleWatch<Dim> obstacle_watch_;
+    SelfWatch<Dim> self_watch_;
+    std::function<Integrator(Start<Dim>&)> make_;
+    std::optional<Integrator> integrator_;  // always there
+    dynamics::IntegratorState sound_;       // Failure::sound, except what only the scheme knows
+    bool was_sound_ = false;                // once at least
+    solid::SolidTimes times_of_setup_;      // the start-up of the scheme, in the seconds of set-up already
+    solid::SolidTimes times_before_;        // of steps with other parts
+    RankBalance balance_;
+    double own_seconds_before_ = 0.0;
+    SurfaceWatch<Dim> watch_;  // on rank 0
+};
+
+}  // namespace
+
+template <int Dim>
+void take_steps(Start<Dim>& start, Observer<Dim>& observer, const Checkpoint* from) {
+    const SolidIntegrator scheme = start.options.integrator;
+    const double gauge = scheme == SolidIntegrator::bilbao ? run::gauge(start) : 0.0;
+    dynamics::with_scheme<solid::Solid<Dim>>(scheme, {.gauge = gauge}, [&](const auto& make) {
+        const auto make_at = [&](Start<Dim>& s) { return make(*s.solid, s.q, s.momentum, s.result.dt, s.local_steps); };
+        TimeLoop<Dim, decltype(make_at(start))>(start, observer, make_at).run(from);
+    });
+}
+
+template void take_steps<2>(Start<2>&, Observer<2>&, const Checkpoint*);
+template void take_steps<3>(Start<3>&, Observer<3>&, const Checkpoint*);
+
+}  // namespace abut::run
