@@ -1,4 +1,5 @@
-"""check_site.py FOLDER: every link of the HTML pages in a folder leads to a file and a place that are there, and no page asks the network.
+"""check_site.py FOLDER [PART]: every link of the HTML pages in a folder leads to a file and a place that are there, and no page asks the
+network. In the folder PART of it, which another program wrote, places within pages are not looked for.
 
 Links that a reader may follow to another site are left alone; pictures, scripts, styles and fonts must be in the folder.
 """
@@ -34,6 +35,7 @@ class Page(html.parser.HTMLParser):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
+    foreign = root / sys.argv[2] if len(sys.argv) > 2 else None
     pages = {path: Page(path) for path in sorted(root.rglob("*.html"))}
     assert pages, f"no page found in {root}"
     wrong = []
@@ -41,7 +43,7 @@ def main():
     def look(path, line, target, loads):
         split = urllib.parse.urlsplit(target)
         where = f"{path.relative_to(root)}:{line}"
-        if split.scheme == "data":
+        if split.scheme in ("data", "javascript"):
             return
         if split.scheme or split.netloc:
             if loads:
@@ -53,7 +55,7 @@ def main():
         place = urllib.parse.unquote(split.fragment)
         if not aim.exists() or (root != aim and root not in aim.parents):
             wrong.append(f"{where}: {target} is not there")
-        elif place and aim in pages and place not in pages[aim].places:
+        elif place and foreign not in path.parents and aim in pages and place not in pages[aim].places:
             wrong.append(f"{where}: {target}: the page has no such place")
 
     for path, page in pages.items():
