@@ -32,8 +32,8 @@ private:
 
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// <tag name="value">content</tag>; <meta name="value"/>, which has no content. Tags and names are taken as they are, values
-/// are escaped.
+/// `<tag name="value">content</tag>`; `<meta name="value"/>`, which has no content. Tags and names are taken as they are,
+/// values are escaped.
 [[nodiscard]] Markup element(std::string_view tag, const Attributes& attributes, const Markup& content = {});
 [[nodiscard]] inline Markup element(std::string_view tag, const Markup& content) { return element(tag, {}, content); }
 
