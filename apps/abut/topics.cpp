@@ -50,8 +50,9 @@ Poisson's ratio is below 0.5: an incompressible body has no stable explicit step
 against jumps between cells, Young's modulus by default.)"};
 
 const Topic contact{"contact", "Contact",
-                    R"(Bodies touch each other and obstacles without friction. Forces derive from one potential, so that a
-pseudo-energy is conserved to round-off through impact, slip and release.
+                    R"(Bodies touch each other and obstacles, with friction where `friction` is given, for all or in
+[[contact.pairs]] for two. Forces derive from one potential, so that a pseudo-energy is conserved to round-off through
+impact, slip and release; what friction takes is booked, and with `settle` a run begins at rest.
 
   law = "pair_potential"   half the cells behind both faces are springs in series; for all bodies
   law = "reconstruction"   faces move to where their tractions balance; for bodies that do not turn
