@@ -18,7 +18,7 @@ struct Settled {
 
 /// Brings bodies to rest by kinetic damping: they move from `q` on under the scene's own laws, friction included, with loads
 /// and obstacles as they are at t = 0, and whenever their kinetic energy has passed a peak all velocities are set to 0. Once
-/// the peaks are below 1e-16 of the largest one it goes on as long as they fall, to round-off.
+/// the peaks are below 1e-12 of the largest one it goes on as long as they fall, to round-off.
 /// `stable_dt`: the stable step of the solid [s]. On several ranks all call this.
 ///
 /// Throws BadInput, with the fastest body and its speed, where bodies do not come to rest: they fall, slide or roll.

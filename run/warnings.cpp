@@ -186,8 +186,10 @@ void add_motion(Counts& counts, const RunResult<Dim>& result) {
                               excess, large_energy_excess, calming_choices(result.options)));
     }
     const auto kinetic = [](const auto& entry) { return entry.kinetic; };
-    const double motion = kinetic(std::ranges::max(ledger.entries(), {}, kinetic));
-    if (is_memm && result.accounts.speed > 0.0 && motion > rounding_of_motion * energy) {
+    const auto& entries = ledger.entries();
+    const bool rests = std::ranges::all_of(
+        entries, [&](double value) { return value <= rounding_of_motion * energy; }, kinetic);
+    if (is_memm && result.accounts.speed > 0.0 && (entries.empty() || !rests)) {
         const double share = ledger.parasitic() / result.accounts.speed;
         add_above(WarningKind::parasitic, share, large_parasitic_share,
                   fmt::format("a cell swings from step to step by |e|/m = {:.2g} m/s, {:.2g} of the largest speed, {:g} is "
